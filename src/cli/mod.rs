@@ -1,0 +1,57 @@
+//! Floor 9: one file per verb. A new verb is one file, one `mod` line and one line in [`VERBS`].
+
+use crate::ground::problem::Outcome;
+use clap::{ArgMatches, Args, Command, FromArgMatches};
+
+/// How a verb ended; the number is the exit status of `formats.md`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ending {
+    /// 0: done.
+    Done,
+    /// 1: done, and something needs attention.
+    Attention,
+}
+
+/// One verb of the command line.
+pub struct Verb {
+    /// Its name as typed.
+    pub name: &'static str,
+    /// One line for the list of verbs.
+    pub about: &'static str,
+    /// Adds its arguments to a command.
+    pub arguments: fn(Command) -> Command,
+    /// Runs it.
+    pub run: fn(&ArgMatches) -> Outcome<Ending>,
+}
+
+/// Every verb, in the order of the help text.
+pub const VERBS: &[Verb] = &[];
+
+/// Adds the arguments of a derived `Args` type: the usual [`Verb::arguments`].
+pub fn arguments<A: Args>(command: Command) -> Command {
+    A::augment_args(command)
+}
+
+/// Reads a derived `Args` type back. The matches were made by the same type.
+pub fn parsed<A: FromArgMatches>(matches: &ArgMatches) -> A {
+    A::from_arg_matches(matches).unwrap_or_else(|error| error.exit())
+}
+
+/// The whole command line.
+pub fn command() -> Command {
+    let root = Command::new("ident")
+        .version(env!("CARGO_PKG_VERSION"))
+        .about("Identify soft milling robots from measurements, and name what the simulation gets wrong")
+        .subcommand_required(true)
+        .arg_required_else_help(true);
+    VERBS.iter().fold(root, |root, verb| {
+        root.subcommand((verb.arguments)(Command::new(verb.name).about(verb.about)))
+    })
+}
+
+/// Runs the verb that was typed.
+pub fn dispatch(matches: &ArgMatches) -> Outcome<Ending> {
+    let (name, matches) = matches.subcommand().expect("clap requires a verb");
+    let verb = VERBS.iter().find(|verb| verb.name == name);
+    (verb.expect("clap knows only the verbs of the table").run)(matches)
+}
