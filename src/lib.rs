@@ -2,4 +2,9 @@
 #![warn(missing_docs)]
 
 pub mod cli;
+pub mod effects;
+pub mod findings;
+pub mod fit;
 pub mod ground;
+pub mod measurement;
+pub mod signal;
