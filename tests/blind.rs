@@ -18,8 +18,17 @@ fn run(case: &Case) -> Diagnosis {
 }
 
 fn answer(diagnosis: &Diagnosis) -> String {
-    let mut parts: Vec<String> = diagnosis.causes.iter().map(|c| c.effect.to_string()).collect();
-    parts.extend(diagnosis.groups.iter().map(|g| format!("{{{}}}", g.effects.join("|"))));
+    let mut parts: Vec<String> = diagnosis
+        .causes
+        .iter()
+        .map(|c| c.effect.to_string())
+        .collect();
+    parts.extend(
+        diagnosis
+            .groups
+            .iter()
+            .map(|g| format!("{{{}}}", g.effects.join("|"))),
+    );
     let verdict = diagnosis.verdict;
     if matches!(verdict, Verdict::UnknownCause | Verdict::PartlyExplained) || parts.is_empty() {
         parts.push(verdict.name().to_uppercase());
@@ -30,7 +39,12 @@ fn answer(diagnosis: &Diagnosis) -> String {
 #[test]
 #[ignore]
 fn explore() {
-    let number = |name: &str, other: u64| std::env::var(name).ok().and_then(|v| v.parse().ok()).unwrap_or(other);
+    let number = |name: &str, other: u64| {
+        std::env::var(name)
+            .ok()
+            .and_then(|v| v.parse().ok())
+            .unwrap_or(other)
+    };
     let (n, seed) = (number("N", 10), number("SEED", 1));
     let only = std::env::var("ONLY").unwrap_or_default();
     let wanted = |name: &str| only.is_empty() || only.split(',').any(|o| o == name);
@@ -47,8 +61,21 @@ fn explore() {
                 e => blind_generator::single(e, s),
             };
             if std::env::var("IDENT_DEBUG").is_ok() {
-                let t: Vec<String> = case.truths.iter().map(|t| format!("{} x{:.1} {:?}", t.effect, t.strength, t.parameters)).collect();
-                eprintln!("--- {effect} seed {s} {} {} n{} lasers {} outliers {} noise {:.3e} truth {:?}", case.schedule, case.noise, case.samples, case.lasers, case.outliers, case.noise_rms, t);
+                let t: Vec<String> = case
+                    .truths
+                    .iter()
+                    .map(|t| format!("{} x{:.1} {:?}", t.effect, t.strength, t.parameters))
+                    .collect();
+                eprintln!(
+                    "--- {effect} seed {s} {} {} n{} lasers {} outliers {} noise {:.3e} truth {:?}",
+                    case.schedule,
+                    case.noise,
+                    case.samples,
+                    case.lasers,
+                    case.outliers,
+                    case.noise_rms,
+                    t
+                );
             }
             let d = run(&case);
             if std::env::var("IDENT_DEBUG").is_ok() {
@@ -58,7 +85,11 @@ fn explore() {
         }
         println!("{effect}:");
         for (a, seeds) in tally {
-            println!("    {:3}  {a}   {:?}", seeds.len(), &seeds[..seeds.len().min(6)]);
+            println!(
+                "    {:3}  {a}   {:?}",
+                seeds.len(),
+                &seeds[..seeds.len().min(6)]
+            );
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Is anything left? Tests of the whitened residual against structure that no cause explained.
 
-use super::screen::Screen;
 use crate::fit::observation::Observation;
+use crate::fit::screen::Screen;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// What the tests of a residual say.

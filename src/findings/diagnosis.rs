@@ -2,13 +2,14 @@
 
 use super::adequacy::{self, Adequacy};
 use super::ambiguity::{Posterior, temper};
-use super::candidates::Candidates;
 use super::refine::{Refined, refine};
-use super::screen::{Screen, screen};
-use super::search::{Normal, search};
+use super::search::search;
 use crate::effects::{EFFECTS, Effect};
+use crate::fit::candidates::Candidates;
 use crate::fit::least_squares::Problem;
+use crate::fit::normal::Normal;
 use crate::fit::observation::Observation;
+use crate::fit::screen::{Screen, screen};
 use crate::measurement::load_cycle::LoadCycle;
 
 /// The verdict on a simulation.

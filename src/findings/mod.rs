@@ -7,14 +7,12 @@
 
 pub mod adequacy;
 pub mod ambiguity;
-pub mod candidates;
 pub mod diagnosis;
 pub mod gain;
 pub mod lattice;
 pub mod next;
 pub mod refine;
 pub mod scales;
-pub mod screen;
 pub mod search;
 pub mod sentence;
 

@@ -1,9 +1,9 @@
 //! Shapes set free before judging: grid error looks like a second cause.
 
-use super::candidates::Candidates;
-use super::search::Found;
 use crate::effects::{Composite, Effect};
+use crate::fit::candidates::Candidates;
 use crate::fit::least_squares::{Optimum, Problem, Search, minimise};
+use crate::fit::normal::Found;
 use crate::fit::observation::Observation;
 use crate::signal::colour::Colour;
 

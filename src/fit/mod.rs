@@ -1,7 +1,10 @@
 //! Floor 6: from measurements to parameters with their uncertainty.
 
 pub mod bootstrap;
+pub mod candidates;
 pub mod least_squares;
+pub mod normal;
 pub mod observation;
 pub mod parameter;
+pub mod screen;
 pub mod solution;
