@@ -3,4 +3,5 @@
 
 pub mod cli;
 pub mod ground;
+pub mod report;
 pub mod sheet;
