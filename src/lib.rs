@@ -3,8 +3,12 @@
 
 pub mod cli;
 pub mod effects;
+pub mod experiments;
 pub mod findings;
 pub mod fit;
 pub mod ground;
+pub mod laboratory;
 pub mod measurement;
+pub mod report;
+pub mod sheet;
 pub mod signal;
