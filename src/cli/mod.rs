@@ -1,5 +1,9 @@
 //! Floor 9: one file per verb. A new verb is one file, one `mod` line and one line in [`VERBS`].
 
+mod output;
+mod progress;
+mod stiffness;
+
 use crate::ground::problem::Outcome;
 use clap::{ArgMatches, Args, Command, FromArgMatches};
 
@@ -25,7 +29,7 @@ pub struct Verb {
 }
 
 /// Every verb, in the order of the help text.
-pub const VERBS: &[Verb] = &[];
+pub const VERBS: &[Verb] = &[stiffness::VERB];
 
 /// Adds the arguments of a derived `Args` type: the usual [`Verb::arguments`].
 pub fn arguments<A: Args>(command: Command) -> Command {

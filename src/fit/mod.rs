@@ -8,3 +8,6 @@ pub mod observation;
 pub mod parameter;
 pub mod screen;
 pub mod solution;
+pub mod starts;
+pub mod stiffness;
+pub mod store;

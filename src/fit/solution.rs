@@ -3,6 +3,7 @@
 use super::least_squares::{Optimum, Problem, Search, minimise};
 use super::observation::Observation;
 use super::parameter::{Identified, Status};
+use super::starts::starts;
 use crate::effects::{Composite, Scale};
 use crate::measurement::load_cycle::Port;
 use crate::signal::colour::Colour;
@@ -33,12 +34,7 @@ const UNSUPPORTED: f64 = 0.5;
 
 /// Fits a composite to an observation, noise colour included.
 pub fn fit(model: &Composite, data: &Observation) -> Solution {
-    fit_from(
-        model,
-        data,
-        &[model.start(&data.scene)],
-        &vec![false; data.rows()],
-    )
+    fit_from(model, data, &starts(model, data, 4), &vec![false; data.rows()])
 }
 
 /// Fits from several starts, leaving out the ignored rows.

@@ -5,3 +5,4 @@ pub mod cycles;
 pub mod front;
 pub mod load_cycle;
 pub mod table;
+pub mod workspace;
