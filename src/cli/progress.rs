@@ -16,7 +16,8 @@ impl Progress {
     pub fn new(total: usize, asked: bool) -> Self {
         let terminal = std::io::stderr().is_terminal();
         let bar = (terminal && total > 1).then(|| {
-            let bar = ProgressBar::with_draw_target(Some(total as u64), ProgressDrawTarget::hidden());
+            let bar =
+                ProgressBar::with_draw_target(Some(total as u64), ProgressDrawTarget::hidden());
             if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}") {
                 bar.set_style(style);
             }
@@ -29,7 +30,11 @@ impl Progress {
             });
             bar
         });
-        Self { bar, asked: asked && !terminal, total: total as u64 }
+        Self {
+            bar,
+            asked: asked && !terminal,
+            total: total as u64,
+        }
     }
 
     /// One piece is done.

@@ -93,12 +93,26 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
 }
 
 fn request(arguments: &Arguments) -> Outcome<Request> {
-    let names: Vec<&str> = arguments.effects.iter().map(|s| s.trim()).filter(|s| !s.is_empty()).collect();
+    let names: Vec<&str> = arguments
+        .effects
+        .iter()
+        .map(|s| s.trim())
+        .filter(|s| !s.is_empty())
+        .collect();
     let model = match &arguments.model {
-        Some(path) => StoredFit::read(path)?.model().map_err(|p| p.in_file(path))?.0,
+        Some(path) => {
+            StoredFit::read(path)?
+                .model()
+                .map_err(|p| p.in_file(path))?
+                .0
+        }
         None => Composite::named(&names)?,
     };
-    Ok(Request { model, bootstrap: arguments.bootstrap, seed: arguments.seed })
+    Ok(Request {
+        model,
+        bootstrap: arguments.bootstrap,
+        seed: arguments.seed,
+    })
 }
 
 fn one(name: &Path, request: &Request) -> Outcome<Result> {
@@ -108,7 +122,11 @@ fn one(name: &Path, request: &Request) -> Outcome<Result> {
     }
     let file = LoadCycle::read(&path)?;
     let account = identify(&file, request);
-    Ok(Result { place: Place::of(&path), file, account })
+    Ok(Result {
+        place: Place::of(&path),
+        file,
+        account,
+    })
 }
 
 /// 1 when something needs attention: no stiffness, or a straight line that misleads.
@@ -121,7 +139,11 @@ fn ending(results: &[Result]) -> Ending {
 }
 
 fn write(results: &[Result]) -> Outcome<()> {
-    let inked: Vec<(PathBuf, String)> = results.par_iter().map(ink).collect::<Outcome<Vec<_>>>()?.concat();
+    let inked: Vec<(PathBuf, String)> = results
+        .par_iter()
+        .map(ink)
+        .collect::<Outcome<Vec<_>>>()?
+        .concat();
     for (path, content) in inked {
         files::replace(&path, content.as_bytes())?;
     }
@@ -130,7 +152,10 @@ fn write(results: &[Result]) -> Outcome<()> {
 
 fn ink(result: &Result) -> Outcome<Vec<(PathBuf, String)>> {
     let stem = result.file.stem();
-    let mut out = vec![(result.place.fits().join(format!("{stem}.toml")), stored(result).text()?)];
+    let mut out = vec![(
+        result.place.fits().join(format!("{stem}.toml")),
+        stored(result).text()?,
+    )];
     if result.account.solution.status[0] == Status::Identified {
         let model: Vec<f64> = fitted(&result.account);
         let curves = Curves {
@@ -142,13 +167,22 @@ fn ink(result: &Result) -> Outcome<Vec<(PathBuf, String)>> {
             name: "fitted model",
         };
         let chart = curves.chart(&format!("{stem}-stiffness"), "load cycles and fitted model");
-        out.push((result.place.reports().join(format!("{stem}-stiffness.svg")), svg::ink(&chart)?));
+        out.push((
+            result.place.reports().join(format!("{stem}-stiffness.svg")),
+            svg::ink(&chart)?,
+        ));
     }
     Ok(out)
 }
 
 fn fitted(account: &Account) -> Vec<f64> {
-    account.data.reading.iter().zip(&account.solution.residual).map(|(y, r)| y - r).collect()
+    account
+        .data
+        .reading
+        .iter()
+        .zip(&account.solution.residual)
+        .map(|(y, r)| y - r)
+        .collect()
 }
 
 fn stored(result: &Result) -> StoredFit {
@@ -156,7 +190,12 @@ fn stored(result: &Result) -> StoredFit {
     StoredFit {
         schema: SCHEMA.into(),
         version: env!("CARGO_PKG_VERSION").into(),
-        input: result.file.path.file_name().map(|n| n.to_string_lossy().to_string()).unwrap_or_default(),
+        input: result
+            .file
+            .path
+            .file_name()
+            .map(|n| n.to_string_lossy().to_string())
+            .unwrap_or_default(),
         input_sha256: result.file.sha256.clone(),
         synthetic: result.file.facts.synthetic,
         site: result.file.site(),
@@ -167,9 +206,15 @@ fn stored(result: &Result) -> StoredFit {
 }
 
 fn as_json(results: &[Result]) -> String {
-    let inputs: Vec<(&Path, &str)> = results.iter().map(|r| (r.file.path.as_path(), r.file.sha256.as_str())).collect();
+    let inputs: Vec<(&Path, &str)> = results
+        .iter()
+        .map(|r| (r.file.path.as_path(), r.file.sha256.as_str()))
+        .collect();
     let mut map = json::head("stiffness", &inputs);
-    map.insert("results".into(), Value::Array(results.iter().map(result_json).collect()));
+    map.insert(
+        "results".into(),
+        Value::Array(results.iter().map(result_json).collect()),
+    );
     json::print(map)
 }
 
@@ -230,13 +275,18 @@ fn as_text(results: &[Result], dry: bool) -> String {
     header.extend(COLUMNS.iter().map(|c| c.0.to_string()));
     header.extend(["textbook line".to_string(), "nominal".to_string()]);
     let synthetic = results.iter().any(|r| r.file.facts.synthetic);
-    let title = if synthetic { "Identified stiffness (synthetic data)" } else { "Identified stiffness" };
+    let title = if synthetic {
+        "Identified stiffness (synthetic data)"
+    } else {
+        "Identified stiffness"
+    };
     let numeric: Vec<usize> = (2..header.len()).collect();
     let mut table = Table::new(title, header).numeric(numeric);
     for result in results {
         table.push(row(result));
     }
-    table = table.noted("value ± half of the 95 % interval; `<` is the 95 % limit of what was not found");
+    table = table
+        .noted("value ± half of the 95 % interval; `<` is the 95 % limit of what was not found");
     let mut said = text::table(&table);
     if !dry {
         for folder in folders(results) {
@@ -249,7 +299,13 @@ fn as_text(results: &[Result], dry: bool) -> String {
 fn folders(results: &[Result]) -> Vec<String> {
     let mut folders: Vec<String> = results
         .iter()
-        .map(|r| format!("{} and {}", r.place.fits().display(), r.place.reports().display()))
+        .map(|r| {
+            format!(
+                "{} and {}",
+                r.place.fits().display(),
+                r.place.reports().display()
+            )
+        })
         .collect();
     folders.dedup();
     folders
@@ -263,20 +319,33 @@ fn row(result: &Result) -> Vec<String> {
         cells.push(parameter.map_or("–".into(), cell));
     }
     let line = straight_difference(account).map_or("–".into(), |d| {
-        format!("{} ({d:+.1} %)", engineering(account.straight, 4, result.file.port.stiffness_unit()))
+        format!(
+            "{} ({d:+.1} %)",
+            engineering(account.straight, 4, result.file.port.stiffness_unit())
+        )
     });
     cells.push(line);
     let nominal = result.file.facts.nominal_stiffness;
-    cells.push(nominal.map_or("–".into(), |k| engineering(k, 4, result.file.port.stiffness_unit())));
+    cells.push(nominal.map_or("–".into(), |k| {
+        engineering(k, 4, result.file.port.stiffness_unit())
+    }));
     cells
 }
 
 fn cell(parameter: &Identified) -> String {
-    let unit = if parameter.unit == "1" { "" } else { &parameter.unit };
+    let unit = if parameter.unit == "1" {
+        ""
+    } else {
+        &parameter.unit
+    };
     match (parameter.value, parameter.ci95, parameter.limit95) {
         (Some(value), Some([low, high]), _) => {
             let half = 50.0 * (high - low) / value.abs();
-            format!("{} ± {} %", engineering(value, 4, unit), significant(half, 2))
+            format!(
+                "{} ± {} %",
+                engineering(value, 4, unit),
+                significant(half, 2)
+            )
         }
         (None, _, Some(limit)) => format!("< {}", engineering(limit, 2, unit)),
         _ => "not identifiable".into(),

@@ -34,7 +34,12 @@ const UNSUPPORTED: f64 = 0.5;
 
 /// Fits a composite to an observation, noise colour included.
 pub fn fit(model: &Composite, data: &Observation) -> Solution {
-    fit_from(model, data, &starts(model, data, 4), &vec![false; data.rows()])
+    fit_from(
+        model,
+        data,
+        &starts(model, data, 4),
+        &vec![false; data.rows()],
+    )
 }
 
 /// Fits from several starts, leaving out the ignored rows.

@@ -8,8 +8,10 @@ pub fn head(verb: &str, inputs: &[(&Path, &str)]) -> Map<String, Value> {
     let mut map = Map::new();
     map.insert("schema".into(), json!("ident/1"));
     map.insert("verb".into(), json!(verb));
-    let list: Vec<Value> =
-        inputs.iter().map(|(path, hash)| json!({"path": path.display().to_string(), "sha256": hash})).collect();
+    let list: Vec<Value> = inputs
+        .iter()
+        .map(|(path, hash)| json!({"path": path.display().to_string(), "sha256": hash}))
+        .collect();
     map.insert("inputs".into(), Value::Array(list));
     map
 }

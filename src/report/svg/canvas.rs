@@ -67,12 +67,13 @@ impl Frame {
 
     fn coordinates(&self) -> Cartesian2d<RangedCoordf64, RangedCoordf64> {
         let place = |px: f64| tenths(px) as i32;
+        // Pixels count downwards, values upwards.
         Cartesian2d::new(
             self.x.low..self.x.high,
             self.y.low..self.y.high,
             (
                 place(self.left)..place(self.right()),
-                place(self.top)..place(self.bottom()),
+                place(self.bottom())..place(self.top),
             ),
         )
     }

@@ -110,9 +110,12 @@ fn step(span: f64, unit: &str, count: usize) -> Step {
     let power = raw.log10().floor() as i32;
     let digit = raw / 10f64.powi(power);
     let round = [1, 2, 5].into_iter().find(|d| *d as f64 >= digit - 1e-9);
-    Step {
-        digit: round.unwrap_or(10),
-        power,
+    match round {
+        Some(digit) => Step { digit, power },
+        None => Step {
+            digit: 1,
+            power: power + 1,
+        },
     }
 }
 
@@ -167,7 +170,7 @@ fn decades(scale: &Scale, count: usize) -> Ticks {
     };
     Ticks {
         major: powers.map(tick).collect(),
-        minor: if last - first <= 8 {
+        minor: if stride == 1 {
             ninths(scale)
         } else {
             Vec::new()
