@@ -2,6 +2,7 @@
 
 pub mod bootstrap;
 pub mod candidates;
+pub mod inspection;
 pub mod least_squares;
 pub mod normal;
 pub mod observation;

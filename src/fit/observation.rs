@@ -25,8 +25,9 @@ pub struct Observation {
 /// Rows beyond which neighbours are averaged before fitting.
 pub const MOST_ROWS: usize = 6000;
 
-/// Distance, in robust standard deviations, beyond which a lone reading is wild.
-const WILD: f64 = 6.5;
+/// Distance beyond its neighbours, in robust standard deviations of their jumps, that makes a lone
+/// reading wild.
+const WILD: f64 = 3.5;
 
 impl Observation {
     /// Prepares the first sensor of a file, averaged down to at most `most` rows.

@@ -19,7 +19,7 @@ pub struct Colour {
 
 /// Families within this many nats of the best are as good; the one with most low-frequency noise
 /// is taken, because the fitted curve hides low frequencies from the estimate.
-const AS_GOOD: f64 = 1.5;
+const AS_GOOD: f64 = 0.7;
 
 impl Colour {
     /// White noise of a known size.
@@ -100,7 +100,7 @@ fn candidates(n: usize) -> Vec<Candidate> {
             relative: (0..n).map(|k| autoregressive(k, n, correlation)).collect(),
         });
     }
-    for exponent in [0.5, 0.8, 1.1, 1.5, 2.0] {
+    for exponent in [0.7, 1.0, 1.3, 1.7] {
         for corner in [0.003, 0.01, 0.03, 0.08, 0.2, 0.5, 1.5] {
             all.push(Candidate {
                 family: "pink",

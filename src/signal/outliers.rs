@@ -20,31 +20,26 @@ pub fn median(values: &[f64]) -> f64 {
     *sorted.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
-/// Rows that stand alone: far from the median of their four neighbours, by more than `limit`
-/// robust standard deviations of that distance.
+/// Rows that stand alone: outside the range of their four neighbours by more than `limit` robust
+/// standard deviations of the jumps between neighbours. A step or a knee stays inside that range.
 pub fn isolated(values: &[f64], limit: f64) -> Vec<usize> {
     let n = values.len();
     if n < 8 {
         return Vec::new();
     }
-    let distance: Vec<f64> = (0..n).map(|i| values[i] - neighbours(values, i)).collect();
-    let spread = robust_std(&distance);
+    let jumps: Vec<f64> = values.windows(2).map(|w| w[1] - w[0]).collect();
+    let spread = robust_std(&jumps);
     if spread <= 0.0 {
         return Vec::new();
     }
-    (0..n)
-        .filter(|i| distance[*i].abs() > limit * spread && alone(&distance, *i))
-        .collect()
+    (2..n - 2).filter(|i| beyond(values, *i) > limit * spread).collect()
 }
 
-/// A wild reading leaves its neighbours calm: they are less than half as far out.
-fn alone(distance: &[f64], i: usize) -> bool {
-    let calm = |j: usize| {
-        distance
-            .get(j)
-            .is_none_or(|d| d.abs() < 0.5 * distance[i].abs())
-    };
-    calm(i + 1) && (i == 0 || calm(i - 1))
+/// How far a value lies outside the range of its four neighbours.
+fn beyond(values: &[f64], i: usize) -> f64 {
+    let near = [values[i - 2], values[i - 1], values[i + 1], values[i + 2]];
+    let (low, high) = near.iter().fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
+    (values[i] - high).max(low - values[i]) - (high - low)
 }
 
 /// Median of the four nearest neighbours.
