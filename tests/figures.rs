@@ -323,9 +323,13 @@ fn a_million_points_stay_small() {
     let loops: Vec<[f64; 2]> = (0..1_000_000)
         .map(|i| [wave(i + 15_000), wave(i)])
         .collect();
-    let panel = || Panel::new(Axis::new("Time", "s"), Axis::new("Force", "N"));
+    let gaps = |(i, p): (usize, &[f64; 2])| if i % 2 == 0 { *p } else { [f64::NAN; 2] };
+    let gaps = in_time.iter().enumerate().map(gaps).collect();
+    let over = |x| Panel::new(x, Axis::new("Force", "N"));
+    let panel = || over(Axis::new("Position", "m"));
     let chart = Chart::new("million", "A million points", "")
-        .with(panel().with(Series::line("line", in_time.clone())))
+        .with(over(Axis::new("Time", "s")).with(Series::line("gaps", gaps)))
+        .with(over(Axis::new("Time", "s")).with(Series::line("line", in_time.clone())))
         .with(panel().with(Series::points("cloud", loops.clone())))
         .with(panel().with(Series::line("loops", loops)));
     let figure = svg::ink(&chart).unwrap();

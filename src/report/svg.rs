@@ -27,7 +27,7 @@ mod ticks;
 use super::escape::escape;
 use super::wrap::wrap;
 use crate::ground::problem::Outcome;
-use crate::sheet::chart::{Chart, Mark, Panel};
+use crate::sheet::chart::{Chart, Mark, Panel, Series};
 use crate::sheet::page::stem;
 use layout::{LARGE, MARGIN, Placed, SMALL, WIDTH};
 use letters::{Anchor, GREY, Letters, px, width};
@@ -179,24 +179,24 @@ fn ink_panel(placed: &Placed, looks: &Looks, id: &str, chart: &Chart) -> Outcome
     Ok(out + &axes::above(placed)?)
 }
 
-/// Bands first, then bars, then the others as given; emphasis on top.
+/// Bands first, then bars, clouds, lines; emphasised markers on top; else as given.
 fn order(panel: &Panel) -> Vec<usize> {
+    let rank = |i: &usize| match (panel.series[*i].mark, panel.series[*i].emphasis) {
+        (Mark::Band, _) => 0,
+        (Mark::Bars, _) => 1,
+        (Mark::Points, false) => 2,
+        // A wide line shows on both sides of a thin one above it.
+        (Mark::Line | Mark::Dashed | Mark::Dotted | Mark::Steps, true) => 3,
+        (Mark::Line | Mark::Dashed | Mark::Dotted | Mark::Steps, false) => 4,
+        (Mark::Points, true) => 5,
+    };
     let mut order: Vec<usize> = (0..panel.series.len()).collect();
-    order.sort_by_key(
-        |&i| match (panel.series[i].mark, panel.series[i].emphasis) {
-            (Mark::Band, _) => 0,
-            (Mark::Bars, _) => 1,
-            (_, false) => 2,
-            (_, true) => 3,
-        },
-    );
+    order.sort_by_key(rank);
     order
 }
 
 fn slot(panel: &Panel, i: usize) -> Slot {
-    let bars = |range: &[crate::sheet::chart::Series]| {
-        range.iter().filter(|s| s.mark == Mark::Bars).count()
-    };
+    let bars = |series: &[Series]| series.iter().filter(|s| s.mark == Mark::Bars).count();
     Slot {
         place: bars(&panel.series[..i]),
         of: bars(&panel.series).max(1),

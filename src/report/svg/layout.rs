@@ -12,9 +12,9 @@ pub(super) const WIDTH: f64 = 720.0;
 /// Air at the outer edges.
 pub(super) const MARGIN: f64 = 14.0;
 /// Size of tick labels, legend and notes.
-pub(super) const SMALL: f64 = 14.0;
+pub(super) const SMALL: f64 = 15.0;
 /// Size of axis labels.
-pub(super) const NORMAL: f64 = 15.0;
+pub(super) const NORMAL: f64 = 16.0;
 /// Size of the title.
 pub(super) const LARGE: f64 = 16.0;
 

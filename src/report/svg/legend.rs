@@ -55,20 +55,18 @@ fn sample(series: &Series, look: Look, stem: &str, x: f64, y: f64) -> Outcome<St
     let marker = super::marker_id(stem, &look);
     let pen = Pen {
         frame: &frame,
-        look: Look {
-            radius: look.radius.max(2.4),
-            ..look
-        },
+        look,
         budget: 16,
         marker: &marker,
         slot: Slot { place: 0, of: 1 },
     };
-    marks::ink(&small(series), &pen)
+    marks::ink(&small(series, look.cloud), &pen)
 }
 
-fn small(series: &Series) -> Series {
+fn small(series: &Series, cloud: bool) -> Series {
     let ends = [0.1, 0.9];
     let (points, between) = match series.mark {
+        Mark::Points if cloud => (vec![[0.25, 0.3], [0.5, 0.7], [0.75, 0.4]], None),
         Mark::Points => (vec![[0.5, 0.5]], Some(vec![ends])),
         Mark::Bars => (vec![[0.5, 0.95]], None),
         _ => (vec![[0.0, 0.5], [1.0, 0.5]], Some(vec![ends, ends])),

@@ -13,6 +13,9 @@ use plotters::style::{Color, RGBColor, ShapeStyle};
 /// More whiskers than this are drawn as a band.
 const WHISKERS: usize = 80;
 
+/// More bars than this are drawn as their outline.
+const BARS: usize = 300;
+
 /// Where a bar stands among its neighbours.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Slot {
@@ -77,33 +80,37 @@ fn line(points: &[Point], pen: &Pen) -> Outcome<String> {
     runs.iter_mut()
         .filter(|run| run.len() == 1)
         .for_each(|run| run.push(run[0]));
-    let share = pen.budget / runs.len().max(1);
     let pixels = frame.pixels();
+    let runs = thin::apart(runs, &pixels, pen.budget / 4, |point| *point);
+    let share = pen.budget / runs.len().max(1);
     let pieces = runs
         .iter()
-        .flat_map(|run| thin::line(run, &pixels, share.max(16)));
-    let dashes: Vec<String> = look
-        .dash
-        .iter()
-        .map(|d| px(f64::from(tenths(*d))))
-        .collect();
-    let dash = match dashes.is_empty() {
-        true => String::new(),
-        false => format!(" stroke-dasharray=\"{}\"", dashes.join(" ")),
-    };
-    // Butt ends keep the gaps of dashes open; dots are round ends of very short dashes.
-    let cap = if look.dash.first().is_none_or(|d| *d < 1.0) {
-        "round"
-    } else {
-        "butt"
-    };
-    let attributes = format!(" stroke-linejoin=\"round\" stroke-linecap=\"{cap}\"{dash}");
-    layer(frame, &attributes, |area| {
+        .flat_map(|run| thin::line(run, &pixels, share.max(4)));
+    let pieces: Vec<_> = pieces.collect();
+    let travel: f64 = pieces.iter().map(|piece| pixels.rise(piece)).sum();
+    let dense = look.dash.is_empty() && travel > DENSE * frame.height;
+    let width = if dense { 0.5 * look.width } else { look.width };
+    layer(frame, &ends_and_dashes(look.dash), |area| {
         for piece in pieces {
-            area.draw(&path(&piece, stroke(look.color, look.width)))?;
+            area.draw(&path(&piece, stroke(look.color, width)))?;
         }
         Ok(())
     })
+}
+
+/// A line that goes up and down this often is drawn thinner: its strokes would run together.
+const DENSE: f64 = 60.0;
+
+fn ends_and_dashes(dash: &[f64]) -> String {
+    let lengths: Vec<String> = dash.iter().map(|d| px(f64::from(tenths(*d)))).collect();
+    let dashes = match lengths.is_empty() {
+        true => String::new(),
+        false => format!(" stroke-dasharray=\"{}\"", lengths.join(" ")),
+    };
+    // Butt ends keep the gaps of dashes open; dots are round ends of very short dashes.
+    let round = dash.first().is_none_or(|d| *d < 1.0);
+    let cap = if round { "round" } else { "butt" };
+    format!(" stroke-linejoin=\"round\" stroke-linecap=\"{cap}\"{dashes}")
 }
 
 /// Each value holds until the next point.
@@ -158,6 +165,7 @@ fn band(series: &Series, pen: &Pen) -> Outcome<String> {
         return Ok(String::new());
     }
     let pixels = frame.pixels();
+    let runs = thin::apart(runs, &pixels, pen.budget / 4, |edge| [edge[0], edge[1]]);
     layer(frame, "", |area| {
         for run in runs {
             let run = thin::band(&run, &pixels);
@@ -171,6 +179,9 @@ fn band(series: &Series, pen: &Pen) -> Outcome<String> {
 }
 
 fn bars(series: &Series, pen: &Pen) -> Outcome<String> {
+    if series.points.len() > BARS {
+        return line(&stairs(&series.points), pen);
+    }
     let (frame, look, slot) = (pen.frame, pen.look, pen.slot);
     let room = 0.8 * spacing(&series.points) / slot.of as f64;
     let shift = (slot.place as f64 + 0.5 - 0.5 * slot.of as f64) * room;

@@ -14,6 +14,8 @@ pub(super) struct Look {
     pub shape: Shape,
     /// Half the size of a marker in px.
     pub radius: f64,
+    /// Many points behind the line that explains them.
+    pub cloud: bool,
     /// Position in the list of looks: part of the marker's id.
     pub index: usize,
 }
@@ -164,7 +166,7 @@ fn look(series: &Series, count: usize, before: &[(Series, Look)]) -> Look {
     let dotted = if mark == Mark::Dotted { 0.8 } else { 0.0 };
     Look {
         color,
-        width: if series.emphasis { 2.4 } else { 1.6 } + dotted,
+        width: if series.emphasis { 3.2 } else { 1.6 } + dotted,
         dash,
         shape: if cloud && kin == 0 {
             Shape::Disc
@@ -172,6 +174,7 @@ fn look(series: &Series, count: usize, before: &[(Series, Look)]) -> Look {
             SHAPES[kin % SHAPES.len()]
         },
         radius: if cloud { 1.6 } else { 3.4 } * if series.emphasis { 1.25 } else { 1.0 },
+        cloud,
         index: before.len(),
     }
 }
