@@ -2,6 +2,7 @@
 
 use super::canvas::{Area, Fault, Frame, layer, tenths};
 use super::letters::px;
+use super::markers;
 use super::scale::{Scale, spacing};
 use super::style::Look;
 use super::thin::{self, Point};
@@ -31,8 +32,6 @@ pub(super) struct Pen<'a> {
     pub look: Look,
     /// Points that may be drawn at most, about.
     pub budget: usize,
-    /// Id of the marker.
-    pub marker: &'a str,
     pub slot: Slot,
 }
 
@@ -49,7 +48,7 @@ pub(super) fn ink(series: &Series, pen: &Pen) -> Outcome<String> {
     }
 }
 
-fn stroke(color: RGBColor, width: f64) -> ShapeStyle {
+pub(super) fn stroke(color: RGBColor, width: f64) -> ShapeStyle {
     ShapeStyle {
         color: color.to_rgba(),
         filled: false,
@@ -57,7 +56,7 @@ fn stroke(color: RGBColor, width: f64) -> ShapeStyle {
     }
 }
 
-fn path(points: &[Point], style: ShapeStyle) -> PathElement<(f64, f64)> {
+pub(super) fn path(points: &[Point], style: ShapeStyle) -> PathElement<(f64, f64)> {
     PathElement::new(
         points.iter().map(|p| (p[0], p[1])).collect::<Vec<_>>(),
         style,
@@ -130,19 +129,8 @@ fn points(series: &Series, pen: &Pen) -> Outcome<String> {
         _ => layer(frame, "", |area| whiskers(area, series, pen, &|x| x))?,
     };
     let all = runs(&series.points, &frame.x, &frame.y).concat();
-    let mut kept = thin::markers(&all, &frame.pixels(), pen.budget);
-    // A path of one point has no markers in some viewers.
-    if let [only] = kept[..] {
-        kept.push(only);
-    }
-    let id = pen.marker;
-    let ends = ["start", "mid", "end"].map(|end| format!(" marker-{end}=\"url(#{id})\""));
-    let markers = layer(frame, &ends.concat(), |area| {
-        // The path itself has no width: only its markers show.
-        area.draw(&path(&kept, stroke(pen.look.color, 0.0)))?;
-        Ok(())
-    })?;
-    Ok(whiskers + &markers)
+    let kept = thin::markers(&all, &frame.pixels(), pen.budget);
+    Ok(whiskers + &markers::ink(&kept, frame, &pen.look)?)
 }
 
 /// Edges of a band in axis coordinates, in runs.
