@@ -153,11 +153,16 @@ impl Writer {
         let stem = self.figures.next().unwrap_or_default();
         let drawing = svg::inline(chart, &stem)?;
         let (title, caption) = (escape(&chart.title), escape(&chart.caption));
+        let stop = if title.is_empty() || title.ends_with(['.', '?', '!']) {
+            ""
+        } else {
+            "."
+        };
         // Reachable by keyboard: a narrow window scrolls the figure sideways.
         let _ = write!(
             self.out,
             "<figure id=\"figure-{stem}\">\n<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"Figure: {title}\">\n\
-             {drawing}</div>\n<figcaption><strong>{title}.</strong> {caption} \
+             {drawing}</div>\n<figcaption><strong>{title}{stop}</strong> {caption} \
              <a href=\"{stem}.svg\" class=\"file\">{stem}.svg</a></figcaption>\n</figure>\n"
         );
         Ok(())

@@ -1,4 +1,4 @@
-//! Charts as SVG: `plotters` draws the data, this adds what it lacks (dashes, markers, ticks at
+//! Charts as SVG: `plotters` draws the data, this adds what it lacks (dashes, clouds of points, ticks at
 //! round numbers, a legend outside the data, text that stays text).
 //!
 //! ```
@@ -18,6 +18,7 @@ mod canvas;
 mod layout;
 mod legend;
 mod letters;
+mod markers;
 mod marks;
 mod scale;
 mod style;
@@ -27,13 +28,12 @@ mod ticks;
 use super::escape::escape;
 use super::wrap::wrap;
 use crate::ground::problem::Outcome;
-use crate::sheet::chart::{Chart, Mark, Panel};
+use crate::sheet::chart::{Chart, Mark, Panel, Series};
 use crate::sheet::page::stem;
 use layout::{LARGE, MARGIN, Placed, SMALL, WIDTH};
 use letters::{Anchor, GREY, Letters, px, width};
 use marks::{Pen, Slot};
-use std::fmt::Write as _;
-use style::{Look, Looks};
+use style::Looks;
 
 /// Points in one figure at most, about: keeps a file below 400 kB.
 const BUDGET: usize = 24_000;
@@ -54,26 +54,20 @@ fn draw(chart: &Chart, id: &str, alone: bool) -> Outcome<String> {
     let top = header(chart, alone, &mut body);
     let (placed, end) = layout::place(chart, top);
     for panel in &placed {
-        body += &ink_panel(panel, &looks, id, chart)?;
+        body += &ink_panel(panel, &looks, chart)?;
     }
     let left = placed.first().map_or(MARGIN, |panel| panel.frame.left);
-    let (names, end) = legend::ink(&looks, id, left, end)?;
+    let (names, end) = legend::ink(&looks, left, end)?;
     body += &names;
     let bottom = if alone {
         caption(chart, end, &mut body)
     } else {
         end
     };
-    Ok(document(
-        chart,
-        id,
-        bottom + MARGIN - 6.0,
-        &markers(&looks, id),
-        &body,
-    ))
+    Ok(document(chart, id, bottom + MARGIN - 6.0, &body))
 }
 
-fn document(chart: &Chart, id: &str, height: f64, markers: &str, body: &str) -> String {
+fn document(chart: &Chart, id: &str, height: f64, body: &str) -> String {
     let size = (px(WIDTH), px(height.ceil()));
     let (w, h) = (&size.0, &size.1);
     let title = escape(&chart.title);
@@ -86,7 +80,7 @@ fn document(chart: &Chart, id: &str, height: f64, markers: &str, body: &str) -> 
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" \
          role=\"img\" aria-labelledby=\"{id}-title {id}-desc\" font-family=\"Helvetica, Arial, sans-serif\">\n\
-         <title id=\"{id}-title\">{title}</title>\n<desc id=\"{id}-desc\">{label}{text}</desc>\n{markers}\
+         <title id=\"{id}-title\">{title}</title>\n<desc id=\"{id}-desc\">{label}{text}</desc>\n\
          <rect width=\"{w}\" height=\"{h}\" fill=\"#ffffff\"/>\n{body}</svg>\n"
     )
 }
@@ -128,40 +122,7 @@ fn caption(chart: &Chart, top: f64, out: &mut String) -> f64 {
     y
 }
 
-fn marker_id(id: &str, look: &Look) -> String {
-    format!("{id}-mark{}", look.index)
-}
-
-/// Definitions of the markers in use.
-fn markers(looks: &Looks, id: &str) -> String {
-    let used = looks
-        .entries()
-        .iter()
-        .filter(|(series, _)| series.mark == Mark::Points);
-    let mut out = String::new();
-    for (_, look) in used {
-        let (name, path) = (marker_id(id, look), look.shape.path());
-        let (r, g, b) = (look.color.0, look.color.1, look.color.2);
-        let color = format!("#{r:02X}{g:02X}{b:02X}");
-        let paint = match look.shape.hollow() {
-            true => format!("fill=\"#ffffff\" stroke=\"{color}\" stroke-width=\"0.42\""),
-            false => format!("fill=\"{color}\""),
-        };
-        // Twice ten tenths: the box from -1 to 1 becomes `radius` px on the layers' grid.
-        let size = px(20.0 * look.radius);
-        let _ = writeln!(
-            out,
-            "<marker id=\"{name}\" markerUnits=\"userSpaceOnUse\" markerWidth=\"{size}\" markerHeight=\"{size}\" \
-             viewBox=\"-1 -1 2 2\" overflow=\"visible\"><path d=\"{path}\" {paint}/></marker>"
-        );
-    }
-    match out.is_empty() {
-        true => out,
-        false => format!("<defs>\n{out}</defs>\n"),
-    }
-}
-
-fn ink_panel(placed: &Placed, looks: &Looks, id: &str, chart: &Chart) -> Outcome<String> {
+fn ink_panel(placed: &Placed, looks: &Looks, chart: &Chart) -> Outcome<String> {
     let count: usize = chart.panels.iter().map(|panel| panel.series.len()).sum();
     let panel = placed.panel;
     let mut out = axes::below(placed)?;
@@ -171,7 +132,6 @@ fn ink_panel(placed: &Placed, looks: &Looks, id: &str, chart: &Chart) -> Outcome
             frame: &placed.frame,
             look,
             budget: BUDGET / count.max(1),
-            marker: &marker_id(id, &look),
             slot: slot(panel, i),
         };
         out += &marks::ink(&panel.series[i], &pen)?;
@@ -179,24 +139,24 @@ fn ink_panel(placed: &Placed, looks: &Looks, id: &str, chart: &Chart) -> Outcome
     Ok(out + &axes::above(placed)?)
 }
 
-/// Bands first, then bars, then the others as given; emphasis on top.
+/// Bands first, then bars, clouds, lines; emphasised markers on top; else as given.
 fn order(panel: &Panel) -> Vec<usize> {
+    let rank = |i: &usize| match (panel.series[*i].mark, panel.series[*i].emphasis) {
+        (Mark::Band, _) => 0,
+        (Mark::Bars, _) => 1,
+        (Mark::Points, false) => 2,
+        // A wide line shows on both sides of a thin one above it.
+        (Mark::Line | Mark::Dashed | Mark::Dotted | Mark::Steps, true) => 3,
+        (Mark::Line | Mark::Dashed | Mark::Dotted | Mark::Steps, false) => 4,
+        (Mark::Points, true) => 5,
+    };
     let mut order: Vec<usize> = (0..panel.series.len()).collect();
-    order.sort_by_key(
-        |&i| match (panel.series[i].mark, panel.series[i].emphasis) {
-            (Mark::Band, _) => 0,
-            (Mark::Bars, _) => 1,
-            (_, false) => 2,
-            (_, true) => 3,
-        },
-    );
+    order.sort_by_key(rank);
     order
 }
 
 fn slot(panel: &Panel, i: usize) -> Slot {
-    let bars = |range: &[crate::sheet::chart::Series]| {
-        range.iter().filter(|s| s.mark == Mark::Bars).count()
-    };
+    let bars = |series: &[Series]| series.iter().filter(|s| s.mark == Mark::Bars).count();
     Slot {
         place: bars(&panel.series[..i]),
         of: bars(&panel.series).max(1),

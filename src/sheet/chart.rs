@@ -60,7 +60,7 @@ pub struct Series {
     pub points: Vec<[f64; 2]>,
     /// Lower and upper end at each point: the edges of a band, whiskers on points and bars.
     pub lower_upper: Option<Vec<[f64; 2]>>,
-    /// Drawn stronger than its neighbours, and above them.
+    /// Drawn stronger than its neighbours: lines wide and below thinner ones, markers large and on top.
     pub emphasis: bool,
 }
 

@@ -164,7 +164,7 @@ mod tests {
 
     #[test]
     fn intervals() {
-        assert_eq!(with_interval(3.14, 3.10, 3.35), "3.14 [3.10, 3.35]");
+        assert_eq!(with_interval(2.14, 2.10, 2.35), "2.14 [2.10, 2.35]");
         assert_eq!(
             with_interval(3.14e5, 3.1e5, 3.5e5),
             "3.14e5 [3.10e5, 3.50e5]"

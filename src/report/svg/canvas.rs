@@ -7,7 +7,6 @@ use crate::ground::problem::{Outcome, Problem};
 use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::{Cartesian2d, DrawingArea, IntoDrawingArea, SVGBackend};
-use std::fmt::Write as _;
 
 /// The data area of a panel in px, and what it shows.
 #[derive(Debug, Clone, Copy)]
@@ -92,12 +91,13 @@ pub(super) fn layer(
             "report this with the data that were drawn",
         )
     })?;
+    Ok(group(attributes, &content(&ink)))
+}
+
+/// Elements on the grid of tenths.
+pub(super) fn group(attributes: &str, elements: &str) -> String {
     let scale = px(1.0 / TENTHS);
-    let mut out = String::new();
-    let _ = writeln!(out, "<g transform=\"scale({scale})\"{attributes}>");
-    out.push_str(&content(&ink));
-    out.push_str("</g>\n");
-    Ok(out)
+    format!("<g transform=\"scale({scale})\"{attributes}>\n{elements}</g>\n")
 }
 
 fn draw_on(

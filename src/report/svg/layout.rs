@@ -12,9 +12,9 @@ pub(super) const WIDTH: f64 = 720.0;
 /// Air at the outer edges.
 pub(super) const MARGIN: f64 = 14.0;
 /// Size of tick labels, legend and notes.
-pub(super) const SMALL: f64 = 14.0;
+pub(super) const SMALL: f64 = 15.0;
 /// Size of axis labels.
-pub(super) const NORMAL: f64 = 15.0;
+pub(super) const NORMAL: f64 = 16.0;
 /// Size of the title.
 pub(super) const LARGE: f64 = 16.0;
 
@@ -45,24 +45,11 @@ fn height(panels: usize) -> f64 {
 /// The panels of a chart below `top`, and where they end.
 pub(super) fn place(chart: &Chart, top: f64) -> (Vec<Placed<'_>>, f64) {
     let height = height(chart.panels.len());
-    let scales: Vec<(Scale, Scale)> = groups(&chart.panels)
-        .into_iter()
-        .flat_map(|group| {
-            let members: Vec<&Panel> = group.iter().collect();
-            let x = scale::x_of(&members);
-            members
-                .into_iter()
-                .map(move |panel| (x, scale::y_of(panel)))
-        })
-        .collect();
+    let scales = scales(&chart.panels);
     let vertical =
         |(panel, (_, y)): (&Panel, &(Scale, Scale))| ticks(y, &panel.y.unit, height, SMALL, false);
     let y_ticks: Vec<Ticks> = chart.panels.iter().zip(&scales).map(vertical).collect();
-    let labels = y_ticks.iter().flat_map(|ticks| &ticks.major);
-    let widest = labels
-        .map(|tick| width(&tick.label, SMALL))
-        .fold(20.0, f64::max);
-    let left = MARGIN + 1.5 * NORMAL + widest + 10.0;
+    let left = left(&y_ticks, &chart.panels);
     let mut y = top;
     let mut placed = Vec::new();
     for (i, (panel, vertical)) in chart.panels.iter().zip(y_ticks).enumerate() {
@@ -85,11 +72,39 @@ pub(super) fn place(chart: &Chart, top: f64) -> (Vec<Placed<'_>>, f64) {
     (placed, y)
 }
 
-/// Neighbours that share an x axis.
-fn groups(panels: &[Panel]) -> Vec<&[Panel]> {
-    panels.chunk_by(shared).collect()
+/// Scales of x and y for each panel.
+fn scales(panels: &[Panel]) -> Vec<(Scale, Scale)> {
+    let of_group = |group: &[Panel]| {
+        let x = scale::x_of(&group.iter().collect::<Vec<_>>());
+        let both = group.iter().map(|panel| (x, scale::y_of(panel)));
+        both.collect::<Vec<_>>()
+    };
+    panels.chunk_by(shared).flat_map(of_group).collect()
 }
 
+/// Left edge of all data areas: room for the widest label, and for turned names of categories.
+fn left(ticks: &[Ticks], panels: &[Panel]) -> f64 {
+    let labels = ticks.iter().flat_map(|ticks| &ticks.major);
+    let widths = labels.map(|tick| width(&tick.label, SMALL));
+    let labels = MARGIN + 1.5 * NORMAL + widths.fold(20.0, f64::max) + 10.0;
+    let names = panels
+        .iter()
+        .map(|panel| MARGIN + overhang(&panel.categories, WIDTH - 2.0 * labels));
+    names.fold(labels, f64::max)
+}
+
+/// How far turned names of categories reach beyond the left edge of a data area of this width.
+fn overhang(names: &[String], area: f64) -> f64 {
+    let room = area / names.len().max(1) as f64;
+    if !broken(names, room - 6.0).1 {
+        return 0.0;
+    }
+    let reach =
+        |(i, name): (usize, &String)| COSLANT * width(name, SMALL) - (i as f64 + 0.5) * room;
+    names.iter().enumerate().map(reach).fold(0.0, f64::max)
+}
+
+/// Neighbours that share an x axis.
 fn shared(a: &Panel, b: &Panel) -> bool {
     a.x == b.x && a.categories == b.categories
 }
@@ -138,6 +153,8 @@ fn broken(names: &[String], room: f64) -> (Vec<Vec<String>>, bool) {
 
 /// Sine of the angle of turned category names.
 const SLANT: f64 = 0.574;
+/// Its cosine.
+const COSLANT: f64 = 0.819;
 /// That angle in degrees.
 pub(super) const SLANT_DEGREES: f64 = -35.0;
 

@@ -15,7 +15,7 @@ const GAP: f64 = 22.0;
 const ROW: f64 = 22.0;
 
 /// The legend below `top`, and where it ends.
-pub(super) fn ink(looks: &Looks, stem: &str, left: f64, top: f64) -> Outcome<(String, f64)> {
+pub(super) fn ink(looks: &Looks, left: f64, top: f64) -> Outcome<(String, f64)> {
     let named = looks
         .entries()
         .iter()
@@ -28,7 +28,7 @@ pub(super) fn ink(looks: &Looks, stem: &str, left: f64, top: f64) -> Outcome<(St
         if x > left && x + wide > WIDTH - MARGIN {
             (x, y) = (left, y + ROW);
         }
-        out += &sample(series, *look, stem, x, y)?;
+        out += &sample(series, *look, x, y)?;
         Letters::new(&series.name, x + SAMPLE + 8.0, y + 0.8 * SMALL, SMALL).write(&mut out);
         x += wide + GAP;
         any = true;
@@ -37,7 +37,7 @@ pub(super) fn ink(looks: &Looks, stem: &str, left: f64, top: f64) -> Outcome<(St
 }
 
 /// The series itself in small, drawn by the same pen.
-fn sample(series: &Series, look: Look, stem: &str, x: f64, y: f64) -> Outcome<String> {
+fn sample(series: &Series, look: Look, x: f64, y: f64) -> Outcome<String> {
     let unit = Scale {
         log: false,
         low: 0.0,
@@ -52,23 +52,19 @@ fn sample(series: &Series, look: Look, stem: &str, x: f64, y: f64) -> Outcome<St
         x: unit,
         y: unit,
     };
-    let marker = super::marker_id(stem, &look);
     let pen = Pen {
         frame: &frame,
-        look: Look {
-            radius: look.radius.max(2.4),
-            ..look
-        },
+        look,
         budget: 16,
-        marker: &marker,
         slot: Slot { place: 0, of: 1 },
     };
-    marks::ink(&small(series), &pen)
+    marks::ink(&small(series, look.cloud), &pen)
 }
 
-fn small(series: &Series) -> Series {
+fn small(series: &Series, cloud: bool) -> Series {
     let ends = [0.1, 0.9];
     let (points, between) = match series.mark {
+        Mark::Points if cloud => (vec![[0.25, 0.3], [0.5, 0.7], [0.75, 0.4]], None),
         Mark::Points => (vec![[0.5, 0.5]], Some(vec![ends])),
         Mark::Bars => (vec![[0.5, 0.95]], None),
         _ => (vec![[0.0, 0.5], [1.0, 0.5]], Some(vec![ends, ends])),

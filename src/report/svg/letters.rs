@@ -82,9 +82,15 @@ impl<'a> Letters<'a> {
         };
         let (size, fill) = (px(self.size), self.fill);
         let body = raised(self.text, self.size);
+        // Some viewers drop a space where a part begins.
+        let keep = if body.contains("<tspan") {
+            " xml:space=\"preserve\""
+        } else {
+            ""
+        };
         let _ = writeln!(
             out,
-            "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{fill}\"{anchor}{bold}{turn}>{body}</text>"
+            "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{fill}\"{anchor}{bold}{turn}{keep}>{body}</text>"
         );
     }
 }
@@ -139,11 +145,11 @@ fn raised(text: &str, size: f64) -> String {
         );
         rest = &tail[end..];
         if !rest.is_empty() {
-            // Come back to the baseline with the next letter.
-            let next = rest.chars().next().map_or(0, char::len_utf8);
-            let letter = escape(&rest[..next]).into_owned();
-            let _ = write!(out, "<tspan dy=\"{}\">{letter}</tspan>", px(up));
-            rest = &rest[next..];
+            // Come back to the baseline with the next text.
+            let end = rest.find(|c| lowered(c).is_some()).unwrap_or(rest.len());
+            let text = escape(&rest[..end]).into_owned();
+            let _ = write!(out, "<tspan dy=\"{}\">{text}</tspan>", px(up));
+            rest = &rest[end..];
         }
     }
     out.push_str(&escape(rest));
@@ -186,6 +192,6 @@ mod tests {
     fn raises_exponents_and_comes_back() {
         let text = raised("10⁻⁶ rad", 10.0);
         let up = "10<tspan dy=\"-3.6\" font-size=\"7.2\">−6</tspan>";
-        assert_eq!(text, format!("{up}<tspan dy=\"3.6\"> </tspan>rad"));
+        assert_eq!(text, format!("{up}<tspan dy=\"3.6\"> rad</tspan>"));
     }
 }

@@ -2,6 +2,7 @@
 
 use super::canvas::{Area, Fault, Frame, layer, tenths};
 use super::letters::px;
+use super::markers;
 use super::scale::{Scale, spacing};
 use super::style::Look;
 use super::thin::{self, Point};
@@ -12,6 +13,9 @@ use plotters::style::{Color, RGBColor, ShapeStyle};
 
 /// More whiskers than this are drawn as a band.
 const WHISKERS: usize = 80;
+
+/// More bars than this are drawn as their outline.
+const BARS: usize = 300;
 
 /// Where a bar stands among its neighbours.
 #[derive(Debug, Clone, Copy)]
@@ -28,8 +32,6 @@ pub(super) struct Pen<'a> {
     pub look: Look,
     /// Points that may be drawn at most, about.
     pub budget: usize,
-    /// Id of the marker.
-    pub marker: &'a str,
     pub slot: Slot,
 }
 
@@ -46,7 +48,7 @@ pub(super) fn ink(series: &Series, pen: &Pen) -> Outcome<String> {
     }
 }
 
-fn stroke(color: RGBColor, width: f64) -> ShapeStyle {
+pub(super) fn stroke(color: RGBColor, width: f64) -> ShapeStyle {
     ShapeStyle {
         color: color.to_rgba(),
         filled: false,
@@ -54,7 +56,7 @@ fn stroke(color: RGBColor, width: f64) -> ShapeStyle {
     }
 }
 
-fn path(points: &[Point], style: ShapeStyle) -> PathElement<(f64, f64)> {
+pub(super) fn path(points: &[Point], style: ShapeStyle) -> PathElement<(f64, f64)> {
     PathElement::new(
         points.iter().map(|p| (p[0], p[1])).collect::<Vec<_>>(),
         style,
@@ -77,33 +79,37 @@ fn line(points: &[Point], pen: &Pen) -> Outcome<String> {
     runs.iter_mut()
         .filter(|run| run.len() == 1)
         .for_each(|run| run.push(run[0]));
-    let share = pen.budget / runs.len().max(1);
     let pixels = frame.pixels();
+    let runs = thin::apart(runs, &pixels, pen.budget / 4, |point| *point);
+    let share = pen.budget / runs.len().max(1);
     let pieces = runs
         .iter()
-        .flat_map(|run| thin::line(run, &pixels, share.max(16)));
-    let dashes: Vec<String> = look
-        .dash
-        .iter()
-        .map(|d| px(f64::from(tenths(*d))))
-        .collect();
-    let dash = match dashes.is_empty() {
-        true => String::new(),
-        false => format!(" stroke-dasharray=\"{}\"", dashes.join(" ")),
-    };
-    // Butt ends keep the gaps of dashes open; dots are round ends of very short dashes.
-    let cap = if look.dash.first().is_none_or(|d| *d < 1.0) {
-        "round"
-    } else {
-        "butt"
-    };
-    let attributes = format!(" stroke-linejoin=\"round\" stroke-linecap=\"{cap}\"{dash}");
-    layer(frame, &attributes, |area| {
+        .flat_map(|run| thin::line(run, &pixels, share.max(4)));
+    let pieces: Vec<_> = pieces.collect();
+    let travel: f64 = pieces.iter().map(|piece| pixels.rise(piece)).sum();
+    let dense = look.dash.is_empty() && travel > DENSE * frame.height;
+    let width = if dense { 0.5 * look.width } else { look.width };
+    layer(frame, &ends_and_dashes(look.dash), |area| {
         for piece in pieces {
-            area.draw(&path(&piece, stroke(look.color, look.width)))?;
+            area.draw(&path(&piece, stroke(look.color, width)))?;
         }
         Ok(())
     })
+}
+
+/// A line that goes up and down this often is drawn thinner: its strokes would run together.
+const DENSE: f64 = 60.0;
+
+fn ends_and_dashes(dash: &[f64]) -> String {
+    let lengths: Vec<String> = dash.iter().map(|d| px(f64::from(tenths(*d)))).collect();
+    let dashes = match lengths.is_empty() {
+        true => String::new(),
+        false => format!(" stroke-dasharray=\"{}\"", lengths.join(" ")),
+    };
+    // Butt ends keep the gaps of dashes open; dots are round ends of very short dashes.
+    let round = dash.first().is_none_or(|d| *d < 1.0);
+    let cap = if round { "round" } else { "butt" };
+    format!(" stroke-linejoin=\"round\" stroke-linecap=\"{cap}\"{dashes}")
 }
 
 /// Each value holds until the next point.
@@ -123,19 +129,8 @@ fn points(series: &Series, pen: &Pen) -> Outcome<String> {
         _ => layer(frame, "", |area| whiskers(area, series, pen, &|x| x))?,
     };
     let all = runs(&series.points, &frame.x, &frame.y).concat();
-    let mut kept = thin::markers(&all, &frame.pixels(), pen.budget);
-    // A path of one point has no markers in some viewers.
-    if let [only] = kept[..] {
-        kept.push(only);
-    }
-    let id = pen.marker;
-    let ends = ["start", "mid", "end"].map(|end| format!(" marker-{end}=\"url(#{id})\""));
-    let markers = layer(frame, &ends.concat(), |area| {
-        // The path itself has no width: only its markers show.
-        area.draw(&path(&kept, stroke(pen.look.color, 0.0)))?;
-        Ok(())
-    })?;
-    Ok(whiskers + &markers)
+    let kept = thin::markers(&all, &frame.pixels(), pen.budget);
+    Ok(whiskers + &markers::ink(&kept, frame, &pen.look)?)
 }
 
 /// Edges of a band in axis coordinates, in runs.
@@ -158,6 +153,7 @@ fn band(series: &Series, pen: &Pen) -> Outcome<String> {
         return Ok(String::new());
     }
     let pixels = frame.pixels();
+    let runs = thin::apart(runs, &pixels, pen.budget / 4, |edge| [edge[0], edge[1]]);
     layer(frame, "", |area| {
         for run in runs {
             let run = thin::band(&run, &pixels);
@@ -171,6 +167,9 @@ fn band(series: &Series, pen: &Pen) -> Outcome<String> {
 }
 
 fn bars(series: &Series, pen: &Pen) -> Outcome<String> {
+    if series.points.len() > BARS {
+        return line(&stairs(&series.points), pen);
+    }
     let (frame, look, slot) = (pen.frame, pen.look, pen.slot);
     let room = 0.8 * spacing(&series.points) / slot.of as f64;
     let shift = (slot.place as f64 + 0.5 - 0.5 * slot.of as f64) * room;

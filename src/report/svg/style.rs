@@ -14,8 +14,8 @@ pub(super) struct Look {
     pub shape: Shape,
     /// Half the size of a marker in px.
     pub radius: f64,
-    /// Position in the list of looks: part of the marker's id.
-    pub index: usize,
+    /// Many points behind the line that explains them.
+    pub cloud: bool,
 }
 
 /// Form of a marker.
@@ -29,20 +29,27 @@ pub(super) enum Shape {
 }
 
 impl Shape {
-    /// Its outline as a path in a box from -1 to 1.
-    pub fn path(self) -> &'static str {
+    /// Its corners in a box from -1 to 1, y upwards; none for a disc.
+    pub fn corners(self) -> &'static [[f64; 2]] {
         match self {
-            Shape::Disc => "M-1,0A1,1 0 1 1 1,0A1,1 0 1 1 -1,0Z",
-            Shape::Square => "M-.85,-.85H.85V.85H-.85Z",
-            Shape::Triangle => "M0,-1.1L1.05,.8H-1.05Z",
-            Shape::Diamond => "M0,-1.2L1.2,0L0,1.2L-1.2,0Z",
-            Shape::Cross => "M-1,-1L1,1M-1,1L1,-1",
+            Shape::Disc => &[],
+            Shape::Square => &[[-0.85, -0.85], [0.85, -0.85], [0.85, 0.85], [-0.85, 0.85]],
+            Shape::Triangle => &[[0.0, 1.1], [1.05, -0.8], [-1.05, -0.8]],
+            Shape::Diamond => &[[0.0, 1.2], [1.2, 0.0], [0.0, -1.2], [-1.2, 0.0]],
+            Shape::Cross => &[
+                [-1.0, -1.0],
+                [1.0, 1.0],
+                [0.0, 0.0],
+                [-1.0, 1.0],
+                [1.0, -1.0],
+                [0.0, 0.0],
+            ],
         }
     }
 
-    /// Drawn as an outline only.
+    /// Drawn as an outline, white inside.
     pub fn hollow(self) -> bool {
-        matches!(self, Shape::Square | Shape::Diamond | Shape::Cross)
+        matches!(self, Shape::Square | Shape::Diamond)
     }
 }
 
@@ -164,15 +171,11 @@ fn look(series: &Series, count: usize, before: &[(Series, Look)]) -> Look {
     let dotted = if mark == Mark::Dotted { 0.8 } else { 0.0 };
     Look {
         color,
-        width: if series.emphasis { 2.4 } else { 1.6 } + dotted,
+        width: if series.emphasis { 3.2 } else { 1.6 } + dotted,
         dash,
-        shape: if cloud && kin == 0 {
-            Shape::Disc
-        } else {
-            SHAPES[kin % SHAPES.len()]
-        },
+        shape: SHAPES[kin % SHAPES.len()],
         radius: if cloud { 1.6 } else { 3.4 } * if series.emphasis { 1.25 } else { 1.0 },
-        index: before.len(),
+        cloud,
     }
 }
 

@@ -15,6 +15,12 @@ pub(super) struct Pixels {
 }
 
 impl Pixels {
+    /// How far a line travels up and down, in pixels.
+    pub fn rise(&self, line: &[Point]) -> f64 {
+        let steps = line.windows(2).map(|pair| (pair[1][1] - pair[0][1]).abs());
+        steps.sum::<f64>() * self.per_unit[1]
+    }
+
     fn column(&self, point: Point) -> i64 {
         ((point[0] - self.origin[0]) * self.per_unit[0]).floor() as i64
     }
@@ -51,6 +57,24 @@ pub(super) fn line(points: &[Point], pixels: &Pixels, budget: usize) -> Vec<Vec<
         total if total <= budget => pieces,
         _ => vec![strided(&runs, budget)],
     }
+}
+
+/// Runs between gaps: if there are more than `most`, one for each pair of end pixels, and then only
+/// every so many.
+pub(super) fn apart<T>(
+    mut runs: Vec<Vec<T>>,
+    pixels: &Pixels,
+    most: usize,
+    point: impl Fn(&T) -> Point,
+) -> Vec<Vec<T>> {
+    if runs.len() <= most {
+        return runs;
+    }
+    let mut seen = HashSet::new();
+    let cell = |end: Option<&T>| end.map(|end| pixels.cell(point(end), 1.0));
+    runs.retain(|run| seen.insert((cell(run.first()), cell(run.last()))));
+    let stride = runs.len() / most.max(1) + 1;
+    runs.into_iter().step_by(stride).collect()
 }
 
 /// First, lowest, highest and last point of each run of points in one pixel column.
@@ -91,7 +115,7 @@ fn unseen(points: &[Point], pixels: &Pixels) -> Vec<Vec<Point>> {
 fn strided(points: &[Point], budget: usize) -> Vec<Point> {
     let extremes = extremes(points);
     let stride = points.len() / budget.max(1) + 1;
-    let kept = |i: &usize| i % stride == 0 || extremes.contains(i);
+    let kept = |i: &usize| i.is_multiple_of(stride) || extremes.contains(i);
     (0..points.len()).filter(kept).map(|i| points[i]).collect()
 }
 
@@ -116,10 +140,10 @@ pub(super) fn band(edges: &[[f64; 3]], pixels: &Pixels) -> Vec<[f64; 3]> {
         .map(widest)
         .collect();
     // The last run must reach the last point.
-    if let (Some(last), Some(end)) = (edges.last(), kept.last().copied()) {
-        if end[0] != last[0] {
-            kept.push([last[0], end[1], end[2]]);
-        }
+    if let (Some(last), Some(end)) = (edges.last(), kept.last().copied())
+        && end[0] != last[0]
+    {
+        kept.push([last[0], end[1], end[2]]);
     }
     kept
 }

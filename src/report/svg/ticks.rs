@@ -24,7 +24,12 @@ pub(super) fn ticks(scale: &Scale, unit: &str, length: f64, size: f64, along: bo
     if !scale.filled {
         return Ticks::default();
     }
-    let most = (length / if along { 65.0 } else { 34.0 }).clamp(2.0, 10.0) as usize;
+    let room = match (along, scale.log) {
+        (true, _) => 65.0,
+        (false, true) => 22.0,
+        (false, false) => 34.0,
+    };
+    let most = (length / room).clamp(2.0, 10.0) as usize;
     let fits = |ticks: &Ticks| !overlaps(ticks, scale, length, size, along);
     let tries = (2..=most).rev().map(|count| make(scale, unit, count));
     let mut last = Ticks::default();
@@ -170,10 +175,9 @@ fn decades(scale: &Scale, count: usize) -> Ticks {
     };
     Ticks {
         major: powers.map(tick).collect(),
-        minor: if stride == 1 {
-            ninths(scale)
-        } else {
-            Vec::new()
+        minor: match stride {
+            1 => ninths(scale),
+            _ => (first..=last).map(f64::from).collect(),
         },
         exponent: 0,
     }
