@@ -1,6 +1,6 @@
 use super::contract::{Card, Family, Law, Parameter, Scale};
 use super::scene::Scene;
-use super::shapes::delayed;
+use super::shapes::{delayed, smoothed};
 use crate::ground::dual::Scalar;
 
 /// The channels are not read at the same instant.
@@ -25,7 +25,13 @@ impl Law for TimeSkew {
     };
 
     fn respond<S: Scalar>(p: &[S], scene: &Scene, _elastic: &[S], out: &mut [S]) {
-        let now = out.to_vec();
-        delayed(&scene.time, &now, p[0], out);
+        // Only the change by the delay is taken from a smoothed history: a plain interpolation would
+        // average the load cell's noise away and be rewarded for that.
+        let smooth = smoothed(out);
+        let mut shifted = smooth.clone();
+        delayed(&scene.time, &smooth, p[0], &mut shifted);
+        for ((y, late), now) in out.iter_mut().zip(shifted).zip(smooth) {
+            *y += late - now;
+        }
     }
 }

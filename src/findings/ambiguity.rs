@@ -18,9 +18,16 @@ pub fn temper(nats: f64) -> f64 {
     1.0 / (1.0 + FORMULA_ERROR * FORMULA_ERROR * nats.max(0.0) / TOLERATED_NATS)
 }
 
-/// Log evidence of a set: tempered likelihood less the price of its parameters and of its causes.
+/// Log evidence of a set: tempered likelihood less the price of its amplitudes (Schwarz 1978), of
+/// its shapes (Laplace: a shape that the data do not see costs nothing) and of its causes.
 pub fn score(set: &Refined, rows: usize, temper: f64) -> f64 {
-    let price = 0.5 * set.dimension as f64 * (rows as f64).ln();
+    let amplitudes = 0.5 * set.amplitudes as f64 * (rows as f64).ln();
+    let shapes: f64 = set
+        .information
+        .iter()
+        .map(|v| 0.5 * (temper * v).ln_1p())
+        .sum();
+    let price = amplitudes + shapes + set.surprise;
     let odds = (PRIOR / (1.0 - PRIOR)).ln();
     temper * set.nats - price + set.causes.len() as f64 * odds
 }

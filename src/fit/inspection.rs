@@ -6,6 +6,7 @@ use super::screen::screen;
 use crate::measurement::load_cycle::LoadCycle;
 use crate::sheet::number::engineering;
 use crate::signal::outliers::{isolated, median, robust_std};
+use crate::signal::smooth::noise;
 
 /// What was found.
 pub struct Inspection {
@@ -36,15 +37,15 @@ pub fn inspect(file: &LoadCycle) -> Inspection {
         0.0
     };
     let rest = data.scene.time[data.cycles.first_loaded] - data.scene.time[0];
-    let mut noise = vec![local_noise(&file.load), sensor_noise(&data)];
-    noise.extend(file.second.as_ref().map(|s| local_noise(s)));
+    let mut levels = vec![noise(&file.load), sensor_noise(&data)];
+    levels.extend(file.second.as_ref().map(|s| noise(s)));
     let mut found = Inspection {
         lines: Vec::new(),
         step,
         cycles: data.cycles.count(),
         turning: data.cycles.turning.len(),
         rest,
-        noise,
+        noise: levels,
         odd: Vec::new(),
     };
     found.lines = lines(file, &found, jitter);
@@ -159,16 +160,6 @@ fn odd(file: &LoadCycle, data: &Observation, found: &Inspection, jitter: f64) ->
 fn sensor_noise(data: &Observation) -> f64 {
     let candidates = Candidates::new(crate::effects::EFFECTS, data);
     screen(data, &candidates).colour.rms
-}
-
-/// Noise from second differences (von Neumann 1941): a smooth signal leaves none.
-fn local_noise(values: &[f64]) -> f64 {
-    let second: Vec<f64> = values
-        .windows(3)
-        .map(|w| w[0] - 2.0 * w[1] + w[2])
-        .filter(|v| v.is_finite())
-        .collect();
-    robust_std(&second) / 6.0_f64.sqrt()
 }
 
 fn range(values: &[f64]) -> (f64, f64) {

@@ -94,11 +94,17 @@ fn candidates(n: usize) -> Vec<Candidate> {
         relative: vec![1.0; n],
     }];
     for correlation in [0.15, 0.3, 0.45, 0.6, 0.7, 0.8, 0.87, 0.92, 0.96, 0.985] {
-        all.push(Candidate {
-            family: "autoregressive",
-            shape: [correlation, 0.0],
-            relative: (0..n).map(|k| autoregressive(k, n, correlation)).collect(),
-        });
+        for floor in [0.0, 0.03, 0.15, 0.5] {
+            // a white floor as high as this share of the whole variance
+            let level = floor / (1.0 - correlation * correlation);
+            all.push(Candidate {
+                family: "autoregressive",
+                shape: [correlation, floor],
+                relative: (0..n)
+                    .map(|k| level + autoregressive(k, n, correlation))
+                    .collect(),
+            });
+        }
     }
     for exponent in [0.7, 1.0, 1.3, 1.7] {
         for corner in [0.003, 0.01, 0.03, 0.08, 0.2, 0.5, 1.5] {

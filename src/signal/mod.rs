@@ -3,3 +3,4 @@
 pub mod colour;
 pub mod cosine;
 pub mod outliers;
+pub mod smooth;

@@ -32,13 +32,17 @@ pub fn isolated(values: &[f64], limit: f64) -> Vec<usize> {
     if spread <= 0.0 {
         return Vec::new();
     }
-    (2..n - 2).filter(|i| beyond(values, *i) > limit * spread).collect()
+    (2..n - 2)
+        .filter(|i| beyond(values, *i) > limit * spread)
+        .collect()
 }
 
 /// How far a value lies outside the range of its four neighbours.
 fn beyond(values: &[f64], i: usize) -> f64 {
     let near = [values[i - 2], values[i - 1], values[i + 1], values[i + 2]];
-    let (low, high) = near.iter().fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
+    let (low, high) = near
+        .iter()
+        .fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
     (values[i] - high).max(low - values[i]) - (high - low)
 }
 
