@@ -69,23 +69,30 @@ impl Posterior {
             .sum()
     }
 
-    /// Causes that can stand in for `cause` in the best set: same set otherwise, with at least
-    /// `share` of the best set's probability.
-    pub fn stand_ins(&self, cause: &'static str, share: f64) -> Vec<(&'static str, f64)> {
-        let Some(best) = self.sets.first() else {
-            return Vec::new();
-        };
-        let others: Vec<_> = best.0.iter().copied().filter(|c| *c != cause).collect();
+    /// Causes that can stand in for `cause` in the set `chosen`: same set otherwise, with at least
+    /// `share` of the chosen set's probability.
+    pub fn stand_ins(
+        &self,
+        chosen: &[&'static str],
+        cause: &'static str,
+        share: f64,
+    ) -> Vec<(&'static str, f64)> {
+        let own = self
+            .sets
+            .iter()
+            .find(|s| s.0 == chosen)
+            .map_or(0.0, |s| s.1);
+        let others: Vec<_> = chosen.iter().copied().filter(|c| *c != cause).collect();
         let mut found = Vec::new();
-        for (causes, probability, _) in &self.sets[1..] {
+        for (causes, probability, _) in &self.sets {
             let extra: Vec<_> = causes
                 .iter()
                 .copied()
                 .filter(|c| !others.contains(c))
                 .collect();
             let same_rest = causes.len() == others.len() + 1 && extra.len() == 1;
-            if same_rest && extra[0] != cause && *probability >= share * best.1 {
-                found.push((extra[0], probability / (probability + best.1)));
+            if same_rest && extra[0] != cause && *probability >= share * own {
+                found.push((extra[0], probability / (probability + own)));
             }
         }
         found

@@ -8,6 +8,7 @@
 pub mod adequacy;
 pub mod ambiguity;
 pub mod diagnosis;
+pub mod discrepancy;
 pub mod gain;
 pub mod lattice;
 pub mod next;

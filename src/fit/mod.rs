@@ -8,6 +8,7 @@ pub mod normal;
 pub mod observation;
 pub mod parameter;
 pub mod screen;
+pub mod second;
 pub mod solution;
 pub mod starts;
 pub mod stiffness;

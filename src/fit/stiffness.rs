@@ -8,6 +8,7 @@ use crate::effects::Composite;
 use crate::experiments::load_cycle::{Settled, enclosed, settle, settled_cycle, straight_line};
 use crate::fit::candidates::Candidates;
 use crate::fit::screen::screen;
+use crate::fit::second::log_ratio;
 use crate::measurement::load_cycle::LoadCycle;
 
 /// What is identified when nothing else is asked for.
@@ -41,7 +42,7 @@ pub struct Account {
     pub noise: String,
     /// Straight-line stiffness.
     pub straight: f64,
-    /// Ratio of the second sensor's deflection to the first's, less one; its standard error.
+    /// Logarithm of the second sensor's deflection over the first's; its standard error.
     pub second: Option<(f64, f64)>,
     /// What needs attention, one sentence each.
     pub warnings: Vec<String>,
@@ -68,7 +69,7 @@ pub fn identify(file: &LoadCycle, request: &Request) -> Account {
     rename(&mut parameters);
     parameters.extend(derived(&solution, &data, file, (low, high)));
     let straight = straight_line(&file.load, &file.deflection);
-    let second = second_sensor(file);
+    let second = log_ratio(file);
     let mut account = Account {
         noise_rms: noise.rms,
         noise: noise.describe(),
@@ -219,35 +220,6 @@ fn propagated(solution: &Solution, slopes: &[f64]) -> f64 {
         }
     }
     variance.max(0.0).sqrt()
-}
-
-/// Ratio of the second sensor to the first by total least squares through their means.
-fn second_sensor(file: &LoadCycle) -> Option<(f64, f64)> {
-    let second = file.second.as_ref()?;
-    let both: Vec<(f64, f64)> = file
-        .deflection
-        .iter()
-        .zip(second)
-        .filter(|(_, b)| b.is_finite())
-        .map(|(a, b)| (*a, *b))
-        .collect();
-    let n = both.len() as f64;
-    if both.len() < 4 {
-        return None;
-    }
-    let (ma, mb) = (
-        both.iter().map(|v| v.0).sum::<f64>() / n,
-        both.iter().map(|v| v.1).sum::<f64>() / n,
-    );
-    let (mut aa, mut ab, mut bb) = (0.0, 0.0, 0.0);
-    for (a, b) in &both {
-        aa += (a - ma) * (a - ma);
-        ab += (a - ma) * (b - mb);
-        bb += (b - mb) * (b - mb);
-    }
-    let ratio = (bb - aa + ((bb - aa).powi(2) + 4.0 * ab * ab).sqrt()) / (2.0 * ab);
-    let left = (bb - 2.0 * ratio * ab + ratio * ratio * aa).max(0.0) / n;
-    (ratio.is_finite() && aa > 0.0).then(|| (ratio - 1.0, (left / aa).sqrt() * 2.0))
 }
 
 fn warnings(account: &Account, file: &LoadCycle) -> Vec<String> {
