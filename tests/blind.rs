@@ -152,7 +152,10 @@ fn explore() {
                     if effect == "pair" {
                         truth
                     } else {
-                        String::new()
+                        format!(
+                            "p{:.0e} u{:.2} {}",
+                            d.adequacy.p_value, d.adequacy.unexplained, d.adequacy.test
+                        )
                     }
                 ),
                 s,
@@ -178,4 +181,17 @@ fn explore() {
             );
         }
     }
+}
+#[test]
+#[ignore]
+fn dump() {
+    let effect = std::env::var("ONLY").unwrap();
+    let seed: u64 = std::env::var("SEED").unwrap().parse().unwrap();
+    let case = match effect.as_str() {
+        "clean" => blind_generator::clean(seed),
+        "pair" => blind_generator::random_pair(seed),
+        e if e.starts_with("outside") => blind_generator::outside(e, seed),
+        e => blind_generator::single(e, seed),
+    };
+    std::fs::write("/tmp/case.csv", &case.csv).unwrap();
 }

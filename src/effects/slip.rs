@@ -34,7 +34,7 @@ impl Law for Slip {
                 meaning: "how long it took",
                 scale: Scale::Duration,
                 bounds: (1e-4, 0.04),
-                grid: &[0.004],
+                grid: &[0.016],
             },
         ],
     };

@@ -3,7 +3,7 @@
 use super::adequacy::{self, Adequacy};
 use super::ambiguity::{Posterior, temper};
 use super::discrepancy::{Discrepancy, Structure};
-use super::gain::{Gain, gain, held_out};
+use super::gain::{Gain, Split, gain, held_out};
 use super::refine::{Refined, refine, refine_from};
 use super::scales::{self, ScaleFinding};
 use super::search::search;
@@ -135,9 +135,12 @@ const SIGNIFICANT: f64 = 1e-4;
 /// ... and the unexplained share exceeds this.
 const MATTERS: f64 = 0.1;
 /// With more than this share unexplained the causes found are not the story.
-const NOT_THE_STORY: f64 = 0.35;
-/// Steps of a lattice above this many times the noise are coarse.
-const COARSE: f64 = 1.6;
+const NOT_THE_STORY: f64 = 0.2;
+/// Steps of a lattice above this many times the noise at high frequency are coarse: their rounding,
+/// step/√12, is then half of it or more.
+const COARSE: f64 = 1.73;
+/// Share of a coarse step that an effect must move the readings to be seen.
+const HALF_STEP: f64 = 0.3;
 /// Sets refined beyond the single causes.
 const REFINED_PAIRS: usize = 14;
 
@@ -150,6 +153,8 @@ struct Case<'a> {
     posterior: Posterior,
     base: f64,
     plain: Refined,
+    /// Step of a coarse lattice of readings.
+    step: Option<f64>,
 }
 
 /// Diagnoses one file.
@@ -185,8 +190,10 @@ fn compare<'a>(file: &'a LoadCycle, settings: &Settings) -> Case<'a> {
         normal.base,
         12,
     );
+    let step = lattice::step(&file.deflection).filter(|s| *s > COARSE * screen.colour.floor());
     Case {
         file,
+        step,
         data,
         screen,
         refined,
@@ -220,7 +227,7 @@ impl Case<'_> {
             let real = set
                 .causes
                 .iter()
-                .all(|cause| self.gain_of(set, cause).is_real());
+                .all(|cause| self.is_real(&self.gain_of(set, cause)));
             if real || *probability < 1e-9 {
                 return if real {
                     set.clone()
@@ -232,12 +239,45 @@ impl Case<'_> {
         self.plain.clone()
     }
 
-    /// Gain of one cause: the set without it against the set.
+    /// A gain that chance and a coarse lattice of readings do not explain.
+    fn is_real(&self, gain: &Gain) -> bool {
+        let lifted = (gain.before * gain.before - gain.after * gain.after)
+            .max(0.0)
+            .sqrt();
+        gain.is_real() && self.step.is_none_or(|step| lifted > HALF_STEP * step)
+    }
+
+    /// Gain of one cause, the set without it against the set: on unseen cycles, or, for what happened
+    /// once, on unseen pieces of cycles.
     fn gain_of(&self, set: &Refined, cause: &str) -> Gain {
         let without = self.without(set, cause);
-        let before = held_out(&without.0, &without.1, &self.data, &self.screen.colour);
-        let after = held_out(&set.model, &set.optimum.p, &self.data, &self.screen.colour);
-        gain(&before, &after, &self.data, &self.screen.colour)
+        let on = |split: Split| {
+            let before = held_out(
+                &without.0,
+                &without.1,
+                &self.data,
+                &self.screen.colour,
+                split,
+            );
+            let after = held_out(
+                &set.model,
+                &set.optimum.p,
+                &self.data,
+                &self.screen.colour,
+                split,
+            );
+            gain(&before, &after, &self.data, &self.screen.colour)
+        };
+        let cycles = on(Split::Cycles);
+        if self.is_real(&cycles) {
+            return cycles;
+        }
+        let pieces = on(Split::Pieces);
+        if self.is_real(&pieces) {
+            pieces
+        } else {
+            cycles
+        }
     }
 
     /// The set less one cause: refined if it was compared, else as it stands.
@@ -447,6 +487,7 @@ impl Case<'_> {
             &chosen.optimum.p,
             &self.data,
             &self.screen.colour,
+            Split::Cycles,
         );
         let wrong = excess / (1.0 + excess);
         let before: Vec<f64> = after
@@ -458,9 +499,7 @@ impl Case<'_> {
     }
 
     fn name_lattice(&self) -> Named {
-        let step =
-            lattice::step(&self.file.deflection).filter(|s| *s > COARSE * self.screen.colour.rms);
-        let causes = step.map(|step| {
+        let causes = self.step.map(|step| {
             let rms = self.screen.colour.rms.max(step / 12.0_f64.sqrt());
             let finer = (rms * rms - step * step / 12.0)
                 .max(0.04 * rms * rms)
@@ -506,7 +545,9 @@ impl Case<'_> {
             &self.screen,
             &self.data,
         );
-        let left = adequacy.p_value < SIGNIFICANT && adequacy.unexplained > MATTERS;
+        let left = adequacy.p_value < SIGNIFICANT
+            && adequacy.unexplained > MATTERS
+            && !self.within_step(&chosen);
         named.causes.sort_by(|a, b| {
             b.gain
                 .reduction_percent
@@ -555,6 +596,21 @@ impl Case<'_> {
             noise: self.screen.colour.describe(),
             data: self.data,
         }
+    }
+
+    /// Whether all that is left is smaller than a coarse lattice makes it.
+    fn within_step(&self, chosen: &Refined) -> bool {
+        let fitted = chosen.model.predict(&chosen.optimum.p, &self.data.scene);
+        let square = |(y, f): (&f64, &f64)| (y - f) * (y - f);
+        let left = self
+            .data
+            .reading
+            .iter()
+            .zip(&fitted)
+            .map(square)
+            .sum::<f64>()
+            / fitted.len().max(1) as f64;
+        self.step.is_some_and(|step| left.sqrt() < 0.5 * step)
     }
 
     /// The stiffness that the present simulation uses: the nominal one where its stated spread does

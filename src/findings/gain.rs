@@ -26,20 +26,33 @@ impl Gain {
     }
 }
 
+/// Which rows are predicted from which.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Split {
+    /// Whole cycles are held out: what repeats must be predicted where it was not seen.
+    Cycles,
+    /// Pieces of every cycle are held out: for what happens once and is not in every cycle.
+    Pieces,
+}
+
 /// Most folds: beyond, neighbouring cycles are held out together.
 const FOLDS: usize = 4;
+/// Pieces per cycle of [`Split::Pieces`].
+const PIECES: usize = 8;
 
-/// Rows of each fold: whole cycles; halves where there is only one.
-pub fn folds(data: &Observation) -> Vec<Vec<bool>> {
+/// Rows of each fold.
+fn folds(data: &Observation, split: Split) -> Vec<Vec<bool>> {
     let n = data.rows();
     let cycles = data.cycles.count();
-    let part: Vec<usize> = match cycles {
-        0 | 1 => (0..n).map(|i| 2 * i / n.max(1)).collect(),
-        _ => data
+    let part: Vec<usize> = match split {
+        Split::Cycles if cycles > 1 => data
             .cycles
             .of_row
             .iter()
             .map(|c| c * cycles.min(FOLDS) / cycles)
+            .collect(),
+        _ => (0..n)
+            .map(|i| i * PIECES * cycles / n.max(1) % FOLDS)
             .collect(),
     };
     let count = part.iter().max().map_or(1, |m| m + 1);
@@ -49,9 +62,15 @@ pub fn folds(data: &Observation) -> Vec<Vec<bool>> {
 }
 
 /// Prediction error of a model on every row, each row predicted from the folds it is not in.
-pub fn held_out(model: &Composite, start: &[f64], data: &Observation, colour: &Colour) -> Vec<f64> {
+pub fn held_out(
+    model: &Composite,
+    start: &[f64],
+    data: &Observation,
+    colour: &Colour,
+    split: Split,
+) -> Vec<f64> {
     let mut error = vec![0.0; data.rows()];
-    for fold in folds(data) {
+    for fold in folds(data, split) {
         let problem = Problem {
             model,
             data,

@@ -1,36 +1,39 @@
 //! Quantisation: the lattice of distinct values.
 
-/// Step of the lattice on which the values lie, if they do: the smallest distance between
+/// Step of the lattice on which the values lie, if they do: the largest distance between
 /// neighbouring distinct values that explains nearly all the others as its multiples.
 pub fn step(values: &[f64]) -> Option<f64> {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);
     let range = sorted.last()? - sorted.first()?;
-    if range <= 0.0 {
-        return None;
-    }
-    let gaps: Vec<f64> = sorted
+    let mut gaps: Vec<f64> = sorted
         .windows(2)
         .map(|w| w[1] - w[0])
-        .filter(|g| *g > 1e-9 * range)
+        .filter(|g| *g > 1e-7 * range)
         .collect();
-    let mut ascending = gaps.clone();
-    ascending.sort_by(f64::total_cmp);
-    // rounding of the printed digits spreads a step a little: take the low quartile of the gaps
-    let first = *ascending.get(ascending.len() / 4)?;
+    gaps.sort_by(f64::total_cmp);
+    let at = |share: f64| gaps.get((share * gaps.len() as f64) as usize).copied();
+    // rounding of the printed digits spreads a step a little, so several quantiles are tried
+    [0.3, 0.1, 0.03, 0.0]
+        .into_iter()
+        .filter_map(at)
+        .find_map(|first| lattice_of(&gaps, first))
+}
+
+/// The step near `first`, if nearly all gaps are its multiples.
+fn lattice_of(gaps: &[f64], first: f64) -> Option<f64> {
     let near: Vec<f64> = gaps
         .iter()
         .copied()
-        .filter(|g| (g / first - 1.0).abs() < 0.2)
+        .filter(|g| (g / first - 1.0).abs() < 0.15)
         .collect();
     let step = near.iter().sum::<f64>() / near.len().max(1) as f64;
     let multiple = |g: &&f64| {
         let k = (**g / step).round();
-        k >= 1.0 && (**g - k * step).abs() < 0.2 * step
+        k >= 1.0 && (**g - k * step).abs() < (0.05 + 0.01 * k) * step
     };
     let share = gaps.iter().filter(multiple).count() as f64 / gaps.len().max(1) as f64;
-    let repeats = 1.0 - gaps.len() as f64 / values.len() as f64;
-    (share > 0.97 && repeats > 0.2).then_some(step)
+    (gaps.len() >= 10 && share > 0.95).then_some(step)
 }
 
 #[cfg(test)]

@@ -54,6 +54,13 @@ impl Colour {
         }
     }
 
+    /// Standard deviation per sample of the least noisy tenth of the band: where white noise shows.
+    pub fn floor(&self) -> f64 {
+        let mut sorted = self.sigma.clone();
+        sorted.sort_by(f64::total_cmp);
+        sorted.get(sorted.len() / 10).copied().unwrap_or(0.0)
+    }
+
     /// Divides cosine coefficients by their noise.
     pub fn whiten(&self, coefficients: &mut [f64]) {
         for (c, s) in coefficients.iter_mut().zip(&self.sigma) {
