@@ -1,5 +1,7 @@
 //! Floor 9: one file per verb. A new verb is one file, one `mod` line and one line in [`VERBS`].
 
+mod diagnose;
+mod effects;
 mod inspect;
 mod lab;
 mod output;
@@ -31,7 +33,13 @@ pub struct Verb {
 }
 
 /// Every verb, in the order of the help text.
-pub const VERBS: &[Verb] = &[inspect::VERB, stiffness::VERB, lab::VERB];
+pub const VERBS: &[Verb] = &[
+    inspect::VERB,
+    stiffness::VERB,
+    diagnose::VERB,
+    effects::VERB,
+    lab::VERB,
+];
 
 /// Adds the arguments of a derived `Args` type: the usual [`Verb::arguments`].
 pub fn arguments<A: Args>(command: Command) -> Command {

@@ -11,6 +11,7 @@ pub mod diagnosis;
 pub mod discrepancy;
 pub mod gain;
 pub mod lattice;
+pub mod look_alikes;
 pub mod next;
 pub mod refine;
 pub mod scales;

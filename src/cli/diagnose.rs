@@ -1,0 +1,497 @@
+//! `ident diagnose`: what the simulation gets wrong, and why.
+
+use super::output::{print, tell};
+use super::progress::Progress;
+use super::{Ending, Verb, arguments, parsed};
+use crate::experiments::load_cycle::Curves;
+use crate::findings::{Diagnosis, Settings, Verdict, diagnose, sentence::sentence};
+use crate::fit::store::{SCHEMA, StoredFit, stored_effects, stored_scale};
+use crate::ground::files;
+use crate::ground::problem::Outcome;
+use crate::measurement::load_cycle::LoadCycle;
+use crate::measurement::workspace::{Place, resolve};
+use crate::report::{html, json, svg, text};
+use crate::sheet::chart::{Axis, Chart, Panel, Series};
+use crate::sheet::number::{engineering, prefix, significant};
+use crate::sheet::page::{Block, Page, Tone};
+use crate::sheet::table::Table;
+use clap::{ArgMatches, Args};
+use rayon::prelude::*;
+use serde_json::{Map, Value, json};
+use std::path::{Path, PathBuf};
+
+/// The verb.
+pub const VERB: Verb = Verb {
+    name: "diagnose",
+    about: "Show what the simulation gets wrong, name the cause, and measure the gain on unseen data",
+    arguments: arguments::<Arguments>,
+    run,
+};
+
+#[derive(Args)]
+struct Arguments {
+    /// Measurement files of kind load-cycle; a bare name is looked up under measurements/
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// Print one JSON document instead of the account
+    #[arg(long)]
+    json: bool,
+    /// Write no model and no report
+    #[arg(long)]
+    dry_run: bool,
+    /// Report progress on standard error even without a terminal
+    #[arg(long)]
+    progress: bool,
+}
+
+struct Diagnosed {
+    file: LoadCycle,
+    place: Place,
+    found: Diagnosis,
+}
+
+fn run(matches: &ArgMatches) -> Outcome<Ending> {
+    let arguments: Arguments = parsed(matches);
+    let progress = Progress::new(arguments.files.len(), arguments.progress);
+    let results = arguments
+        .files
+        .par_iter()
+        .map(|name| {
+            let one = one(name);
+            progress.done(&name.display().to_string());
+            one
+        })
+        .collect::<Outcome<Vec<Diagnosed>>>()?;
+    progress.finish();
+    if !arguments.dry_run {
+        write(&results)?;
+    }
+    let said = if arguments.json {
+        as_json(&results, arguments.dry_run)
+    } else {
+        as_text(&results, arguments.dry_run)
+    };
+    print(&said)?;
+    let fine = results
+        .iter()
+        .all(|r| r.found.verdict == Verdict::Sufficient);
+    Ok(if fine {
+        Ending::Done
+    } else {
+        Ending::Attention
+    })
+}
+
+fn one(name: &Path) -> Outcome<Diagnosed> {
+    let (path, said) = resolve(name)?;
+    said.iter().for_each(|s| tell(s));
+    let file = LoadCycle::read(&path)?;
+    let found = diagnose(&file, &Settings::default());
+    Ok(Diagnosed {
+        place: Place::of(&path),
+        file,
+        found,
+    })
+}
+
+impl Diagnosed {
+    fn model_path(&self) -> PathBuf {
+        self.place
+            .fits()
+            .join(format!("{}-extended.toml", self.file.stem()))
+    }
+
+    fn stored(&self) -> StoredFit {
+        StoredFit {
+            schema: SCHEMA.into(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            input: self
+                .file
+                .path
+                .file_name()
+                .map(|n| n.to_string_lossy().to_string())
+                .unwrap_or_default(),
+            input_sha256: self.file.sha256.clone(),
+            synthetic: self.file.facts.synthetic,
+            site: self.file.site(),
+            model: stored_effects(&self.found.model, &self.found.p),
+            scale: stored_scale(&self.found.data.scene),
+            parameters: Vec::new(),
+        }
+    }
+
+    fn tone(&self) -> Tone {
+        match self.found.verdict {
+            Verdict::Sufficient => Tone::Good,
+            Verdict::Explained => Tone::Neutral,
+            Verdict::PartlyExplained | Verdict::CannotTell => Tone::Attention,
+            Verdict::UnknownCause => Tone::Bad,
+        }
+    }
+}
+
+fn write(results: &[Diagnosed]) -> Outcome<()> {
+    let inked: Vec<(PathBuf, String)> = results
+        .par_iter()
+        .map(ink)
+        .collect::<Outcome<Vec<_>>>()?
+        .concat();
+    for (path, content) in inked {
+        files::replace(&path, content.as_bytes())?;
+    }
+    Ok(())
+}
+
+fn ink(result: &Diagnosed) -> Outcome<Vec<(PathBuf, String)>> {
+    let page = page(result);
+    let reports = result.place.reports();
+    let mut out = vec![(result.model_path(), result.stored().text()?)];
+    for (stem, chart) in page.figures() {
+        out.push((reports.join(format!("{stem}.svg")), svg::ink(chart)?));
+    }
+    out.push((
+        reports.join(format!("{}-diagnosis.html", result.file.stem())),
+        html::ink(&page)?,
+    ));
+    Ok(out)
+}
+
+/// The report: what is wrong, why, how sure, what it gained, what remains, what to measure next.
+fn page(result: &Diagnosed) -> Page {
+    let file = &result.file;
+    let subtitle = format!(
+        "{} of {}",
+        file.site(),
+        file.facts.robot.as_deref().unwrap_or("unnamed robot")
+    );
+    let mut page = Page::new(format!("Diagnosis of {}", file.stem()), subtitle);
+    page.synthetic = file.facts.synthetic;
+    page = page
+        .with(Block::verdict(result.tone(), sentence(&result.found)))
+        .with(Block::heading(
+            "What the simulation shows and what was measured",
+        ))
+        .with(Block::Chart(before_and_after(result)));
+    if !result.found.causes.is_empty() || !result.found.groups.is_empty() {
+        page = page
+            .with(Block::heading("Why"))
+            .with(Block::Table(causes_table(result)));
+    }
+    page = page
+        .with(Block::heading("What was compared"))
+        .with(Block::Table(candidates_table(result)))
+        .with(Block::heading("What remains"))
+        .with(Block::text(format!(
+            "{} % of the discrepancy's variance is left; noise: {}.",
+            significant(100.0 * result.found.unexplained.share_of_variance, 2),
+            result.found.noise
+        )))
+        .with(Block::Chart(remaining(result)));
+    page
+}
+
+fn curves<'a>(result: &'a Diagnosed, model: &'a [f64], name: &'a str) -> Curves<'a> {
+    Curves {
+        file: &result.file,
+        time: &result.found.data.scene.time,
+        load: &result.found.data.scene.load,
+        reading: &result.found.data.reading,
+        model,
+        name,
+    }
+}
+
+/// Measured against simulated, and the residual before and after.
+fn before_and_after(result: &Diagnosed) -> Chart {
+    let found = &result.found;
+    let mut chart = curves(result, &found.simulated, "present simulation").chart(
+        &format!("{}-diagnosis", result.file.stem()),
+        "measured against simulated",
+    );
+    let after = curves(result, &found.extended, "extended model").chart("after", "after");
+    for (panel, extended) in chart.panels.iter_mut().zip(after.panels).skip(1) {
+        panel.series[0].name = "measured − present simulation".into();
+        if let Some(mut series) = extended.series.into_iter().next() {
+            series.name = "measured − extended model".into();
+            // both residuals in the units of the first
+            let scale =
+                residual_scale(result, &found.simulated) / residual_scale(result, &found.extended);
+            series.points.iter_mut().for_each(|p| p[1] *= scale);
+            panel.series.push(series.emphasised());
+        }
+    }
+    chart
+}
+
+/// Factor that the chart of a model's residual applies to SI.
+fn residual_scale(result: &Diagnosed, model: &[f64]) -> f64 {
+    let largest = result
+        .found
+        .data
+        .reading
+        .iter()
+        .zip(model)
+        .fold(0.0_f64, |m, (y, f)| m.max((y - f).abs()));
+    prefix(largest, result.found.unit).0
+}
+
+fn remaining(result: &Diagnosed) -> Chart {
+    let shape = &result.found.unexplained;
+    let largest = shape
+        .shape
+        .iter()
+        .chain(&shape.over_time)
+        .fold(0.0_f64, |m, p| m.max(p[1].abs()));
+    let load = result.found.data.scene.load_scale;
+    let (ys, yu) = prefix(largest, result.found.unit);
+    let (xs, xu) = prefix(load, result.file.port.load_unit());
+    let scaled = |points: &[[f64; 2]], xs: f64| {
+        points
+            .iter()
+            .map(|p| [p[0] * xs, p[1] * ys])
+            .collect::<Vec<_>>()
+    };
+    let axis = || Axis::new("Mean residual", yu.clone());
+    Chart::new(
+        format!("{}-remaining", result.file.stem()),
+        "What no named cause explains",
+        "Mean of measured − extended model in twelve bins.",
+    )
+    .synthetic(result.file.facts.synthetic)
+    .with(
+        Panel::new(Axis::new(result.file.port.load_name(), xu), axis())
+            .with(Series::line("mean residual", scaled(&shape.shape, xs))),
+    )
+    .with(
+        Panel::new(Axis::new("Time", "s"), axis())
+            .with(Series::line("mean residual", scaled(&shape.over_time, 1.0))),
+    )
+}
+
+fn causes_table(result: &Diagnosed) -> Table {
+    let header = [
+        "cause",
+        "site",
+        "probability",
+        "parameters",
+        "error before",
+        "after",
+        "reduction (95 %)",
+        "would tell",
+    ];
+    let mut table = Table::new(
+        "Causes, in order of gain on cycles that were not fitted",
+        header,
+    )
+    .numeric([2, 4, 5]);
+    let unit = result.found.unit;
+    for cause in &result.found.causes {
+        let parameters: Vec<String> = cause
+            .parameters
+            .iter()
+            .map(|(name, value, unit)| {
+                format!(
+                    "{name} {}",
+                    engineering(*value, 3, if *unit == "1" { "" } else { unit })
+                )
+            })
+            .collect();
+        table.push([
+            cause.effect.to_string(),
+            cause.site.clone(),
+            format!("{:.0} %", 100.0 * cause.probability),
+            parameters.join(", "),
+            engineering(cause.gain.before, 3, unit),
+            engineering(cause.gain.after, 3, unit),
+            reduction(&cause.gain),
+            String::new(),
+        ]);
+    }
+    for group in &result.found.groups {
+        table.push([
+            format!("one of {}", group.effects.join(", ")),
+            group.sites.join(", "),
+            String::new(),
+            String::new(),
+            engineering(group.gain.before, 3, unit),
+            engineering(group.gain.after, 3, unit),
+            reduction(&group.gain),
+            group.would_tell.clone(),
+        ]);
+    }
+    table
+}
+
+fn reduction(gain: &crate::findings::gain::Gain) -> String {
+    format!(
+        "{:.1} % [{:.1}, {:.1}]",
+        gain.reduction_percent, gain.ci95_percent[0], gain.ci95_percent[1]
+    )
+}
+
+fn candidates_table(result: &Diagnosed) -> Table {
+    let mut table = Table::new(
+        "Sets of causes, most probable first",
+        ["causes", "probability", "misfit explained in nats"],
+    )
+    .numeric([1, 2]);
+    for (causes, probability, nats) in &result.found.candidates {
+        let name = if causes.is_empty() {
+            "none".to_string()
+        } else {
+            causes.join(" + ")
+        };
+        table.push([
+            name,
+            format!("{:.2} %", 100.0 * probability),
+            format!("{nats:.1}"),
+        ]);
+    }
+    table
+}
+
+fn as_text(results: &[Diagnosed], dry: bool) -> String {
+    let mut said = String::new();
+    for result in results {
+        let label = if result.file.facts.synthetic {
+            " (synthetic)"
+        } else {
+            ""
+        };
+        said.push_str(&format!(
+            "{}{label}: {}\n",
+            result.file.path.display(),
+            result.found.verdict.name()
+        ));
+        said.push_str(&format!("  {}\n", sentence(&result.found)));
+        if results.len() == 1 {
+            if !result.found.causes.is_empty() || !result.found.groups.is_empty() {
+                said.push_str(&format!("\n{}", text::table(&causes_table(result))));
+            }
+            said.push_str(&format!("\n{}", text::table(&candidates_table(result))));
+        }
+        if !dry {
+            let report = result
+                .place
+                .reports()
+                .join(format!("{}-diagnosis.html", result.file.stem()));
+            said.push_str(&format!(
+                "  model {}, report {}\n",
+                result.model_path().display(),
+                report.display()
+            ));
+        }
+    }
+    said
+}
+
+fn as_json(results: &[Diagnosed], dry: bool) -> String {
+    let inputs: Vec<(&Path, &str)> = results
+        .iter()
+        .map(|r| (r.file.path.as_path(), r.file.sha256.as_str()))
+        .collect();
+    let mut map = json::head("diagnose", &inputs);
+    map.insert("kind".into(), json!("load-cycle"));
+    match results {
+        [one] => map.extend(body(one, dry)),
+        many => {
+            let list = many.iter().map(|r| {
+                let mut one = body(r, dry);
+                one.insert("file".into(), json!(r.file.path.display().to_string()));
+                Value::Object(one)
+            });
+            map.insert("results".into(), Value::Array(list.collect()));
+        }
+    }
+    json::print(map)
+}
+
+fn body(result: &Diagnosed, dry: bool) -> Map<String, Value> {
+    let found = &result.found;
+    let mut map = Map::new();
+    let mut put = |key: &str, value: Value| map.insert(key.into(), value);
+    put("synthetic", json!(result.file.facts.synthetic));
+    put("verdict", json!(found.verdict.name()));
+    put("sentence", json!(sentence(found)));
+    put(
+        "discrepancy",
+        json!({
+            "rms": found.discrepancy.rms,
+            "noise_rms": found.discrepancy.noise_rms,
+            "unit": found.unit,
+            "where": found.discrepancy.place,
+            "noise": found.noise,
+        }),
+    );
+    put("causes", causes_json(result));
+    put("cannot_separate", groups_json(result));
+    put(
+        "unexplained",
+        json!({
+            "share_of_variance": found.unexplained.share_of_variance,
+            "shape": found.unexplained.shape,
+            "shape_over_time": found.unexplained.over_time,
+            "p_value": found.adequacy.p_value,
+            "description": found.unexplained.description,
+        }),
+    );
+    let candidates = found
+        .candidates
+        .iter()
+        .map(|(c, p, n)| json!({"effects": c, "probability": p, "nats": n}));
+    put("candidates", Value::Array(candidates.collect()));
+    put(
+        "model",
+        if dry {
+            Value::Null
+        } else {
+            json!(result.model_path().display().to_string())
+        },
+    );
+    map
+}
+
+fn gain_json(gain: &crate::findings::gain::Gain) -> Value {
+    json!({
+        "held_out_rms_before": gain.before,
+        "held_out_rms_after": gain.after,
+        "reduction_percent": gain.reduction_percent,
+        "ci95_percent": gain.ci95_percent,
+    })
+}
+
+fn causes_json(result: &Diagnosed) -> Value {
+    let causes = result.found.causes.iter().map(|cause| {
+        let alternatives: Vec<Value> = cause
+            .alternatives
+            .iter()
+            .map(|(effect, probability)| json!({"effect": effect, "site": cause.site, "probability": probability}))
+            .collect();
+        let parameters: Vec<Value> = cause
+            .parameters
+            .iter()
+            .map(|(name, value, unit)| json!({"name": name, "site": cause.site, "value": value, "unit": unit}))
+            .collect();
+        json!({
+            "effect": cause.effect,
+            "site": cause.site,
+            "probability": cause.probability,
+            "alternatives": alternatives,
+            "parameters": parameters,
+            "gain": gain_json(&cause.gain),
+        })
+    });
+    Value::Array(causes.collect())
+}
+
+fn groups_json(result: &Diagnosed) -> Value {
+    let groups = result.found.groups.iter().map(|group| {
+        json!({
+            "effects": group.effects,
+            "sites": group.sites,
+            "would_tell": group.would_tell,
+            "gain": gain_json(&group.gain),
+        })
+    });
+    Value::Array(groups.collect())
+}
