@@ -135,7 +135,20 @@ fn explore() {
             }
             let d = run(&case);
             if debug {
-                eprintln!("  => {} {:?}", answer(&d), d.adequacy);
+                eprintln!(
+                    "  => {} {:?} noise {:.2e} {}",
+                    answer(&d),
+                    d.adequacy,
+                    d.discrepancy.noise_rms,
+                    d.noise
+                );
+                for (c, p, n) in d.candidates.iter().take(6) {
+                    eprintln!("     {p:.4} {c:?} {n:.1}");
+                }
+                for c in &d.causes {
+                    eprintln!("     {} {:?} {:?}", c.effect, c.parameters, c.gain);
+                }
+                eprintln!("     p {:?}", d.p);
             }
             let truth = case
                 .truths

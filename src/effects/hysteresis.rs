@@ -37,15 +37,15 @@ impl Law for Hysteresis {
                 name: "spread",
                 meaning: "power of the distribution of slip loads (1: even; below: many slip at once; above: few slip early)",
                 scale: Scale::One,
-                bounds: (0.5, 1.6),
+                bounds: (0.5, 1.8),
                 grid: &[1.0],
             },
             Parameter {
                 name: "tilt",
                 meaning: "whether more contacts slip early (negative) or late (positive)",
                 scale: Scale::One,
-                bounds: (-5.0, 2.5),
-                grid: &[-3.0, -1.0, 1.2],
+                bounds: (-5.0, 4.0),
+                grid: &[-3.0, -0.5, 2.0],
             },
         ],
     };

@@ -27,7 +27,11 @@ impl Law for TimeSkew {
     fn respond<S: Scalar>(p: &[S], scene: &Scene, _elastic: &[S], out: &mut [S]) {
         // Only the change by the delay is taken from a smoothed history: a plain interpolation would
         // average the load cell's noise away and be rewarded for that.
-        let smooth = smoothed(out);
+        let smooth = if scene.quiet_load {
+            out.to_vec()
+        } else {
+            smoothed(out)
+        };
         let mut shifted = smooth.clone();
         delayed(&scene.time, &smooth, p[0], &mut shifted);
         for ((y, late), now) in out.iter_mut().zip(shifted).zip(smooth) {

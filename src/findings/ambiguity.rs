@@ -8,7 +8,7 @@ const PRIOR: f64 = 0.08;
 
 /// A law that misses the truth by this share of its own size still counts as right: nature does not
 /// follow our formulas exactly (coarsened likelihood, Miller and Dunson 2019).
-const FORMULA_ERROR: f64 = 0.05;
+const FORMULA_ERROR: f64 = 0.07;
 
 /// Nats that such a misfit is worth at most.
 const TOLERATED_NATS: f64 = 5.0;
@@ -58,6 +58,12 @@ impl Posterior {
             .collect();
         sets.sort_by(|a, b| b.1.total_cmp(&a.1));
         Self { sets }
+    }
+
+    /// Probability that any of some causes is present.
+    pub fn any_of(&self, causes: &[&str]) -> f64 {
+        let has = |set: &[&'static str]| set.iter().any(|c| causes.contains(c));
+        self.sets.iter().filter(|s| has(&s.0)).map(|s| s.1).sum()
     }
 
     /// Probability that a cause is present.

@@ -130,6 +130,8 @@ impl Default for Settings {
 
 /// A stand-in with at least this share of the winner's probability cannot be ruled out.
 const AMBIGUOUS: f64 = 0.05;
+/// Probability that a cause or one of its stand-ins is present, below which it is not named.
+const NEEDED: f64 = 0.9;
 /// Structure counts as left when a test is below this p-value ...
 const SIGNIFICANT: f64 = 1e-4;
 /// ... and the unexplained share exceeds this.
@@ -218,22 +220,21 @@ impl Named {
 }
 
 impl Case<'_> {
-    /// The most probable set whose every cause gains on unseen cycles.
+    /// The most probable set, less the causes that gain nothing on unseen data.
     fn choose(&self) -> Refined {
-        for (_, probability, index) in &self.posterior.sets {
-            let Some(set) = index.map(|i| &self.refined[i]) else {
-                return self.plain.clone();
+        let best = self.posterior.sets.first().and_then(|s| s.2);
+        let mut set = match best {
+            Some(index) => self.refined[index].clone(),
+            None => return self.plain.clone(),
+        };
+        while !set.causes.is_empty() {
+            let real = |cause: &&&'static str| {
+                self.is_needed(&set, cause) && self.is_real(&self.gain_of(&set, cause))
             };
-            let real = set
-                .causes
-                .iter()
-                .all(|cause| self.is_real(&self.gain_of(set, cause)));
-            if real || *probability < 1e-9 {
-                return if real {
-                    set.clone()
-                } else {
-                    self.plain.clone()
-                };
+            let unreal = set.causes.iter().find(|cause| !real(cause)).copied();
+            match unreal {
+                None => return set,
+                Some(cause) => set = self.reduced(&set, cause),
             }
         }
         self.plain.clone()
@@ -266,7 +267,7 @@ impl Case<'_> {
                 &self.screen.colour,
                 split,
             );
-            gain(&before, &after, &self.data, &self.screen.colour)
+            gain(&before, &after, &self.data)
         };
         let cycles = on(Split::Cycles);
         if self.is_real(&cycles) {
@@ -278,6 +279,21 @@ impl Case<'_> {
         } else {
             cycles
         }
+    }
+
+    /// Whether some set without this cause and without a stand-in for it would do as well.
+    fn is_needed(&self, set: &Refined, cause: &'static str) -> bool {
+        let stand_ins = self.posterior.stand_ins(&set.causes, cause, AMBIGUOUS);
+        let family: Vec<&str> = std::iter::once(cause)
+            .chain(stand_ins.iter().map(|s| s.0))
+            .collect();
+        self.posterior.any_of(&family) > NEEDED
+    }
+
+    /// The set less one cause, refined.
+    fn reduced(&self, set: &Refined, cause: &str) -> Refined {
+        let (model, p) = self.without(set, cause);
+        refine_from(model, &p, &self.data, &self.screen.colour, self.base, 12)
     }
 
     /// The set less one cause: refined if it was compared, else as it stands.
@@ -495,7 +511,7 @@ impl Case<'_> {
             .zip(&self.data.reading)
             .map(|(a, y)| a + wrong * (y - a))
             .collect();
-        gain(&before, &after, &self.data, &self.screen.colour)
+        gain(&before, &after, &self.data)
     }
 
     fn name_lattice(&self) -> Named {
@@ -569,7 +585,7 @@ impl Case<'_> {
                 .map(|(y, f)| y - f)
                 .collect::<Vec<f64>>()
         };
-        let noise = self.screen.colour.rms;
+        let noise = self.screen.colour.rms.min(rms(&difference(&extended)));
         let discrepancy = Discrepancy::of(&difference(&simulated), &self.data, noise);
         let before = discrepancy.rms * discrepancy.rms;
         let unexplained = Structure::of(
@@ -631,6 +647,10 @@ impl Case<'_> {
             .map(|(c, p, i)| (c.clone(), *p, nats(i)))
             .collect()
     }
+}
+
+fn rms(values: &[f64]) -> f64 {
+    (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
 }
 
 fn verdict(named: &Named, left: bool, adequacy: &Adequacy) -> Verdict {

@@ -96,17 +96,15 @@ pub fn held_out(
 /// Gain from errors before and after, row by row. The interval follows from the noise's own
 /// fluctuation: with errors a (after) and b = a + d, A = mean a², B = mean b², noise of spectrum s,
 /// var A = 2Σs²/n², var B = var A + 4ΣD²s/n², cov = var A, by the delta method on ½ ln(B/A).
-pub fn gain(before: &[f64], after: &[f64], data: &Observation, colour: &Colour) -> Gain {
+pub fn gain(before: &[f64], after: &[f64], data: &Observation) -> Gain {
     let n = before.len() as f64;
     let square = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>() / n;
     let (b, a) = (square(before), square(after).max(f64::MIN_POSITIVE));
     let mut lifted: Vec<f64> = before.iter().zip(after).map(|(x, y)| x - y).collect();
     data.cosine.transform(&mut lifted);
-    // the colour's size is taken from the errors themselves: they are what fluctuates
-    let scale = a / (colour.sigma.iter().map(|s| s * s).sum::<f64>() / n);
-    let spectrum = colour.sigma.iter().map(|s| s * s * scale);
+    let spectrum = spectrum(after, data);
     let (mut ss, mut ds) = (0.0, 0.0);
-    for (s, d) in spectrum.zip(&lifted) {
+    for (s, d) in spectrum.iter().zip(&lifted) {
         ss += s * s;
         ds += d * d * s;
     }
@@ -121,4 +119,21 @@ pub fn gain(before: &[f64], after: &[f64], data: &Observation, colour: &Colour) 
         reduction_percent: percent(middle),
         ci95_percent: [percent(middle - half), percent(middle + half)],
     }
+}
+
+/// Half width of the smoothing of a periodogram, lines.
+const SMOOTHING: usize = 4;
+
+/// Smoothed periodogram of errors: the noise as these errors show it.
+fn spectrum(errors: &[f64], data: &Observation) -> Vec<f64> {
+    let mut power = errors.to_vec();
+    data.cosine.transform(&mut power);
+    power.iter_mut().for_each(|c| *c *= *c);
+    let n = power.len();
+    (0..n)
+        .map(|k| {
+            let near = &power[k.saturating_sub(SMOOTHING)..(k + SMOOTHING + 1).min(n)];
+            near.iter().sum::<f64>() / near.len() as f64
+        })
+        .collect()
 }

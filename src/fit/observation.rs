@@ -22,6 +22,9 @@ pub struct Observation {
     pub wild: Vec<usize>,
 }
 
+/// Ratio of the load's noise to the reading's below which it is negligible.
+const QUIET: f64 = 0.3;
+
 /// Rows beyond which neighbours are averaged before fitting.
 pub const MOST_ROWS: usize = 6000;
 
@@ -51,7 +54,8 @@ impl Observation {
         let wild = repair(&load, &mut reading);
         let cycles = Cycles::find(&load);
         let stiffness = rough_stiffness(&load, &reading);
-        let scene = Scene::new(time, load, stiffness, cycles.count());
+        let mut scene = Scene::new(time, load, stiffness, cycles.count());
+        scene.quiet_load = quiet(&scene, &reading);
         let cosine = Cosine::new(reading.len());
         Self {
             scene,
@@ -67,6 +71,28 @@ impl Observation {
     pub fn rows(&self) -> usize {
         self.reading.len()
     }
+}
+
+/// Whether the load cell's noise is negligible: load l = s + m, reading y = s/k + e in fourth
+/// differences, so that cov(l, y) = var(s)/k tells the noises m and e from what moves both.
+fn quiet(scene: &Scene, reading: &[f64]) -> bool {
+    let k = scene.load_scale / scene.deflection_scale;
+    let fourth = |w: &[f64]| w[0] - 4.0 * w[1] + 6.0 * w[2] - 4.0 * w[3] + w[4];
+    let l: Vec<f64> = scene.load.windows(5).map(|w| fourth(w) / k).collect();
+    let y: Vec<f64> = reading.windows(5).map(fourth).collect();
+    let limit = |v: &[f64]| 4.0 * outliers::robust_std(v);
+    let (ll, ly) = (limit(&l), limit(&y));
+    let calm = l
+        .iter()
+        .zip(&y)
+        .filter(|(a, b)| a.abs() <= ll && b.abs() <= ly);
+    let (mut vl, mut vy, mut both) = (0.0, 0.0, 0.0);
+    for (a, b) in calm {
+        vl += a * a;
+        vy += b * b;
+        both += a * b;
+    }
+    (vl - both).max(0.0) < QUIET * QUIET * (vy - both).max(0.0)
 }
 
 /// Means of neighbouring rows, `block` at a time.
