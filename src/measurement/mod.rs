@@ -1,0 +1,4 @@
+//! Floor 1: what laboratories deliver, as channels in SI.
+
+pub mod columns;
+pub mod hammer;

@@ -1,0 +1,12 @@
+//! Floor 1: windows, spectra, frequency response functions, hits and modes, on plain slices in SI.
+//!
+//! Conventions: `e^{+jωt}`, `H1 = Sfx/Sff` with `Sfx = E[conj(F)·X]`, so a driving-point
+//! accelerance has a positive imaginary part at resonance. An exponential window is applied to
+//! force *and* response from the first sample on; then the estimate is `H(jω + σ)`, exactly, and
+//! the model is evaluated there instead of correcting the data.
+
+pub mod coherence;
+pub mod frf;
+pub mod jackknife;
+pub mod spectrum;
+pub mod window;
