@@ -54,7 +54,11 @@ fn parse(text: &str) -> Outcome<Columns> {
     let delimiter = delimiter(header);
     let places = header
         .split(delimiter)
-        .map(|name| columns.place(name.trim()).map_err(|p| p.at_line(front.len() + 1)))
+        .map(|name| {
+            columns
+                .place(name.trim())
+                .map_err(|p| p.at_line(front.len() + 1))
+        })
         .collect::<Outcome<Vec<_>>>()?;
     for (i, row) in rows.filter(|(_, row)| !row.trim().is_empty()) {
         columns
@@ -66,7 +70,10 @@ fn parse(text: &str) -> Outcome<Columns> {
 }
 
 fn empty() -> Problem {
-    Problem::new("holds no header row", "write the column names after the front matter")
+    Problem::new(
+        "holds no header row",
+        "write the column names after the front matter",
+    )
 }
 
 fn front_matter(text: &str) -> Outcome<toml::Table> {
@@ -82,7 +89,10 @@ fn front_matter(text: &str) -> Outcome<toml::Table> {
 
 fn delimiter(header: &str) -> char {
     let count = |d: &char| header.matches(*d).count();
-    [',', ';', '\t'].into_iter().max_by_key(count).unwrap_or(',')
+    [',', ';', '\t']
+        .into_iter()
+        .max_by_key(count)
+        .unwrap_or(',')
 }
 
 /// Where the cells of one column go.
@@ -162,7 +172,10 @@ mod tests {
         assert_eq!(columns.numbers("time").unwrap(), [1.5e-3]);
         assert_eq!(columns.words("direction").unwrap(), ["x"]);
         let problem = parse("time_s,force_N\n0,1\n0,x\n").err().unwrap();
-        assert_eq!((problem.line, problem.column.as_deref()), (Some(3), Some("force")));
+        assert_eq!(
+            (problem.line, problem.column.as_deref()),
+            (Some(3), Some("force"))
+        );
         assert!(parse("time_s,force\n").is_err());
         assert!(parse("time_s,force_N\n1\n").is_err());
     }

@@ -90,9 +90,8 @@ fn outputs(columns: &Columns) -> Outcome<Vec<(String, &[f64])>> {
 /// Row ranges of the records: a new one where direction or hit changes, or time starts again.
 fn spans(columns: &Columns, time: &[f64]) -> Vec<std::ops::Range<usize>> {
     let differs = |words: Option<&[String]>, i: usize| words.is_some_and(|w| w[i] != w[i - 1]);
-    let begins = |i: usize| {
-        differs(columns.words("direction"), i) || differs(columns.words("hit"), i)
-    };
+    let begins =
+        |i: usize| differs(columns.words("direction"), i) || differs(columns.words("hit"), i);
     let mut starts: Vec<usize> = (1..time.len()).filter(|i| begins(*i)).collect();
     starts.insert(0, 0);
     starts.push(time.len());
@@ -120,7 +119,11 @@ fn interval(columns: &Columns, time: &[f64], spans: &[std::ops::Range<usize>]) -
 fn snapped(interval: f64) -> f64 {
     let rate = (1.0 / interval).round();
     let near = (1.0 / interval - rate).abs() <= 1e-5 * rate;
-    if near && rate > 0.0 { 1.0 / rate } else { interval }
+    if near && rate > 0.0 {
+        1.0 / rate
+    } else {
+        interval
+    }
 }
 
 fn check_steps(
@@ -138,9 +141,15 @@ fn check_steps(
     };
     let step = time[i] - time[i - 1];
     let (what, remedy) = if step <= 0.0 {
-        ("time runs backwards or stands still", "sort the samples by time, or start a new hit number")
+        (
+            "time runs backwards or stands still",
+            "sort the samples by time, or start a new hit number",
+        )
     } else {
-        ("time step differs from the others", "export an evenly sampled record without gaps")
+        (
+            "time step differs from the others",
+            "export an evenly sampled record without gaps",
+        )
     };
     let what = format!("{what} (step {step:.3e} s, others {interval:.3e} s)");
     Err(Problem::new(what, remedy)
@@ -183,7 +192,9 @@ fn text(columns: &Columns, key: &str) -> Option<String> {
 }
 
 fn number(value: &toml::Value) -> Option<f64> {
-    value.as_float().or_else(|| Some(value.as_integer()? as f64))
+    value
+        .as_float()
+        .or_else(|| Some(value.as_integer()? as f64))
 }
 
 fn positive(columns: &Columns, key: &str) -> Outcome<Option<f64>> {
