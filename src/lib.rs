@@ -2,6 +2,7 @@
 #![warn(missing_docs)]
 
 pub mod cli;
+pub mod experiments;
 pub mod ground;
 pub mod measurement;
 pub mod signal;

@@ -5,8 +5,16 @@
 //! force *and* response from the first sample on; then the estimate is `H(jω + σ)`, exactly, and
 //! the model is evaluated there instead of correcting the data.
 
+pub mod clipping;
 pub mod coherence;
+pub mod decay;
+pub mod double_hit;
+pub mod fault;
 pub mod frf;
 pub mod jackknife;
+pub mod judge;
+pub mod off_axis;
+pub mod pulse;
 pub mod spectrum;
+pub mod trigger;
 pub mod window;

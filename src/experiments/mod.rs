@@ -1,0 +1,4 @@
+//! Floor 5: one file per kind of experiment.
+
+pub mod hammer_frf;
+pub mod hammer_screen;
