@@ -1,22 +1,11 @@
 //! The FRF of five real hammer hits equals the published reference.
 
+mod common;
+
+use common::shared;
 use ident::measurement::hammer::{self, HammerRecord};
 use ident::signal::frf::{CrossSpectra, Estimator, HitSpectra};
 use rustfft::num_complex::Complex64;
-use std::path::PathBuf;
-
-/// The shared data, where they are; `None` says that they are absent.
-fn shared(name: &str) -> Option<PathBuf> {
-    let root = std::env::var_os("IDENT_SHARED_DATA").map(PathBuf::from);
-    let root =
-        root.unwrap_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/data"));
-    let path = root.join(name);
-    if !path.exists() {
-        println!("passed over: {name} is not in the shared data");
-        return None;
-    }
-    Some(path)
-}
 
 fn spectra(record: &HammerRecord) -> Vec<HitSpectra> {
     let lines = record.runs[0].force.len() / 2 + 1;

@@ -5,6 +5,9 @@ use super::pulse::Pulse;
 /// Lowest second pulse that is called one, as a share of the main pulse.
 const SHARE: f64 = 0.035;
 
+/// Samples beside the main pulse that are left to the ringing of filters.
+const GUARD: usize = 3;
+
 /// A second pulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Second {
@@ -20,18 +23,18 @@ pub struct Second {
 pub fn second_pulse(force: &[f64], pulse: &Pulse) -> Option<Second> {
     let half = pulse.width() / 8;
     let smooth = smoothed(force, pulse, half);
-    let guard = (pulse.width() / 4).max(3) + half;
-    let later = (pulse.end + guard..force.len()).collect::<Vec<_>>();
-    let earlier = (0..pulse.start.saturating_sub(guard))
+    let later = (pulse.end + GUARD..force.len()).collect::<Vec<_>>();
+    let earlier = (0..pulse.start.saturating_sub(GUARD))
         .rev()
         .collect::<Vec<_>>();
-    let found = [later, earlier]
-        .into_iter()
-        .filter_map(|places| highest(&smooth, &places));
     let noise = pulse.noise / ((2 * half + 1) as f64).sqrt();
     let level = (SHARE * pulse.peak.abs()).max(6.0 * noise);
+    let found = [later, earlier];
+    let found = found.iter().flat_map(|places| peaks(&smooth, places));
     found
-        .filter(|found| found.prominence > level && is_pulse(&smooth, found, pulse))
+        .filter(|found| {
+            found.prominence.min(smooth[found.at]) > level && is_pulse(&smooth, found, pulse)
+        })
         .max_by(|a, b| a.prominence.total_cmp(&b.prominence))
         .map(|found| Second {
             after: found.at as isize - pulse.at as isize,
@@ -58,29 +61,30 @@ struct Peak {
     prominence: f64,
 }
 
-/// The place that rises highest above the lowest place passed on the way from the main pulse.
-fn highest(smooth: &[f64], places: &[usize]) -> Option<Peak> {
+/// The local maxima on the way from the main pulse, with their rise above the lowest place passed.
+fn peaks(smooth: &[f64], places: &[usize]) -> Vec<Peak> {
     let mut valley = f64::INFINITY;
-    let rises = places.iter().map(|&at| {
-        valley = valley.min(smooth[at]);
-        Peak {
-            at,
-            prominence: smooth[at] - valley,
-        }
+    let rises = places.windows(3).filter_map(|three| {
+        let [before, here, after] = [three[0], three[1], three[2]].map(|i| smooth[i]);
+        valley = valley.min(before);
+        let top = here >= before && here > after;
+        top.then_some(Peak {
+            at: three[1],
+            prominence: here - valley,
+        })
     });
-    rises.max_by(|a, b| a.prominence.total_cmp(&b.prominence))
+    rises.collect()
 }
 
 /// One-sided (not ringing or hum) and about as short as the main pulse (not a drift).
 fn is_pulse(smooth: &[f64], found: &Peak, pulse: &Pulse) -> bool {
     let near = 4 * pulse.width() + 8;
-    let (low, high) = (
-        found.at.saturating_sub(near),
-        (found.at + near).min(smooth.len()),
-    );
-    let outside = (low..high).filter(|i| *i + 2 < pulse.start || *i > pulse.end + 2);
-    let lowest = outside.map(|i| -smooth[i]).fold(0.0, f64::max);
-    let upper = |i: &usize| smooth[*i] > smooth[found.at] - 0.5 * found.prominence;
+    let near = near.min(found.at.abs_diff(pulse.at) / 2);
+    let around = found.at.saturating_sub(near)..(found.at + near).min(smooth.len());
+    let lowest = around.map(|i| -smooth[i]).fold(0.0, f64::max);
+    let height = smooth[found.at];
+    let half = (height - 0.5 * found.prominence).max(0.5 * height);
+    let upper = |i: &usize| smooth[*i] > half;
     let right = (found.at..smooth.len()).take_while(upper).count();
     let left = (0..found.at).rev().take_while(upper).count();
     smooth[found.at] > 1.5 * lowest && left + right <= 4 * pulse.width() + 6
