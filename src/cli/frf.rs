@@ -2,26 +2,29 @@
 
 use super::{Ending, json};
 use crate::experiments::hammer_frf::{self, HammerFrf, InputFrf, Settings};
+use crate::experiments::hammer_functions::universal_file;
 use crate::experiments::hammer_screen::ScreenedHit;
+use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
-use crate::measurement::hammer;
+use crate::measurement::hammer::{self, HammerRecord};
+use crate::measurement::{hammer_uff, uff};
 use crate::signal::coherence::random_error;
 use crate::signal::frf::Estimator;
 use crate::signal::jackknife;
 use clap::{ArgMatches, Args, ValueEnum};
 use rustfft::num_complex::Complex64;
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Arguments of `ident frf`.
 #[derive(Debug, Args)]
 pub struct FrfArgs {
-    /// Hammer test: CSV of kind `hammer`
+    /// Hammer test: CSV of kind `hammer`, or a universal file (.uff, .unv) with time records
     file: PathBuf,
     /// Print one JSON document instead of the account
     #[arg(long)]
     json: bool,
-    /// Write the FRFs and coherences as universal file (data set 58)
+    /// Write the FRFs and coherences as universal file (data set 58b, SI)
     #[arg(long, value_name = "FILE")]
     uff: Option<PathBuf>,
     /// Estimator for the account and the universal file (the JSON holds all three)
@@ -64,11 +67,15 @@ impl Choice {
 pub fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let args: FrfArgs = super::parsed(matches);
     let settings = settings(&args)?;
-    let record = hammer::read_hammer(&args.file)?;
+    let record = read(&args.file)?;
     let in_file = |problem: Problem| problem.in_file(&args.file);
     let frf = hammer_frf::estimate(&record, &settings).map_err(in_file)?;
     for remark in &frf.remarks {
         eprintln!("note: {remark}");
+    }
+    if let Some(path) = &args.uff {
+        let file = universal_file(&frf, args.estimator.estimator());
+        files::replace(path, &uff::write(&file, uff::Encoding::Binary))?;
     }
     if args.json {
         json::print(&document(&args, &frf)?)?;
@@ -76,6 +83,14 @@ pub fn run(matches: &ArgMatches) -> Outcome<Ending> {
         super::print(&account(&frf, args.estimator.estimator()))?;
     }
     Ok(ending(&frf))
+}
+
+fn read(path: &Path) -> Outcome<HammerRecord> {
+    if hammer_uff::is_universal(path) {
+        hammer_uff::read_hammer(path)
+    } else {
+        hammer::read_hammer(path)
+    }
 }
 
 fn settings(args: &FrfArgs) -> Outcome<Settings> {

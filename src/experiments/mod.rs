@@ -1,4 +1,5 @@
 //! Floor 5: one file per kind of experiment.
 
 pub mod hammer_frf;
+pub mod hammer_functions;
 pub mod hammer_screen;

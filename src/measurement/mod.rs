@@ -2,4 +2,5 @@
 
 pub mod columns;
 pub mod hammer;
+pub mod hammer_uff;
 pub mod uff;
