@@ -2,4 +2,5 @@
 
 pub mod hammer_frf;
 pub mod hammer_functions;
+pub mod hammer_modes;
 pub mod hammer_screen;

@@ -1,0 +1,123 @@
+//! Modes in a band: poles by stabilisation, kept where they pay, refined, with intervals.
+
+use super::jackknife::{t95, variance};
+use super::modal_fit::{PoleFit, cost, linear_fits, refine};
+use super::modal_model::{Channels, damping, frequency};
+use super::stabilisation::{Candidate, candidates, chart};
+use rustfft::num_complex::Complex64;
+
+/// A mode of the structure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mode {
+    /// Pole, 1/s, corrected for the exponential window.
+    pub pole: Complex64,
+    /// Undamped natural frequency, Hz.
+    pub frequency_hz: f64,
+    /// Damping ratio.
+    pub damping_ratio: f64,
+    /// Half widths of the 95 % intervals of frequency (Hz) and damping ratio; not a number with
+    /// fewer than two hits per direction.
+    pub half_width: [f64; 2],
+    /// Residue of the accelerance per channel, `[input · outputs + output]`, (m/s²)/N·1/s.
+    pub residues: Vec<Complex64>,
+}
+
+/// Steps of the refinement of poles.
+const STEPS: usize = 25;
+
+/// The modes up to `to_hz` in `channels`; `left_out` are the same FRFs with one hit of every
+/// direction left out in turn.
+pub fn identify(channels: &Channels, left_out: &[Channels], to_hz: f64) -> Vec<Mode> {
+    if channels.lines() < 8 {
+        return Vec::new();
+    }
+    let found = candidates(&chart(channels));
+    let chosen = choose(channels, &found);
+    let refined = prune(channels, refine(channels, &chosen, STEPS));
+    let again: Vec<Vec<Complex64>> = left_out
+        .iter()
+        .map(|part| refine(part, &refined.poles, 6).poles)
+        .collect();
+    modes(channels, &refined.poles, &again, to_hz)
+}
+
+/// Takes candidates in the order of how often they were seen, as long as they lower Schwarz's
+/// information criterion.
+fn choose(channels: &Channels, found: &[Candidate]) -> Vec<Complex64> {
+    let most = found.first().map_or(0, |candidate| candidate.seen);
+    let often = found
+        .iter()
+        .filter(|candidate| candidate.seen * 6 >= most && candidate.seen > 2);
+    let mut chosen: Vec<Complex64> = Vec::new();
+    let mut best = criterion(channels, cost(channels, &chosen), 0);
+    for candidate in often.take(MOST) {
+        chosen.push(candidate.pole);
+        let now = criterion(channels, cost(channels, &chosen), chosen.len());
+        if now < best {
+            best = now;
+        } else {
+            chosen.pop();
+        }
+    }
+    chosen
+}
+
+/// Most candidates tried.
+const MOST: usize = 40;
+
+/// `N·ln(cost/N) + k·ln N` (Schwarz 1978): each mode costs its pole and a residue per channel.
+fn criterion(channels: &Channels, cost: f64, modes: usize) -> f64 {
+    let n = (2 * channels.lines() * channels.frf.len()) as f64;
+    let parameters = (modes * (2 + 2 * channels.frf.len())) as f64;
+    n * (cost / n).max(1e-300).ln() + parameters * n.ln()
+}
+
+/// Drops modes that do not pay after the refinement.
+fn prune(channels: &Channels, mut fit: PoleFit) -> PoleFit {
+    loop {
+        let n = fit.poles.len();
+        let now = criterion(channels, fit.cost, n);
+        let without = |i: usize| {
+            let mut poles = fit.poles.clone();
+            poles.remove(i);
+            let cost = cost(channels, &poles);
+            (criterion(channels, cost, n - 1), poles)
+        };
+        let best = (0..n).map(without).min_by(|a, b| a.0.total_cmp(&b.0));
+        match best {
+            Some((value, poles)) if value < now => fit = refine(channels, &poles, STEPS),
+            _ => return fit,
+        }
+    }
+}
+
+fn modes(
+    channels: &Channels,
+    poles: &[Complex64],
+    again: &[Vec<Complex64>],
+    to_hz: f64,
+) -> Vec<Mode> {
+    let Some(fits) = linear_fits(channels, poles) else {
+        return Vec::new();
+    };
+    let mode = |(r, pole): (usize, &Complex64)| {
+        let half_width = |f: fn(Complex64) -> f64| {
+            let values: Vec<f64> = again.iter().map(|poles| f(poles[r])).collect();
+            variance(&values).sqrt() * t95(values.len() as f64 - 1.0)
+        };
+        let residue = |fit: &super::modal_model::LinearFit| {
+            Complex64::new(fit.unknowns[2 * r], fit.unknowns[2 * r + 1])
+        };
+        Mode {
+            pole: *pole,
+            frequency_hz: frequency(*pole),
+            damping_ratio: damping(*pole),
+            half_width: [half_width(frequency), half_width(damping)],
+            residues: fits.iter().map(residue).collect(),
+        }
+    };
+    let mut modes: Vec<Mode> = poles.iter().enumerate().map(mode).collect();
+    modes.retain(|mode| mode.frequency_hz <= to_hz && mode.damping_ratio < 0.3);
+    modes.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
+    modes
+}

@@ -1,0 +1,153 @@
+//! Modes of simulated hammer tests against the modes they were made from.
+
+mod common;
+
+use common::{Blow, Mode, axis, record, robot};
+use ident::experiments::hammer_frf::{Settings, estimate};
+use ident::experiments::hammer_modes::modes;
+use ident::ground::random::Random;
+use ident::signal::modes::Mode as Found;
+
+struct Score {
+    lost: usize,
+    spurious: usize,
+    frequency: f64,
+    damping: Vec<f64>,
+    inside: usize,
+    all: usize,
+}
+
+fn hammered(truth: &[Mode], blow: Blow, settings: &Settings, seed: u64) -> Vec<Found> {
+    let mut random = Random::new(seed);
+    let mut blows = Vec::new();
+    for direction in ["x", "y", "z"] {
+        for _ in 0..4 {
+            let peak_n = blow.peak_n * random.uniform(0.7, 1.4);
+            let width_s = blow.width_s * random.uniform(0.85, 1.2);
+            blows.push((
+                direction,
+                Blow {
+                    axis: axis(direction),
+                    peak_n,
+                    width_s,
+                    ..blow
+                },
+            ));
+        }
+    }
+    let mut record = record(truth, &blows, seed);
+    if blow.window_rate > 0.0 {
+        record.exponential_window_s = Some(1.0 / blow.window_rate);
+    }
+    let frf = estimate(&record, settings).unwrap();
+    assert!(frf.screened.iter().all(|hit| hit.used()));
+    modes(&frf, 50.0)
+}
+
+fn score(truth: &[Mode], found: &[Found]) -> Score {
+    let mut score = Score {
+        lost: 0,
+        spurious: found.len(),
+        frequency: 0.0,
+        damping: vec![],
+        inside: 0,
+        all: 0,
+    };
+    for mode in truth.iter().filter(|mode| mode.hz < 45.0) {
+        let off = |f: &&Found| (f.frequency_hz / mode.hz - 1.0).abs();
+        let near = found.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+        let Some(near) = near.filter(|f| off(f) < 0.03) else {
+            score.lost += 1;
+            continue;
+        };
+        score.spurious -= 1;
+        score.frequency = score.frequency.max(off(&near));
+        score
+            .damping
+            .push((near.damping_ratio / mode.damping - 1.0).abs());
+        score.all += 2;
+        score.inside += usize::from((near.frequency_hz - mode.hz).abs() <= near.half_width[0]);
+        score.inside +=
+            usize::from((near.damping_ratio - mode.damping).abs() <= near.half_width[1]);
+    }
+    score
+}
+
+fn check(name: &str, blow: Blow, settings: Settings) {
+    let (mut damping, mut inside, mut all, mut spurious) = (Vec::new(), 0, 0, 0);
+    let mut frequency: f64 = 0.0;
+    for seed in 1..=4 {
+        let truth = varied(seed);
+        let found = hammered(&truth, blow, &settings, seed);
+        let score = score(&truth, &found);
+        if score.lost > 0 {
+            let list: Vec<_> = found
+                .iter()
+                .map(|f| (f.frequency_hz, f.damping_ratio))
+                .collect();
+            let wanted: Vec<_> = truth.iter().map(|f| (f.hz, f.damping)).collect();
+            panic!(
+                "{name}, seed {seed}: {} lost of {wanted:?}; found {list:?}",
+                score.lost
+            );
+        }
+        frequency = frequency.max(score.frequency);
+        damping.extend(score.damping);
+        inside += score.inside;
+        all += score.all;
+        spurious += score.spurious;
+    }
+    damping.sort_by(f64::total_cmp);
+    let (median, worst) = (damping[damping.len() / 2], damping[damping.len() - 1]);
+    println!(
+        "{name}: frequency worst {:.4} %, damping median {:.3} % worst {:.3} %, inside 95 % {inside}/{all}, spurious {spurious}",
+        100.0 * frequency,
+        100.0 * median,
+        100.0 * worst
+    );
+    assert!(frequency < 0.005 && median < 0.03 && worst < 0.10, "{name}");
+}
+
+/// The robot with frequencies and dampings varied by seed.
+fn varied(seed: u64) -> Vec<Mode> {
+    let mut random = Random::new(100 + seed);
+    let vary = |m: Mode| Mode {
+        hz: m.hz * random.uniform(0.96, 1.04),
+        damping: m.damping * random.uniform(0.7, 1.5),
+        ..m
+    };
+    robot().into_iter().map(vary).collect()
+}
+
+#[test]
+fn modes_without_window() {
+    check("4 s", Blow::default(), Settings::default());
+}
+
+#[test]
+fn modes_with_exponential_window() {
+    let settings = Settings {
+        exponential_end: Some(0.01),
+        ..Settings::default()
+    };
+    check("4 s, exponential 1 %", Blow::default(), settings);
+}
+
+#[test]
+fn modes_with_a_window_of_the_analyser() {
+    let blow = Blow {
+        window_rate: 1.5,
+        ..Blow::default()
+    };
+    check("4 s, window in the record", blow, Settings::default());
+}
+
+#[test]
+fn modes_of_short_records() {
+    let blow = Blow {
+        length_s: 1.5,
+        rate_hz: 4096.0,
+        ..Blow::default()
+    };
+    check("1.5 s", blow, Settings::default());
+}
