@@ -3,6 +3,7 @@
 use super::{Ending, json};
 use crate::experiments::hammer_frf::{self, HammerFrf, InputFrf, Settings};
 use crate::experiments::hammer_functions::universal_file;
+use crate::experiments::hammer_modes::modes;
 use crate::experiments::hammer_screen::ScreenedHit;
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
@@ -11,6 +12,7 @@ use crate::measurement::{hammer_uff, uff};
 use crate::signal::coherence::random_error;
 use crate::signal::frf::Estimator;
 use crate::signal::jackknife;
+use crate::signal::modes::Mode;
 use clap::{ArgMatches, Args, ValueEnum};
 use rustfft::num_complex::Complex64;
 use serde_json::{Value, json};
@@ -40,6 +42,9 @@ pub struct FrfArgs {
     /// result is H(jω + σ), and σ is reported
     #[arg(long, value_name = "VALUE")]
     exponential_end: Option<f64>,
+    /// Identify the modes up to --band-Hz
+    #[arg(long)]
+    modes: bool,
     /// Set the force to zero after its pulse
     #[arg(long)]
     force_window: bool,
@@ -77,10 +82,12 @@ pub fn run(matches: &ArgMatches) -> Outcome<Ending> {
         let file = universal_file(&frf, args.estimator.estimator());
         files::replace(path, &uff::write(&file, uff::Encoding::Binary))?;
     }
+    let modes = args.modes.then(|| modes(&frf, args.band_hz));
     if args.json {
-        json::print(&document(&args, &frf)?)?;
+        json::print(&document(&args, &frf, modes.as_deref())?)?;
     } else {
-        super::print(&account(&frf, args.estimator.estimator()))?;
+        let account = account(&frf, args.estimator.estimator());
+        super::print(&(account + &modes_account(modes.as_deref())))?;
     }
     Ok(ending(&frf))
 }
@@ -127,7 +134,7 @@ fn ending(frf: &HammerFrf) -> Ending {
     }
 }
 
-fn document(args: &FrfArgs, frf: &HammerFrf) -> Outcome<Value> {
+fn document(args: &FrfArgs, frf: &HammerFrf, modes: Option<&[Mode]>) -> Outcome<Value> {
     let mut document = json::head("frf", &[&args.file])?;
     document.insert("resolution_Hz".into(), json::number(1.0 / frf.length_s));
     document.insert("exponential_rate_1_s".into(), json::number(frf.rate));
@@ -136,12 +143,47 @@ fn document(args: &FrfArgs, frf: &HammerFrf) -> Outcome<Value> {
     let inputs = frf.inputs.iter();
     let channels = inputs.flat_map(|input| (0..frf.outputs.len()).map(|o| channel(frf, input, o)));
     document.insert("channels".into(), channels.collect());
+    if let Some(modes) = modes {
+        document.insert("modes".into(), modes.iter().map(mode).collect());
+    }
     Ok(Value::Object(document))
 }
 
 fn hit(hit: &ScreenedHit) -> Value {
     let label = hit.hit.parse::<u64>().map_or(json!(hit.hit), |n| json!(n));
     json!({"direction": hit.direction, "hit": label, "used": hit.used(), "why": hit.why()})
+}
+
+fn mode(mode: &Mode) -> Value {
+    let interval = |value: f64, half: f64| {
+        let bounds = [value - half, value + half];
+        half.is_finite().then(|| json::numbers(&bounds))
+    };
+    json!({
+        "frequency_Hz": json::number(mode.frequency_hz),
+        "frequency_ci95_Hz": interval(mode.frequency_hz, mode.half_width[0]),
+        "damping_ratio": json::number(mode.damping_ratio),
+        "damping_ratio_ci95": interval(mode.damping_ratio, mode.half_width[1]),
+    })
+}
+
+fn modes_account(modes: Option<&[Mode]>) -> String {
+    let Some(modes) = modes else {
+        return String::new();
+    };
+    let row = |m: &Mode| {
+        let [f, d] = m.half_width;
+        let (hz, percent) = (m.frequency_hz, 100.0 * m.damping_ratio);
+        format!(
+            "{hz:>9.3} ± {f:.3} Hz  damping {percent:>6.3} ± {:.3} %\n",
+            100.0 * d
+        )
+    };
+    let rows: String = modes.iter().map(row).collect();
+    format!(
+        "{} modes (95 % intervals by jackknife over hits)\n{rows}",
+        modes.len()
+    )
 }
 
 fn channel(frf: &HammerFrf, input: &InputFrf, output: usize) -> Value {

@@ -49,6 +49,8 @@ pub struct InputFrf {
 /// A hammer test as FRFs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HammerFrf {
+    /// Time between samples, s.
+    pub interval_s: f64,
     /// Length of every record, s.
     pub length_s: f64,
     /// Mean instant of the impulse from the start of the records, s.
@@ -94,6 +96,7 @@ pub fn estimate(record: &HammerRecord, settings: &Settings) -> Outcome<HammerFrf
         (!hits.is_empty()).then_some(InputFrf { input, hits, sums })
     });
     let mut frf = HammerFrf {
+        interval_s: record.interval_s,
         length_s,
         impulse_s: impulse(used(), record.interval_s),
         rate: window.rate + record.exponential_window_s.map_or(0.0, f64::recip),

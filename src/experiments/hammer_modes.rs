@@ -61,6 +61,7 @@ fn channels(
         frequency_hz: lines.iter().map(|k| frf.frequency_hz[*k]).collect(),
         rate: frf.rate,
         decay_s: frf.length_s - frf.impulse_s,
+        interval_s: frf.interval_s,
         shape: (sums.len(), outputs),
         frf: pairs.collect(),
         weight: weight.to_vec(),
@@ -88,7 +89,7 @@ fn weight(input: &InputFrf, output: usize, lines: &[usize]) -> Vec<f64> {
         let all = frf_variance(&input.sums, &input.hits, output, Estimator::H1);
         smoothed(&lines.iter().map(|k| all[*k]).collect::<Vec<_>>())
     } else {
-        vec![1e-4 * mean; lines.len()]
+        smoothed(&size.iter().map(|s| 1e-4 * s).collect::<Vec<_>>())
     };
     let floor = 1e-6 * mean;
     let deviation = scatter

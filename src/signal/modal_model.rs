@@ -3,8 +3,9 @@
 use nalgebra::{DMatrix, DVector, QR};
 use rustfft::num_complex::Complex64;
 
-/// Real terms per channel beside the modes: 1, s², s⁴ (rigid motion below, modes above the band).
-pub const RESIDUALS: usize = 3;
+/// Powers of `s` with a real factor per channel beside the modes: rigid motion below the band, and the
+/// series of the modes above it, even powers for their stiffness, odd ones for their damping.
+pub const RESIDUALS: [i32; 7] = [0, 1, 2, 3, 4, 6, 8];
 
 /// FRFs of all inputs and outputs on common lines.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,6 +16,8 @@ pub struct Channels {
     pub rate: f64,
     /// Time from the impulse to the end of the records, s.
     pub decay_s: f64,
+    /// Time between samples, s.
+    pub interval_s: f64,
     /// Number of inputs and of outputs.
     pub shape: (usize, usize),
     /// `frf[input · outputs + output][line]`, (m/s²)/N.
@@ -34,14 +37,15 @@ impl Channels {
         self.frequency_hz.len()
     }
 
-    /// What a pole `p` adds at line `k` per unit residue: `(1 − e^{(p−s)τ})/(s − p)`, the transform
-    /// of a decay that the record cuts off after τ, with its derivative in `p`. On the lines of
-    /// the discrete transform this is exact, so a short record does not bias the damping.
+    /// What a pole `p` adds at line `k` per unit residue: the transform of its decay, `1/(s − p)`,
+    /// less the samples after the end of the record, `e^{(p−s)τ}·Δt/(1 − e^{(p−s)Δt})`, with its
+    /// derivative in `p`. So a short record does not bias the damping.
     fn decay(&self, pole: Complex64, k: usize) -> (Complex64, Complex64) {
-        let s = self.s(k);
-        let end = ((pole - s) * self.decay_s).exp();
-        let value = (1.0 - end) / (s - pole);
-        (value, (value - self.decay_s * end) / (s - pole))
+        let x = pole - self.s(k);
+        let sample = (x * self.interval_s).exp();
+        let end = (x * self.decay_s).exp() * self.interval_s / (1.0 - sample);
+        let slope = end * (self.decay_s + self.interval_s * sample / (1.0 - sample));
+        (-1.0 / x - end, 1.0 / (x * x) - slope)
     }
 
     /// Columns of the linear unknowns, unweighted, per line: real and imaginary part of each residue,
@@ -56,8 +60,8 @@ impl Channels {
             columns.push(pairs.iter().map(|(a, b)| j * (a - b)).collect());
         }
         let top = self.s(self.lines() - 1).norm();
-        for power in 0..RESIDUALS {
-            let term = |k| (self.s(k) / top).powi(2 * power as i32);
+        for power in RESIDUALS {
+            let term = |k| (self.s(k) / top).powi(power);
             columns.push((0..self.lines()).map(term).collect());
         }
         columns

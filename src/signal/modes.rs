@@ -34,6 +34,7 @@ pub fn identify(channels: &Channels, left_out: &[Channels], to_hz: f64) -> Vec<M
     let found = candidates(&chart(channels));
     let chosen = choose(channels, &found);
     let refined = prune(channels, refine(channels, &chosen, STEPS));
+    let refined = beyond(channels, refined);
     let again: Vec<Vec<Complex64>> = left_out
         .iter()
         .map(|part| refine(part, &refined.poles, 6).poles)
@@ -89,6 +90,23 @@ fn prune(channels: &Channels, mut fit: PoleFit) -> PoleFit {
             _ => return fit,
         }
     }
+}
+
+/// Adds modes above the lines, as long as they pay: the series of the residual terms converges
+/// slowly towards the nearest of them, and what is left biases the damping of weak modes.
+fn beyond(channels: &Channels, mut fit: PoleFit) -> PoleFit {
+    let top = std::f64::consts::TAU * channels.frequency_hz[channels.lines() - 1];
+    for place in [1.2, 1.9] {
+        let mut poles = fit.poles.clone();
+        poles.push(Complex64::new(-0.02 * place * top, place * top));
+        let more = refine(channels, &poles, STEPS);
+        let n = more.poles.len();
+        if criterion(channels, more.cost, n) >= criterion(channels, fit.cost, n - 1) {
+            break;
+        }
+        fit = more;
+    }
+    fit
 }
 
 fn modes(
