@@ -3,6 +3,7 @@
 
 pub mod cli;
 pub mod experiments;
+pub mod fit;
 pub mod ground;
 pub mod measurement;
 pub mod signal;
