@@ -170,6 +170,33 @@ impl CrossSpectra {
     }
 }
 
+/// The sums over hits given as (force, responses), without keeping their spectra; the first `keep`
+/// lines. Buffers are reused: the work is the transforms.
+pub fn accumulate(hits: &[(Vec<f64>, Vec<Vec<f64>>)], keep: usize) -> CrossSpectra {
+    let Some((force, responses)) = hits.first() else {
+        return CrossSpectra::new(0, 0);
+    };
+    let transform = Transform::new(force.len());
+    let mut record = vec![0.0; force.len()];
+    let mut scratch = transform.scratch();
+    let mut lines = vec![Complex64::new(0.0, 0.0); transform.lines()];
+    let mut force_lines = lines.clone();
+    let mut sums = CrossSpectra::new(responses.len(), keep);
+    for (force, responses) in hits {
+        record.copy_from_slice(force);
+        transform.process(&mut record, &mut force_lines, &mut scratch);
+        for (sums, response) in sums.lines.iter_mut().zip(responses) {
+            record.copy_from_slice(response);
+            transform.process(&mut record, &mut lines, &mut scratch);
+            for ((line, f), x) in sums.iter_mut().zip(&force_lines).zip(&lines) {
+                line.add(*f, *x);
+            }
+        }
+        sums.hits += 1;
+    }
+    sums
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

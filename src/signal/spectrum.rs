@@ -28,14 +28,14 @@ impl Transform {
         self.plan.complex_len()
     }
 
-    /// Empty working space for [`Transform::into`].
+    /// Empty working space for [`Transform::process`].
     pub fn scratch(&self) -> Vec<Complex64> {
         self.plan.make_scratch_vec()
     }
 
     /// Spectrum `X[k] = Σ x[n] e^{-2πjkn/N}` of `record`, which is used up as working space.
     /// Lengths that do not fit leave `lines` untouched; the constructors of this floor fit them.
-    pub fn into(&self, record: &mut [f64], lines: &mut [Complex64], scratch: &mut [Complex64]) {
+    pub fn process(&self, record: &mut [f64], lines: &mut [Complex64], scratch: &mut [Complex64]) {
         let done = self.plan.process_with_scratch(record, lines, scratch);
         debug_assert!(done.is_ok(), "buffer lengths follow from the transform");
     }
@@ -43,7 +43,7 @@ impl Transform {
     /// The first `keep` lines of the spectrum of `record`.
     pub fn of(&self, mut record: Vec<f64>, keep: usize) -> Vec<Complex64> {
         let mut lines = self.plan.make_output_vec();
-        self.into(&mut record, &mut lines, &mut self.scratch());
+        self.process(&mut record, &mut lines, &mut self.scratch());
         lines.truncate(keep);
         lines
     }
