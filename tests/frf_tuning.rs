@@ -160,8 +160,8 @@ fn dampings_are_recovered_within_their_intervals() {
 fn several_poses_and_a_window_work_together() {
     let (task, truth) = task(3, 0.02, 2, 1.15);
     let tuned = tune(&task).unwrap();
-    for i in 0..BLIND {
-        assert!((tuned.values[i] / truth[i] - 1.0).abs() < 0.05);
+    for (found, true_value) in tuned.values.iter().zip(&truth).take(BLIND) {
+        assert!((found / true_value - 1.0).abs() < 0.05);
     }
 }
 
@@ -189,8 +189,8 @@ fn residual_terms_take_up_what_the_model_leaves_out() {
     task.residuals = Residuals::Upper;
     let tuned = tune(&task).unwrap();
     assert!(tuned.reduced_chi_square < 1.2);
-    for i in 0..BLIND {
-        assert!((tuned.values[i] / truth[i] - 1.0).abs() < 0.05);
+    for (found, true_value) in tuned.values.iter().zip(&truth).take(BLIND) {
+        assert!((found / true_value - 1.0).abs() < 0.05);
     }
 }
 
