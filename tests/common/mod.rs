@@ -238,3 +238,21 @@ pub fn record(modes: &[Mode], blows: &[(&str, Blow)], seed: u64) -> HammerRecord
 pub fn axis(direction: &str) -> [f64; 3] {
     ["x", "y", "z"].map(|name| f64::from(name == direction))
 }
+
+/// The record as a file of kind `hammer`.
+pub fn csv(record: &HammerRecord) -> String {
+    let mut text =
+        String::from("# kind = \"hammer\"\ndirection,hit,time_s,force_N,ax_m_s2,ay_m_s2,az_m_s2\n");
+    for run in &record.runs {
+        let hit = run.hit.as_deref().unwrap_or("");
+        for (i, force) in run.force.iter().enumerate() {
+            let [x, y, z] = [0, 1, 2].map(|o| run.responses[o][i]);
+            let time = i as f64 * record.interval_s;
+            text += &format!(
+                "{},{hit},{time:.8},{force:.9e},{x:.9e},{y:.9e},{z:.9e}\n",
+                run.direction
+            );
+        }
+    }
+    text
+}
