@@ -3,6 +3,7 @@
 mod common;
 
 use common::{Blow, axis, record, robot};
+use ident::experiments::hammer_frf::{Settings, estimate};
 use ident::experiments::hammer_screen::{ScreenedHit, screen};
 use ident::signal::fault::Fault;
 
@@ -210,4 +211,63 @@ fn hits_are_found_in_one_long_record() {
     let hits = screen(&long, 50.0);
     assert_eq!(hits.len(), 3);
     assert!(hits.iter().all(ScreenedHit::used));
+}
+
+fn remarks(spoil: impl Fn(&mut ident::measurement::hammer::HammerRecord)) -> Vec<String> {
+    let mut blows = Vec::new();
+    for direction in ["x", "y", "z"] {
+        let blow = Blow {
+            axis: axis(direction),
+            ..Blow::default()
+        };
+        blows.extend((0..4).map(|i| {
+            (
+                direction,
+                Blow {
+                    peak_n: 300.0 + 120.0 * f64::from(i),
+                    ..blow
+                },
+            )
+        }));
+    }
+    let mut record = record(&robot(), &blows, 21);
+    spoil(&mut record);
+    estimate(&record, &Settings::default()).unwrap().remarks
+}
+
+#[test]
+fn a_sound_test_has_no_remarks() {
+    assert!(remarks(|_| ()).is_empty(), "{:?}", remarks(|_| ()));
+}
+
+#[test]
+fn a_sensor_upside_down_is_named() {
+    let found = remarks(|record| {
+        for run in &mut record.runs {
+            run.responses[2].iter_mut().for_each(|v| *v = -*v);
+        }
+    });
+    assert!(
+        found
+            .iter()
+            .any(|r| r.starts_with("az:") && r.contains("upside down")),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn a_response_that_grows_less_than_the_force_is_named() {
+    let found = remarks(|record| {
+        for run in record.runs.iter_mut().filter(|run| run.direction == "y") {
+            let peak = run.force.iter().copied().fold(0.0, f64::max);
+            let gain = (300.0 / peak).powf(0.3);
+            run.responses.iter_mut().flatten().for_each(|v| *v *= gain);
+        }
+    });
+    assert!(
+        found
+            .iter()
+            .any(|r| r.contains("direction y") && r.contains("not linear")),
+        "{found:?}"
+    );
 }

@@ -176,34 +176,8 @@ fn remarks(frf: &HammerFrf, screened: &[ScreenedHit], settings: &Settings) -> Ve
             ));
         }
     }
-    remarks.extend(
-        frf.inputs
-            .iter()
-            .filter_map(|input| upside_down(frf, input)),
-    );
+    remarks.extend(super::hammer_checks::remarks(frf, settings.band_hz));
     remarks
-}
-
-/// A passive structure takes up power: the imaginary part of its driving-point accelerance is
-/// positive, summed over the band. Negative: the sensor's sign is wrong.
-fn upside_down(frf: &HammerFrf, input: &InputFrf) -> Option<String> {
-    let output = frf.outputs.iter().position(|name| *name == input.input)?;
-    let power: f64 = input.sums.lines[output]
-        .iter()
-        .skip(1)
-        .map(|line| line.fx.im)
-        .sum();
-    let size: f64 = input.sums.lines[output]
-        .iter()
-        .skip(1)
-        .map(|line| line.fx.norm())
-        .sum();
-    (power < -0.1 * size).then(|| {
-        format!(
-            "a{0}: the driving point gives out power (Im < 0): the sensor is mounted upside down, or the force has the wrong sign; change the sign of a{0} in the file",
-            input.input
-        )
-    })
 }
 
 impl InputFrf {

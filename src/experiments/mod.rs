@@ -1,5 +1,6 @@
 //! Floor 5: one file per kind of experiment.
 
+pub mod hammer_checks;
 pub mod hammer_frf;
 pub mod hammer_functions;
 pub mod hammer_modes;

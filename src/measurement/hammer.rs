@@ -180,7 +180,7 @@ fn run(
         .iter()
         .map(|(name, column)| whole(&format!("a{name}_m_s2"), column));
     Ok(HammerRun {
-        direction: word("direction").unwrap_or_else(|| "force".into()),
+        direction: word("direction").map_or_else(|| "force".into(), |d| d.to_lowercase()),
         hit: word("hit"),
         force: whole("force_N", force)?,
         responses: responses.collect::<Outcome<_>>()?,
