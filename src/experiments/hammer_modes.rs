@@ -1,8 +1,9 @@
 //! Hammer tests: modes of the structure.
 
 use super::hammer_frf::{HammerFrf, InputFrf};
+use super::hammer_variance::variance;
 use crate::signal::frf::{CrossSpectra, Estimator};
-use crate::signal::jackknife::{frf_variance, leave_one_out};
+use crate::signal::jackknife::leave_one_out;
 use crate::signal::modal_model::Channels;
 use crate::signal::modes::{Mode, identify};
 use rustfft::num_complex::Complex64;
@@ -11,9 +12,6 @@ use rustfft::num_complex::Complex64;
 const MARGIN: f64 = 1.3;
 /// Below this an accelerometer sees drift, Hz.
 const LOWEST_HZ: f64 = 1.0;
-/// Half width, lines, over which variances are averaged: few hits give rough ones.
-const SMOOTHING: usize = 6;
-
 /// The modes up to `to_hz`, with 95 % intervals by jackknife over hits.
 pub fn modes(frf: &HammerFrf, to_hz: f64) -> Vec<Mode> {
     let lines = lines(frf, to_hz);
@@ -80,29 +78,6 @@ fn weights(frf: &HammerFrf, lines: &[usize]) -> Vec<Vec<f64>> {
 }
 
 fn weight(input: &InputFrf, output: usize, lines: &[usize]) -> Vec<f64> {
-    let size: Vec<f64> = lines
-        .iter()
-        .map(|k| input.sums.lines[output][*k].h1().norm_sqr())
-        .collect();
-    let mean = size.iter().sum::<f64>() / size.len().max(1) as f64;
-    let scatter: Vec<f64> = if input.hits.len() > 1 {
-        let all = frf_variance(&input.sums, &input.hits, output, Estimator::H1);
-        smoothed(&lines.iter().map(|k| all[*k]).collect::<Vec<_>>())
-    } else {
-        smoothed(&size.iter().map(|s| 1e-4 * s).collect::<Vec<_>>())
-    };
-    let floor = 1e-6 * mean;
-    let deviation = scatter
-        .iter()
-        .zip(&size)
-        .map(|(v, s)| (v + 1e-6 * s + floor).sqrt());
-    deviation.map(|d| 1.0 / d.max(1e-300)).collect()
-}
-
-fn smoothed(values: &[f64]) -> Vec<f64> {
-    let mean = |i: usize| {
-        let range = i.saturating_sub(SMOOTHING)..(i + SMOOTHING + 1).min(values.len());
-        values[range.clone()].iter().sum::<f64>() / range.len() as f64
-    };
-    (0..values.len()).map(mean).collect()
+    let variance = variance(input, output, lines);
+    variance.iter().map(|v| v.sqrt().recip()).collect()
 }

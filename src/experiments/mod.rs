@@ -5,3 +5,4 @@ pub mod hammer_frf;
 pub mod hammer_functions;
 pub mod hammer_modes;
 pub mod hammer_screen;
+pub mod hammer_variance;

@@ -2,5 +2,6 @@
 
 pub mod frf_identifiability;
 pub mod frf_match;
+pub mod frf_measured;
 pub mod frf_model;
 pub mod frf_tuning;
