@@ -188,3 +188,59 @@ fn one_direction_and_one_hit_give_modes_without_intervals() {
     assert_eq!(score(&truth, &found).lost, 0);
     assert!(found.iter().all(|mode| mode.half_width[0].is_nan()));
 }
+
+/// Ten modes at random places, 1 to 5 % damped, with random shapes.
+fn crowded(seed: u64) -> Vec<Mode> {
+    let mut random = Random::new(500 + seed);
+    let mut hz = 5.0;
+    let mut modes: Vec<Mode> = Vec::new();
+    for _ in 0..10 {
+        hz *= random.uniform(1.06, 1.4);
+        let shape: [f64; 3] = std::array::from_fn(|_| random.normal());
+        // What hardly moves the tool cannot be seen there.
+        let size = random.uniform(0.04, 0.1) / shape.iter().map(|v| v * v).sum::<f64>().sqrt();
+        let shape = shape.map(|v| v * size);
+        modes.push(Mode {
+            hz,
+            damping: random.uniform(0.01, 0.05),
+            shape,
+        });
+    }
+    modes.extend(robot().into_iter().filter(|mode| mode.hz > 60.0));
+    modes
+}
+
+#[test]
+fn crowded_structures_keep_their_modes() {
+    let (mut lost, mut all, mut spurious, mut damping) = (0, 0, 0, Vec::new());
+    let mut frequency: f64 = 0.0;
+    for seed in 1..=6 {
+        let truth = crowded(seed);
+        let found = hammered(&truth, Blow::default(), &Settings::default(), seed);
+        let score = score(&truth, &found);
+        if score.lost > 0 {
+            let list: Vec<_> = found
+                .iter()
+                .map(|f| (f.frequency_hz, f.damping_ratio))
+                .collect();
+            println!(
+                "seed {seed} lost {} truth {truth:?} found {list:?}",
+                score.lost
+            );
+        }
+        lost += score.lost;
+        all += score.damping.len() + score.lost;
+        spurious += score.spurious;
+        frequency = frequency.max(score.frequency);
+        damping.extend(score.damping);
+    }
+    damping.sort_by(f64::total_cmp);
+    let worst = damping[damping.len() - 1];
+    println!(
+        "crowded: lost {lost} of {all}, spurious {spurious}, frequency {:.4} %, damping median {:.3} % worst {:.3} %",
+        100.0 * frequency,
+        100.0 * damping[damping.len() / 2],
+        100.0 * worst
+    );
+    assert!(lost == 0 && frequency < 0.005 && worst < 0.1);
+}

@@ -34,7 +34,7 @@ pub fn identify(channels: &Channels, left_out: &[Channels], to_hz: f64) -> Vec<M
     let found = candidates(&chart(channels));
     let chosen = choose(channels, &found);
     let refined = prune(channels, refine(channels, &chosen, STEPS));
-    let refined = beyond(channels, refined);
+    let refined = missing(channels, beyond(channels, refined), &found);
     let again: Vec<Vec<Complex64>> = left_out
         .iter()
         .map(|part| refine(part, &refined.poles, 6).poles)
@@ -66,11 +66,14 @@ fn choose(channels: &Channels, found: &[Candidate]) -> Vec<Complex64> {
 /// Most candidates tried.
 const MOST: usize = 40;
 
-/// `N·ln(cost/N) + k·ln N` (Schwarz 1978): each mode costs its pole and a residue per channel.
+/// `n·ln(cost/N) + k·ln n` (Schwarz 1978): each mode costs its pole and a residue per channel. An
+/// exponential window correlates `x·coth x` lines, `x = σT`: only n of N values are independent.
 fn criterion(channels: &Channels, cost: f64, modes: usize) -> f64 {
-    let n = (2 * channels.lines() * channels.frf.len()) as f64;
+    let all = (2 * channels.lines() * channels.frf.len()) as f64;
+    let x = (channels.rate * channels.decay_s).max(1e-6);
+    let n = all * x.tanh() / x;
     let parameters = (modes * (2 + 2 * channels.frf.len())) as f64;
-    n * (cost / n).max(1e-300).ln() + parameters * n.ln()
+    n * (cost / all).max(1e-300).ln() + parameters * n.ln()
 }
 
 /// Drops modes that do not pay after the refinement.
@@ -97,16 +100,72 @@ fn prune(channels: &Channels, mut fit: PoleFit) -> PoleFit {
 fn beyond(channels: &Channels, mut fit: PoleFit) -> PoleFit {
     let top = std::f64::consts::TAU * channels.frequency_hz[channels.lines() - 1];
     for place in [1.2, 1.9] {
-        let mut poles = fit.poles.clone();
-        poles.push(Complex64::new(-0.02 * place * top, place * top));
-        let more = refine(channels, &poles, STEPS);
-        let n = more.poles.len();
-        if criterion(channels, more.cost, n) >= criterion(channels, fit.cost, n - 1) {
-            break;
+        let pole = Complex64::new(-0.02 * place * top, place * top);
+        match with(channels, &fit, pole) {
+            Some(more) => fit = more,
+            None => break,
         }
-        fit = more;
     }
     fit
+}
+
+/// Adds candidates that were passed over, and poles where most is left unexplained, as long as they
+/// pay once all poles are refined together: beside strong modes a weak one pays only then.
+fn missing(channels: &Channels, mut fit: PoleFit, found: &[Candidate]) -> PoleFit {
+    let far = |pole: &Complex64, fit: &PoleFit| {
+        fit.poles
+            .iter()
+            .all(|p| (p - pole).norm() > 0.02 * pole.norm())
+    };
+    let left_over: Vec<Complex64> = found.iter().map(|candidate| candidate.pole).collect();
+    let tries = left_over
+        .into_iter()
+        .filter(|pole| far(pole, &fit))
+        .take(TRIES);
+    for pole in tries.collect::<Vec<_>>() {
+        if far(&pole, &fit) {
+            fit = with(channels, &fit, pole).unwrap_or(fit);
+        }
+    }
+    for _ in 0..TRIES {
+        let place = worst_line(channels, &fit.poles);
+        let more =
+            place.and_then(|place| with(channels, &fit, Complex64::new(-0.03 * place, place)));
+        match more {
+            Some(more) => fit = more,
+            None => break,
+        }
+    }
+    fit
+}
+
+/// Most poles tried one by one.
+const TRIES: usize = 4;
+
+/// The fit with one more pole, if it pays.
+fn with(channels: &Channels, fit: &PoleFit, pole: Complex64) -> Option<PoleFit> {
+    let n = fit.poles.len();
+    let poles: Vec<Complex64> = fit.poles.iter().copied().chain([pole]).collect();
+    let more = refine(channels, &poles, STEPS / 2);
+    let pays = criterion(channels, more.cost, n + 1) < criterion(channels, fit.cost, n);
+    (pays && more.poles.iter().all(|p| damping(*p) < 0.5)).then_some(more)
+}
+
+/// Circular frequency, 1/s, of the line at which most is left, over three lines and all channels.
+fn worst_line(channels: &Channels, poles: &[Complex64]) -> Option<f64> {
+    let fits = linear_fits(channels, poles)?;
+    let n = channels.lines();
+    let left = |k: usize| -> f64 {
+        let lines = k.saturating_sub(1)..(k + 2).min(n);
+        let power = |k: usize| -> f64 {
+            fits.iter()
+                .map(|fit| fit.rest[k].powi(2) + fit.rest[n + k].powi(2))
+                .sum()
+        };
+        lines.map(power).sum()
+    };
+    let worst = (0..n).max_by(|a, b| left(*a).total_cmp(&left(*b)))?;
+    Some(std::f64::consts::TAU * channels.frequency_hz[worst])
 }
 
 fn modes(
