@@ -2,14 +2,17 @@
 
 mod diagnose;
 mod effects;
+mod frf;
 mod inspect;
+pub mod json;
 mod lab;
 mod output;
 mod progress;
 mod stiffness;
 
-use crate::ground::problem::Outcome;
+use crate::ground::problem::{Outcome, Problem};
 use clap::{ArgMatches, Args, Command, FromArgMatches};
+use std::io::Write;
 
 /// How a verb ended; the number is the exit status of `formats.md`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,9 +40,16 @@ pub const VERBS: &[Verb] = &[
     inspect::VERB,
     stiffness::VERB,
     diagnose::VERB,
+    frf::VERB,
     effects::VERB,
     lab::VERB,
 ];
+pub const VERBS: &[Verb] = &[Verb {
+    name: "frf",
+    about: "Frequency response functions from hammer tests: hits judged, H1, H2, Hv, coherence",
+    arguments: arguments::<frf::FrfArgs>,
+    run: frf::run,
+}];
 
 /// Adds the arguments of a derived `Args` type: the usual [`Verb::arguments`].
 pub fn arguments<A: Args>(command: Command) -> Command {
@@ -49,6 +59,17 @@ pub fn arguments<A: Args>(command: Command) -> Command {
 /// Reads a derived `Args` type back. The matches were made by the same type.
 pub fn parsed<A: FromArgMatches>(matches: &ArgMatches) -> A {
     A::from_arg_matches(matches).unwrap_or_else(|error| error.exit())
+}
+
+/// Prints to standard output. A closed pipe is not an error.
+pub fn print(text: &str) -> Outcome<()> {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Problem::new(
+            format!("standard output cannot be written ({error})"),
+            "check where the output is sent",
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// The whole command line.

@@ -1,3 +1,9 @@
 //! Floor 5: one file per kind of experiment: what a model says it should have shown, and the charts.
 
+pub mod hammer_checks;
+pub mod hammer_frf;
+pub mod hammer_functions;
+pub mod hammer_modes;
+pub mod hammer_screen;
+pub mod hammer_variance;
 pub mod load_cycle;

@@ -1,0 +1,188 @@
+//! Hammer tests: from a record to frequency response functions with their scatter.
+
+use super::hammer_screen::{ScreenedHit, directions, screen};
+use crate::ground::problem::{Outcome, Problem};
+use crate::measurement::hammer::HammerRecord;
+use crate::signal::frf::{CrossSpectra, Estimator, HitSpectra};
+use crate::signal::pulse::{self, Pulse};
+use crate::signal::spectrum::{frequencies, lines_up_to};
+use crate::signal::window::{Exponential, Force};
+
+/// Share of the response that may be left at the end of the record without a remark.
+const ENOUGH_DECAY: f64 = 0.1;
+
+/// How hits become FRFs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Upper end of the band that the hits must excite, Hz.
+    pub band_hz: f64,
+    /// Highest line kept, Hz; none: up to Nyquist.
+    pub to_hz: Option<f64>,
+    /// Whether the force is set to zero after its pulse.
+    pub force_window: bool,
+    /// Value of an exponential window at the end of the record; none: no window is applied.
+    pub exponential_end: Option<f64>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            band_hz: 50.0,
+            to_hz: None,
+            force_window: false,
+            exponential_end: None,
+        }
+    }
+}
+
+/// The FRFs of one direction of the force.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InputFrf {
+    /// The direction.
+    pub input: String,
+    /// Spectra of every hit that was used.
+    pub hits: Vec<HitSpectra>,
+    /// Their sums.
+    pub sums: CrossSpectra,
+}
+
+/// A hammer test as FRFs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HammerFrf {
+    /// Time between samples, s.
+    pub interval_s: f64,
+    /// Length of every record, s.
+    pub length_s: f64,
+    /// Mean instant of the impulse from the start of the records, s.
+    pub impulse_s: f64,
+    /// Total rate σ of the exponential windows, 1/s: the FRFs are `H(jω + σ)`.
+    pub rate: f64,
+    /// Frequencies of the lines, Hz, from 0.
+    pub frequency_hz: Vec<f64>,
+    /// Names of the outputs.
+    pub outputs: Vec<String>,
+    /// Every hit, with the reasons of those left out.
+    pub screened: Vec<ScreenedHit>,
+    /// FRFs per direction of the force.
+    pub inputs: Vec<InputFrf>,
+    /// What the user should know, each with its remedy.
+    pub remarks: Vec<String>,
+}
+
+/// Screens the hits of `record` and estimates the FRFs from the good ones.
+pub fn estimate(record: &HammerRecord, settings: &Settings) -> Outcome<HammerFrf> {
+    let screened = screen(record, settings.band_hz);
+    let used = || screened.iter().filter(|hit| hit.used());
+    let samples = used().map(|hit| hit.force.len()).min();
+    let samples = samples.ok_or_else(|| no_hit(&screened))?;
+    let length_s = samples as f64 * record.interval_s;
+    let window = Exponential {
+        rate: settings
+            .exponential_end
+            .map_or(0.0, |end| Exponential::with_end(end, length_s).rate),
+    };
+    let lines = lines_up_to(samples, record.interval_s, settings.to_hz);
+    let treat = |hit: &ScreenedHit| treated(hit, samples, record.interval_s, window, settings);
+    let spectra = |hit: &ScreenedHit| {
+        let (force, responses) = treat(hit);
+        HitSpectra::new(force, responses, lines)
+    };
+    let inputs = directions(&screened).into_iter().filter_map(|input| {
+        let hits: Vec<_> = used()
+            .filter(|h| h.direction == input)
+            .map(spectra)
+            .collect();
+        let sums = CrossSpectra::of(&hits);
+        (!hits.is_empty()).then_some(InputFrf { input, hits, sums })
+    });
+    let mut frf = HammerFrf {
+        interval_s: record.interval_s,
+        length_s,
+        impulse_s: impulse(used(), record.interval_s),
+        rate: window.rate + record.exponential_window_s.map_or(0.0, f64::recip),
+        frequency_hz: frequencies(samples, record.interval_s, lines),
+        outputs: record.outputs.clone(),
+        inputs: inputs.collect(),
+        screened: Vec::new(),
+        remarks: Vec::new(),
+    };
+    frf.remarks = remarks(&frf, &screened, settings);
+    frf.screened = screened;
+    Ok(frf)
+}
+
+fn no_hit(screened: &[ScreenedHit]) -> Problem {
+    let why = screened
+        .iter()
+        .filter_map(|hit| Some(format!("{} {}: {}", hit.direction, hit.hit, hit.why()?)));
+    let why: Vec<String> = why.take(5).collect();
+    let what = if why.is_empty() {
+        "no hit was found".to_string()
+    } else {
+        format!("no usable hit ({})", why.join("; "))
+    };
+    Problem::new(what, "repeat the hits with these faults in mind")
+}
+
+/// Offset removed (pre-trigger mean), force window, exponential window on both channels.
+fn treated(
+    hit: &ScreenedHit,
+    samples: usize,
+    interval_s: f64,
+    window: Exponential,
+    settings: &Settings,
+) -> (Vec<f64>, Vec<Vec<f64>>) {
+    let found = Pulse::find(&hit.force);
+    let start = found.map_or(0, |pulse| pulse.start);
+    let clean = |record: &[f64], offset: f64| {
+        let mut record: Vec<f64> = record[..samples].iter().map(|v| v - offset).collect();
+        window.apply(&mut record, interval_s);
+        record
+    };
+    let mut force = clean(&hit.force, found.map_or(0.0, |pulse| pulse.baseline));
+    if let (true, Some(pulse)) = (settings.force_window, found) {
+        let width = pulse.width();
+        let (end, flank) = (pulse.end + width / 2 + 2, width + 8);
+        Force { end, flank }.apply(&mut force);
+    }
+    let mean = |r: &[f64]| r.iter().sum::<f64>() / r.len() as f64;
+    let responses = hit.responses.iter();
+    let responses = responses.map(|r| clean(r, pulse::baseline(r, start, mean(r))));
+    (force, responses.collect())
+}
+
+fn impulse<'a>(hits: impl Iterator<Item = &'a ScreenedHit>, interval_s: f64) -> f64 {
+    let centroid = |hit: &ScreenedHit| Some(Pulse::find(&hit.force)?.centroid(&hit.force));
+    let instants: Vec<f64> = hits.filter_map(centroid).collect();
+    instants.iter().sum::<f64>() / instants.len().max(1) as f64 * interval_s
+}
+
+fn remarks(frf: &HammerFrf, screened: &[ScreenedHit], settings: &Settings) -> Vec<String> {
+    let mut remarks = Vec::new();
+    let used = screened.iter().filter(|hit| hit.used());
+    let ring = used.map(|hit| hit.ring).fold(0.0, f64::max);
+    let ring = ring * (-frf.rate * frf.length_s).exp();
+    if ring > ENOUGH_DECAY && settings.exponential_end.is_none() {
+        remarks.push(format!(
+            "the records end before the decay ({:.0} % of the response left): record longer, or use --exponential-end 0.01",
+            100.0 * ring
+        ));
+    }
+    for input in &frf.inputs {
+        if input.hits.len() < 2 {
+            remarks.push(format!(
+                "direction {}: a single hit has no coherence and no interval: give three to five",
+                input.input
+            ));
+        }
+    }
+    remarks.extend(super::hammer_checks::remarks(frf, settings.band_hz));
+    remarks
+}
+
+impl InputFrf {
+    /// The FRF of one output, DC not a number.
+    pub fn frf(&self, output: usize, estimator: Estimator) -> Vec<rustfft::num_complex::Complex64> {
+        self.sums.estimate(output, estimator)
+    }
+}

@@ -1,0 +1,141 @@
+//! What measured FRFs say about each constant, and which combinations they fix.
+
+use super::frf_tuning::{Linearised, Tuning};
+use crate::signal::jackknife::t95;
+use nalgebra::{DMatrix, SymmetricEigen};
+
+/// Standard deviation of a logarithm above which a constant is not identifiable: a factor of 2 either
+/// way at 95 %.
+const IDENTIFIABLE: f64 = 0.35;
+/// Standard deviation of the logarithm of a combination that the data fix.
+const FIXED: f64 = 0.1;
+
+/// What became of a parameter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Status {
+    /// The data (with the stated priors) fix it.
+    Identified,
+    /// It lies at a bound.
+    AtBound,
+    /// The data say nothing useful about it alone.
+    NotIdentifiable,
+}
+
+/// What the data say about one parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Statement {
+    /// Its status.
+    pub status: Status,
+    /// Standard error, SI; none unless identified.
+    pub stderr: Option<f64>,
+    /// 95 % interval, SI; none unless identified.
+    pub ci95: Option<[f64; 2]>,
+    /// Whether it would not be identifiable without its prior.
+    pub by_prior: bool,
+}
+
+/// A product of powers `Π θᵢ^wᵢ` that the data fix.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Combination {
+    /// Exponents by index of the parameter, the large ones.
+    pub weights: Vec<(usize, f64)>,
+    /// Standard deviation of its logarithm.
+    pub ln_std: f64,
+}
+
+/// What the data say about all parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Uncertainty {
+    /// Per parameter.
+    pub statements: Vec<Statement>,
+    /// Covariance of the logarithms (n × n).
+    pub ln_covariance: DMatrix<f64>,
+    /// Combinations that the data fix, the best first.
+    pub fixed: Vec<Combination>,
+}
+
+/// Reads the uncertainty off the normal matrix, scaled up where the fit is worse than the noise.
+pub(super) fn uncertainty(
+    task: &Tuning,
+    theta: &[f64],
+    at: &Linearised,
+    reduced_chi_square: f64,
+    freedom: f64,
+) -> Uncertainty {
+    let scale = reduced_chi_square.max(1.0);
+    let mut data = at.normal.clone();
+    for (i, parameter) in task.parameters.iter().enumerate() {
+        data[(i, i)] -= parameter
+            .prior_ln_std
+            .map_or(0.0, |deviation| deviation.powi(-2));
+    }
+    let covariance = inverse(&at.normal) * scale;
+    let data_only = inverse(&data) * scale;
+    let statement = |i: usize| {
+        let deviation = covariance[(i, i)].sqrt();
+        let alone = data_only[(i, i)].sqrt() < IDENTIFIABLE;
+        statement(task, theta, i, deviation, alone, freedom)
+    };
+    Uncertainty {
+        statements: (0..theta.len()).map(statement).collect(),
+        fixed: combinations(&data, scale),
+        ln_covariance: covariance,
+    }
+}
+
+/// Inverse of a semidefinite matrix; directions without information get a deviation of 1000.
+fn inverse(normal: &DMatrix<f64>) -> DMatrix<f64> {
+    let eigen = SymmetricEigen::new(normal.clone());
+    let inverted = eigen.eigenvalues.map(|value| 1.0 / value.max(1e-6));
+    &eigen.eigenvectors * DMatrix::from_diagonal(&inverted) * eigen.eigenvectors.transpose()
+}
+
+fn statement(
+    task: &Tuning,
+    theta: &[f64],
+    i: usize,
+    deviation: f64,
+    alone: bool,
+    freedom: f64,
+) -> Statement {
+    let at_bound = task.parameters[i]
+        .bounds
+        .iter()
+        .any(|b| (theta[i] - b.ln()).abs() < 1e-9);
+    let status = match (at_bound, deviation < IDENTIFIABLE) {
+        (true, _) => Status::AtBound,
+        (false, true) => Status::Identified,
+        (false, false) => Status::NotIdentifiable,
+    };
+    let known = status == Status::Identified;
+    let half = t95(freedom) * deviation;
+    Statement {
+        status,
+        stderr: known.then(|| theta[i].exp() * deviation),
+        ci95: known.then(|| [(theta[i] - half).exp(), (theta[i] + half).exp()]),
+        by_prior: known && !alone,
+    }
+}
+
+fn combinations(data: &DMatrix<f64>, scale: f64) -> Vec<Combination> {
+    let eigen = SymmetricEigen::new(data.clone());
+    let mut fixed: Vec<Combination> = eigen
+        .eigenvalues
+        .iter()
+        .zip(eigen.eigenvectors.column_iter())
+        .filter(|(value, _)| **value > scale / (FIXED * FIXED))
+        .map(|(value, vector)| {
+            let large = vector
+                .iter()
+                .copied()
+                .enumerate()
+                .filter(|(_, w)| w.abs() > 0.1);
+            Combination {
+                weights: large.collect(),
+                ln_std: (scale / value).sqrt(),
+            }
+        })
+        .collect();
+    fixed.sort_by(|a, b| a.ln_std.total_cmp(&b.ln_std));
+    fixed
+}

@@ -1,0 +1,323 @@
+//! Tunes dampings (and released stiffnesses and masses) until simulated FRFs meet measured ones:
+//! least squares on the complex accelerance weighted with its variance. Parameters are logarithms
+//! within bounds; residual terms of what the model leaves out are eliminated per channel.
+
+use super::frf_identifiability::{Uncertainty, uncertainty};
+use super::frf_match::{FrfMatch, frf_match};
+use super::frf_model::{Kind, Measured, Pose};
+use crate::ground::problem::{Outcome, Problem};
+use crate::ground::random::Random;
+use nalgebra::{DMatrix, DVector};
+use rustfft::num_complex::Complex64;
+
+/// One parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// Where it acts, as in `A6`, `A6-tilt`, `base`.
+    pub site: String,
+    /// What it multiplies.
+    pub kind: Kind,
+    /// First guess, SI.
+    pub start: f64,
+    /// Lowest and highest value, SI, positive.
+    pub bounds: [f64; 2],
+    /// Standard deviation of the logarithm about `start`, where a prior is stated.
+    pub prior_ln_std: Option<f64>,
+}
+
+/// Which terms stand for what the model leaves out, with a real factor per channel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Residuals {
+    /// None.
+    None,
+    /// `s²/K`: stiffness of the modes above the band.
+    #[default]
+    Upper,
+    /// `s²/K` and `1/M`.
+    Both,
+}
+
+impl Residuals {
+    fn powers(self) -> &'static [i32] {
+        match self {
+            Self::None => &[],
+            Self::Upper => &[2],
+            Self::Both => &[0, 2],
+        }
+    }
+}
+
+/// A tuning task: shared parameters, several poses.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tuning {
+    /// The parameters.
+    pub parameters: Vec<Parameter>,
+    /// The poses.
+    pub poses: Vec<Pose>,
+    /// Residual terms.
+    pub residuals: Residuals,
+    /// Number of starts; the first is at the first guesses.
+    pub starts: usize,
+}
+
+/// The outcome.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tuned {
+    /// Values, SI.
+    pub values: Vec<f64>,
+    /// What the data say about each of them.
+    pub uncertainty: Uncertainty,
+    /// Weighted sum of squares over the degrees of freedom; 1 is noise alone.
+    pub reduced_chi_square: f64,
+    /// Per pose and measured pair, before and after.
+    pub matches: Vec<Vec<[FrfMatch; 2]>>,
+    /// Share of the starts that reached the best cost (within 1 %).
+    pub agreeing_starts: f64,
+}
+
+/// Residuals and Jacobian at one place.
+pub(super) struct Linearised {
+    pub(super) normal: DMatrix<f64>,
+    pub(super) slope: DVector<f64>,
+    pub(super) cost: f64,
+}
+
+/// Solves the task.
+pub fn tune(task: &Tuning) -> Outcome<Tuned> {
+    check(task)?;
+    let kinds: Vec<Kind> = task.parameters.iter().map(|p| p.kind).collect();
+    let mut random = Random::new(11);
+    let runs: Vec<(Vec<f64>, f64)> = (0..task.starts.max(1))
+        .filter_map(|i| descend(task, &kinds, start(task, i, &mut random)))
+        .collect();
+    let best = runs.iter().min_by(|a, b| a.1.total_cmp(&b.1));
+    let (theta, cost) = best.ok_or_else(singular)?;
+    let agreeing = runs
+        .iter()
+        .filter(|run| run.1 <= 1.01 * cost + 1e-12)
+        .count();
+    let at = linearise(task, &kinds, theta).ok_or_else(singular)?;
+    let freedom = (rows(task) as f64 - task.parameters.len() as f64).max(1.0);
+    let values: Vec<f64> = theta.iter().map(|t| t.exp()).collect();
+    Ok(Tuned {
+        uncertainty: uncertainty(task, theta, &at, at.cost / freedom, freedom),
+        reduced_chi_square: at.cost / freedom,
+        matches: matches(task, &kinds, &values),
+        agreeing_starts: agreeing as f64 / runs.len() as f64,
+        values,
+    })
+}
+
+fn check(task: &Tuning) -> Outcome<()> {
+    let wrong = |p: &&Parameter| !(p.bounds[0] > 0.0 && p.bounds[0] < p.bounds[1] && p.start > 0.0);
+    if let Some(parameter) = task.parameters.iter().find(wrong) {
+        return Err(Problem::new(
+            "bounds and first guess must be positive, the lower bound below the upper",
+            "correct the range of this constant",
+        )
+        .in_column(parameter.site.clone()));
+    }
+    if task.parameters.is_empty() || rows(task) == 0 {
+        return Err(Problem::new(
+            "nothing to tune",
+            "give parameters and measured FRFs",
+        ));
+    }
+    Ok(())
+}
+
+fn singular() -> Problem {
+    Problem::new(
+        "the model has no finite FRF at these values",
+        "check masses and stiffnesses of the robot file: each coordinate needs both",
+    )
+}
+
+fn pairs(task: &Tuning) -> impl Iterator<Item = (&Pose, &Measured)> {
+    task.poses
+        .iter()
+        .flat_map(|pose| pose.measured.iter().map(move |pair| (pose, pair)))
+}
+
+fn rows(task: &Tuning) -> usize {
+    pairs(task).map(|(_, pair)| 2 * pair.frf.len()).sum()
+}
+
+/// Logarithms of the first guesses, or of values drawn within a factor of 10 about them.
+fn start(task: &Tuning, number: usize, random: &mut Random) -> Vec<f64> {
+    let guess = |p: &Parameter| {
+        let spread = if number == 0 {
+            0.0
+        } else {
+            random.uniform(-2.3, 2.3)
+        };
+        (p.start.ln() + spread).clamp(p.bounds[0].ln(), p.bounds[1].ln())
+    };
+    task.parameters.iter().map(guess).collect()
+}
+
+/// Levenberg-Marquardt, steps cut at the bounds.
+fn descend(task: &Tuning, kinds: &[Kind], mut theta: Vec<f64>) -> Option<(Vec<f64>, f64)> {
+    let mut at = linearise(task, kinds, &theta)?;
+    let mut brake = 1e-3;
+    for _ in 0..60 {
+        let before = at.cost;
+        while brake < 1e10 {
+            let trial = stepped(task, &theta, &at, brake);
+            let found = trial.and_then(|trial| Some((linearise(task, kinds, &trial)?, trial)));
+            if let Some((lower, trial)) = found.filter(|(found, _)| found.cost < at.cost) {
+                (at, theta) = (lower, trial);
+                brake = (0.1 * brake).max(1e-10);
+                break;
+            }
+            brake *= 10.0;
+        }
+        if before - at.cost <= 1e-9 * before {
+            break;
+        }
+    }
+    Some((theta, at.cost))
+}
+
+/// A damped step; parameters that push against a bound stay there.
+fn stepped(task: &Tuning, theta: &[f64], at: &Linearised, brake: f64) -> Option<Vec<f64>> {
+    let bound = |i: usize, side: usize| task.parameters[i].bounds[side].ln();
+    let held = |i: &usize| {
+        (at.slope[*i] < 0.0 && theta[*i] <= bound(*i, 0))
+            || (at.slope[*i] > 0.0 && theta[*i] >= bound(*i, 1))
+    };
+    let free: Vec<usize> = (0..theta.len()).filter(|i| !held(i)).collect();
+    let largest = at.normal.diagonal().max().max(1e-300);
+    let damped = DMatrix::from_fn(free.len(), free.len(), |i, j| {
+        let entry = at.normal[(free[i], free[j])];
+        if i == j {
+            entry * (1.0 + brake) + 1e-12 * largest
+        } else {
+            entry
+        }
+    });
+    let slope = DVector::from_iterator(free.len(), free.iter().map(|i| at.slope[*i]));
+    let step = damped.cholesky()?.solve(&slope);
+    let mut next = theta.to_vec();
+    for (i, change) in free.iter().zip(step.iter()) {
+        next[*i] = (theta[*i] + change.clamp(-1.5, 1.5)).clamp(bound(*i, 0), bound(*i, 1));
+    }
+    Some(next)
+}
+
+/// `JᵀJ`, `−Jᵀr` and cost at the logarithms `theta`, priors included.
+pub(super) fn linearise(task: &Tuning, kinds: &[Kind], theta: &[f64]) -> Option<Linearised> {
+    let values: Vec<f64> = theta.iter().map(|t| t.exp()).collect();
+    let n = theta.len();
+    let mut sum = Linearised {
+        normal: DMatrix::zeros(n, n),
+        slope: DVector::zeros(n),
+        cost: 0.0,
+    };
+    for (pose, pair) in pairs(task) {
+        let (frf, slopes) = pose.sensitivities(kinds, &values, pair)?;
+        sum.add(&channel(pair, &frf, &slopes, &values, task.residuals));
+    }
+    for (i, parameter) in task.parameters.iter().enumerate() {
+        if let Some(deviation) = parameter.prior_ln_std {
+            let off = (theta[i] - parameter.start.ln()) / deviation;
+            sum.normal[(i, i)] += deviation.powi(-2);
+            sum.slope[i] -= off / deviation;
+            sum.cost += off * off;
+        }
+    }
+    sum.cost.is_finite().then_some(sum)
+}
+
+impl Linearised {
+    fn add(&mut self, (jacobian, rest): &(DMatrix<f64>, DVector<f64>)) {
+        self.normal += jacobian.tr_mul(jacobian);
+        self.slope += jacobian.tr_mul(rest);
+        self.cost += rest.norm_squared();
+    }
+}
+
+/// Weighted `∂H/∂lnθ` and `measured − simulated` of one channel, residual terms projected out.
+fn channel(
+    pair: &Measured,
+    frf: &[Complex64],
+    slopes: &[Vec<Complex64>],
+    values: &[f64],
+    residuals: Residuals,
+) -> (DMatrix<f64>, DVector<f64>) {
+    let independent = pair.lines_per_independent_one();
+    let weight: Vec<f64> = pair
+        .variance
+        .iter()
+        .map(|v| (2.0 / (v * independent)).sqrt())
+        .collect();
+    let rest: Vec<Complex64> = pair.frf.iter().zip(frf).map(|(m, a)| m - a).collect();
+    let mut rest = DVector::from_vec(stacked(&rest, &weight));
+    let columns = slopes.iter().zip(values).flat_map(|(slope, value)| {
+        let scaled: Vec<Complex64> = slope.iter().map(|v| v * *value).collect();
+        stacked(&scaled, &weight)
+    });
+    let mut jacobian = DMatrix::from_vec(rest.len(), slopes.len(), columns.collect());
+    if let Some(q) = residual_basis(pair, &weight, residuals) {
+        rest -= &q * q.tr_mul(&rest);
+        jacobian -= &q * q.tr_mul(&jacobian);
+    }
+    (jacobian, rest)
+}
+
+fn residual_basis(pair: &Measured, weight: &[f64], residuals: Residuals) -> Option<DMatrix<f64>> {
+    let powers = residuals.powers();
+    if powers.is_empty() {
+        return None;
+    }
+    let top = pair.s(pair.frf.len().checked_sub(1)?).norm();
+    let column = |power: &i32| {
+        let term: Vec<Complex64> = (0..pair.frf.len())
+            .map(|k| (pair.s(k) / top).powi(*power))
+            .collect();
+        stacked(&term, weight)
+    };
+    let columns: Vec<f64> = powers.iter().flat_map(column).collect();
+    Some(
+        DMatrix::from_vec(2 * pair.frf.len(), powers.len(), columns)
+            .qr()
+            .q(),
+    )
+}
+
+fn stacked(column: &[Complex64], weight: &[f64]) -> Vec<f64> {
+    crate::signal::modal_model::stacked(column, weight)
+}
+
+fn matches(task: &Tuning, kinds: &[Kind], values: &[f64]) -> Vec<Vec<[FrfMatch; 2]>> {
+    let starts: Vec<f64> = task.parameters.iter().map(|p| p.start).collect();
+    let of = |pose: &Pose, pair: &Measured, theta: &[f64]| {
+        let simulated = pose.accelerance(kinds, theta, pair).unwrap_or_default();
+        frf_match(&pair.frf, &with_residuals(task, pair, &simulated))
+    };
+    let pose = |pose: &Pose| -> Vec<[FrfMatch; 2]> {
+        let pairs = pose.measured.iter();
+        pairs
+            .map(|pair| [of(pose, pair, &starts), of(pose, pair, values)])
+            .collect()
+    };
+    task.poses.iter().map(pose).collect()
+}
+
+/// The simulated FRF with its residual terms, fitted to the measured one.
+fn with_residuals(task: &Tuning, pair: &Measured, simulated: &[Complex64]) -> Vec<Complex64> {
+    let rest: Vec<Complex64> = pair.frf.iter().zip(simulated).map(|(m, a)| m - a).collect();
+    let weight: Vec<f64> = pair.variance.iter().map(|v| v.sqrt().recip()).collect();
+    let Some(q) = residual_basis(pair, &weight, task.residuals) else {
+        return simulated.to_vec();
+    };
+    let rest = DVector::from_vec(stacked(&rest, &weight));
+    let part = &q * q.tr_mul(&rest);
+    let n = simulated.len();
+    let term = |k: usize| Complex64::new(part[k], part[n + k]) / weight[k];
+    simulated
+        .iter()
+        .enumerate()
+        .map(|(k, h)| h + term(k))
+        .collect()
+}

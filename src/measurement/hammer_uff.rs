@@ -1,0 +1,135 @@
+//! Kind `hammer` from the time records of a universal file.
+
+use super::hammer::{HammerRecord, HammerRun};
+use super::uff::{self, Abscissa, Function, Kind, Quantity, Values};
+use crate::ground::problem::{Outcome, Problem};
+use std::path::Path;
+
+/// Whether the name of `path` is that of a universal file.
+pub fn is_universal(path: &Path) -> bool {
+    let name = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    matches!(name.as_deref(), Some("uff" | "unv" | "ufb" | "58"))
+}
+
+/// Reads force and acceleration records; the k-th force belongs to the k-th record of each response.
+pub fn read_hammer(path: &Path) -> Outcome<HammerRecord> {
+    let file = uff::read(path)?;
+    from_functions(&file.functions_si()).map_err(|problem| problem.in_file(path))
+}
+
+fn from_functions(functions: &[Function]) -> Outcome<HammerRecord> {
+    let records = |wanted: &[Quantity]| -> Vec<&Function> {
+        let fits = |f: &&Function| f.kind == Kind::Time && wanted.contains(&f.quantity());
+        functions.iter().filter(fits).collect()
+    };
+    let forces = records(&[Quantity::ExcitationForce, Quantity::ReactionForce]);
+    let accelerations = records(&[Quantity::Acceleration]);
+    let first = forces.first().ok_or_else(no_force)?;
+    let interval_s = interval(first)?;
+    let outputs = outputs(&accelerations, forces.len())?;
+    let runs = forces.iter().enumerate().map(|(k, force)| {
+        let responses = outputs
+            .iter()
+            .map(|(_, all)| signed(all[k], all[k].response.direction));
+        run(k, force, responses.collect())
+    });
+    let runs = runs.collect::<Outcome<Vec<_>>>()?;
+    let all = forces.iter().chain(accelerations.iter());
+    for other in all {
+        if (interval(other)? - interval_s).abs() > 1e-6 * interval_s {
+            return Err(Problem::new(
+                "the time records have different sampling rates",
+                "export all channels of the test with one rate",
+            ));
+        }
+    }
+    Ok(HammerRecord {
+        robot: None,
+        joint_angles: None,
+        accelerometer_noise: None,
+        exponential_window_s: None,
+        interval_s,
+        outputs: outputs.into_iter().map(|(name, _)| name).collect(),
+        runs,
+    })
+}
+
+fn no_force() -> Problem {
+    Problem::new(
+        "no time record of a force",
+        "export force (type 13) and acceleration (type 12) as time records, data set 58 function type 1",
+    )
+}
+
+fn interval(function: &Function) -> Outcome<f64> {
+    let places = function.places();
+    match (&function.abscissa, &places[..]) {
+        (Abscissa::Even { .. }, [first, second, ..]) if second > first => Ok(second - first),
+        _ => Err(Problem::new(
+            "a time record is not evenly sampled forward in time",
+            "export evenly sampled records",
+        )),
+    }
+}
+
+/// Responses by direction, each with one record per force.
+fn outputs<'a>(
+    accelerations: &[&'a Function],
+    hits: usize,
+) -> Outcome<Vec<(String, Vec<&'a Function>)>> {
+    let mut outputs: Vec<(String, Vec<&Function>)> = Vec::new();
+    for function in accelerations {
+        let name = direction(function.response.direction);
+        match outputs.iter_mut().find(|(n, _)| *n == name) {
+            Some((_, all)) => all.push(function),
+            None => outputs.push((name, vec![function])),
+        }
+    }
+    let unequal = outputs.iter().find(|(_, all)| all.len() != hits);
+    match unequal {
+        None if !outputs.is_empty() => Ok(outputs),
+        _ => {
+            let found = unequal.map_or(0, |(_, all)| all.len());
+            let what = format!("{hits} force records but {found} of an acceleration");
+            Err(Problem::new(what, "export the same hits of every channel"))
+        }
+    }
+}
+
+fn direction(code: i64) -> String {
+    ["force", "x", "y", "z", "rx", "ry", "rz"]
+        .get(code.unsigned_abs() as usize)
+        .map_or_else(|| code.to_string(), |name| (*name).into())
+}
+
+fn signed(function: &Function, direction: i64) -> Vec<f64> {
+    let sign = if direction < 0 { -1.0 } else { 1.0 };
+    match &function.values {
+        Values::Real(values) => values.iter().map(|v| sign * v).collect(),
+        Values::Complex(values) => values.iter().map(|v| sign * v.re).collect(),
+    }
+}
+
+fn run(k: usize, force: &Function, responses: Vec<Vec<f64>>) -> Outcome<HammerRun> {
+    let samples = force.values.len();
+    let values = signed(force, force.response.direction);
+    let finite = |record: &Vec<f64>| record.iter().all(|v| v.is_finite());
+    if responses.iter().any(|r| r.len() != samples) {
+        return Err(Problem::new(
+            format!("hit {}: force and acceleration differ in length", k + 1),
+            "export whole records of every channel",
+        ));
+    }
+    if !finite(&values) || !responses.iter().all(finite) {
+        return Err(Problem::new(
+            format!("hit {}: a value is not finite", k + 1),
+            "export again: the record is damaged",
+        ));
+    }
+    Ok(HammerRun {
+        direction: direction(force.response.direction),
+        hit: Some((k + 1).to_string()),
+        force: values,
+        responses,
+    })
+}

@@ -1,0 +1,125 @@
+//! Overload: a record that stands at its extreme instead of passing through it.
+
+use super::pulse::{median, spread};
+
+/// Equal samples in a row that make a plateau.
+const PLATEAU: usize = 3;
+
+/// Whether `record` is cut off at its highest or lowest value. A smooth peak that is merely
+/// quantised is not: beside a quantised peak the next level is held almost as long, beside a
+/// plateau the record falls away steeply.
+pub fn clipped(record: &[f64]) -> bool {
+    clipped_above(record) || clipped_above(&negated(record))
+}
+
+/// Whether `record` is cut off at its highest value.
+pub fn clipped_above(record: &[f64]) -> bool {
+    let highest = record.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let middle = median(record);
+    let height = highest - middle;
+    let step = quantum(record, highest);
+    // Nothing stands out: noise or an unused channel.
+    if height <= 8.0 * spread(record, middle).max(step) {
+        return stands(record, highest, step) && height > 0.0 && many_levels(height, step);
+    }
+    stands(record, highest, step) || plateau(record, highest, step)
+}
+
+fn negated(record: &[f64]) -> Vec<f64> {
+    record.iter().map(|v| -v).collect()
+}
+
+fn many_levels(height: f64, step: f64) -> bool {
+    height > 30.0 * step
+}
+
+/// Smallest difference between neighbouring values of the upper half: the step of the digitiser.
+fn quantum(record: &[f64], highest: f64) -> f64 {
+    let middle = 0.5 * (highest + median(record));
+    let mut upper: Vec<f64> = record.iter().copied().filter(|v| *v > middle).collect();
+    upper.sort_unstable_by(f64::total_cmp);
+    let resolution = 1e-12 * highest.abs();
+    let steps = upper.windows(2).map(|w| w[1] - w[0]);
+    steps
+        .filter(|d| *d > resolution)
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Far more samples at the highest level than at each of the five below: seen when a fast
+/// oscillation is cut off, one or two samples at a time.
+fn stands(record: &[f64], highest: f64, step: f64) -> bool {
+    let depth = |v: &f64| (highest - v) / step;
+    let top = record.iter().filter(|v| depth(v) < 0.5).count();
+    let below = record
+        .iter()
+        .filter(|v| (0.5..5.5).contains(&depth(v)))
+        .count();
+    top > PLATEAU && top as f64 > 8.0 * (below as f64 / 5.0).max(0.25)
+}
+
+/// A run of samples at the highest level from which the record falls by much more than a parabola
+/// that rounds to such a run: there, half a run further out, 3 steps at most.
+fn plateau(record: &[f64], highest: f64, step: f64) -> bool {
+    let top = |i: usize| highest - record[i] < 0.5 * step;
+    let mut start = 0;
+    while start < record.len() {
+        let length = (start..record.len()).take_while(|i| top(*i)).count();
+        if length >= PLATEAU && falls_steeply(record, start, length, highest, step) {
+            return true;
+        }
+        start += length.max(1);
+    }
+    false
+}
+
+fn falls_steeply(record: &[f64], start: usize, length: usize, highest: f64, step: f64) -> bool {
+    let reach = length.div_ceil(2);
+    let left = start.checked_sub(reach).map(|i| highest - record[i]);
+    let right = record.get(start + length - 1 + reach).map(|v| highest - v);
+    let fall = match (left, right) {
+        (Some(left), Some(right)) => left.min(right),
+        (left, right) => left.or(right).unwrap_or(0.0),
+    };
+    fall > 6.0 * step
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn half_sine(samples: usize) -> Vec<f64> {
+        let pulse = |i: usize| (std::f64::consts::PI * i as f64 / samples as f64).sin();
+        let mut record = vec![0.0; 100];
+        record.extend((0..=samples).map(|i| 100.0 * pulse(i)));
+        record.extend(vec![0.0; 400]);
+        record
+    }
+
+    fn quantised(record: &[f64], step: f64) -> Vec<f64> {
+        record.iter().map(|v| (v / step).round() * step).collect()
+    }
+
+    #[test]
+    fn a_quantised_soft_pulse_is_not_clipped() {
+        for samples in [4, 8, 40, 128, 200] {
+            for step in [1e-3, 0.05, 0.5, 2.0] {
+                assert!(
+                    !clipped_above(&quantised(&half_sine(samples), step)),
+                    "{samples} {step}"
+                );
+            }
+            assert!(!clipped_above(&half_sine(samples)));
+        }
+    }
+
+    #[test]
+    fn a_cut_pulse_is_clipped_on_either_side() {
+        for samples in [16, 128] {
+            let cut: Vec<f64> = half_sine(samples).iter().map(|v| v.min(80.0)).collect();
+            for record in [cut.clone(), quantised(&cut, 0.05), quantised(&cut, 1.0)] {
+                assert!(clipped_above(&record), "{samples}");
+                assert!(clipped(&negated(&record)));
+            }
+        }
+    }
+}

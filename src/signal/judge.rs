@@ -1,0 +1,114 @@
+//! Judges hits: each alone, then within its family of hits in one direction.
+
+use super::clipping::{clipped, clipped_above};
+use super::double_hit::second_pulse;
+use super::fault::Fault;
+use super::pulse::{Pulse, median};
+use super::spectrum::{Transform, lines_up_to};
+
+/// Force spectrum at the upper end of the band against the lower end, dB, that is still enough
+/// (ISO 7626-5 limits the band where the force spectrum has fallen by about as much).
+const ENOUGH_DB: f64 = -20.0;
+/// Factor from the median peak beyond which a hit is out of family.
+const LEVEL: f64 = 3.0;
+/// Share of the median length below which a record is out of family.
+const LENGTH: f64 = 0.8;
+
+/// One hit as recorded.
+#[derive(Debug, Clone, Copy)]
+pub struct Hit<'a> {
+    /// Force, N.
+    pub force: &'a [f64],
+    /// Acceleration per output, m/s².
+    pub responses: &'a [Vec<f64>],
+    /// Time between samples, s.
+    pub interval_s: f64,
+}
+
+/// The faults of a hit seen alone, for use up to `to_hz`.
+pub fn faults(hit: &Hit, to_hz: f64) -> Vec<Fault> {
+    let Some(pulse) = Pulse::find(hit.force) else {
+        return vec![Fault::NoPulse];
+    };
+    let checks = [
+        cut_pulse(hit, &pulse),
+        double(hit, &pulse),
+        force_overload(hit, &pulse),
+        low_energy(hit, &pulse, to_hz),
+    ];
+    let overloads = response_overloads(hit.responses);
+    checks.into_iter().flatten().chain(overloads).collect()
+}
+
+fn cut_pulse(hit: &Hit, pulse: &Pulse) -> Option<Fault> {
+    (pulse.above(hit.force, 0) > 0.2 * pulse.peak.abs()).then_some(Fault::CutPulse)
+}
+
+fn double(hit: &Hit, pulse: &Pulse) -> Option<Fault> {
+    second_pulse(hit.force, pulse).map(|second| Fault::DoubleHit {
+        after_s: second.after as f64 * hit.interval_s,
+        share: second.share,
+    })
+}
+
+fn force_overload(hit: &Hit, pulse: &Pulse) -> Option<Fault> {
+    let towards: Vec<f64> = (0..hit.force.len())
+        .map(|i| pulse.above(hit.force, i))
+        .collect();
+    clipped_above(&towards).then_some(Fault::ForceOverload {
+        at: hit.force[pulse.at],
+    })
+}
+
+fn response_overloads(responses: &[Vec<f64>]) -> impl Iterator<Item = Fault> {
+    let records = responses.iter().enumerate();
+    records
+        .filter(|(_, record)| clipped(record))
+        .map(|(output, _)| Fault::ResponseOverload { output })
+}
+
+/// Compares the force spectrum in the upper fifth of the band with its lower fifth and with noise.
+fn low_energy(hit: &Hit, pulse: &Pulse, to_hz: f64) -> Option<Fault> {
+    let n = hit.force.len();
+    let last = lines_up_to(n, hit.interval_s, Some(to_hz)) - 1;
+    if last < 10 {
+        return None;
+    }
+    let pulse_only: Vec<f64> = hit.force.iter().map(|v| v - pulse.baseline).collect();
+    let lines = Transform::new(n).of(pulse_only, last + 1);
+    let power = |from: usize, to: usize| {
+        let sum: f64 = lines[from..=to].iter().map(|f| f.norm_sqr()).sum();
+        sum / (to + 1 - from) as f64
+    };
+    let from_hz = 0.8 * to_hz;
+    let upper = power(last - last / 5, last);
+    let level_db = 10.0 * (upper / power(1, last / 5)).log10();
+    if level_db < ENOUGH_DB {
+        return Some(Fault::LowEnergy { level_db, from_hz });
+    }
+    let noise = n as f64 * pulse.noise.powi(2);
+    (upper < 4.0 * noise).then_some(Fault::BuriedForce { from_hz })
+}
+
+/// The faults that show only beside the other hits in the same direction: one list per hit.
+pub fn family_faults(hits: &[Hit]) -> Vec<Vec<Fault>> {
+    let lengths: Vec<f64> = hits.iter().map(|h| h.force.len() as f64).collect();
+    let peaks: Vec<f64> = hits.iter().map(peak).collect();
+    let (length, peak) = (median(&lengths), median(&peaks));
+    (0..hits.len())
+        .map(|i| {
+            let short = (lengths[i] < LENGTH * length).then(|| Fault::ShortRecord {
+                length_s: lengths[i] * hits[i].interval_s,
+                others_s: length * hits[i].interval_s,
+            });
+            let ratio = peaks[i] / peak;
+            let strange = hits.len() > 2 && !(1.0 / LEVEL..=LEVEL).contains(&ratio);
+            let level = strange.then_some(Fault::Level { ratio });
+            short.into_iter().chain(level).collect()
+        })
+        .collect()
+}
+
+fn peak(hit: &Hit) -> f64 {
+    Pulse::find(hit.force).map_or(0.0, |pulse| pulse.peak.abs())
+}

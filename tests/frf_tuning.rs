@@ -1,0 +1,203 @@
+//! Dampings of a multibody-like system are recovered from its FRFs.
+
+use ident::fit::frf_identifiability::Status;
+use ident::fit::frf_model::{Kind, Measured, Pose};
+use ident::fit::frf_tuning::{Parameter, Residuals, Tuning, tune};
+use ident::ground::random::Random;
+use nalgebra::DMatrix;
+use rustfft::num_complex::Complex64;
+
+const N: usize = 7;
+/// The last coordinate moves neither the tool nor the others.
+const BLIND: usize = N - 1;
+
+fn unit(i: usize) -> DMatrix<f64> {
+    let mut direction = DMatrix::zeros(N, N);
+    direction[(i, i)] = 1.0;
+    direction
+}
+
+fn mass(random: &mut Random) -> DMatrix<f64> {
+    let a = DMatrix::from_fn(N, N, |_, _| random.normal());
+    let mut mass = &a * a.transpose() * 20.0 + DMatrix::identity(N, N) * 60.0;
+    for i in 0..BLIND {
+        mass[(i, BLIND)] = 0.0;
+        mass[(BLIND, i)] = 0.0;
+    }
+    mass
+}
+
+/// A task with noise of `noise` times the rms of each FRF, and the true dampings.
+fn task(seed: u64, noise: f64, poses: usize, rate: f64) -> (Tuning, Vec<f64>) {
+    let mut random = Random::new(seed);
+    let hz = [7.0, 10.0, 15.0, 21.0, 28.0, 38.0, 30.0];
+    let stiffness: Vec<f64> = hz
+        .iter()
+        .map(|f| 150.0 * (std::f64::consts::TAU * f).powi(2))
+        .collect();
+    let truth: Vec<f64> = (0..N)
+        .map(|i| 2.0 * random.uniform(0.01, 0.04) * (stiffness[i] * 150.0).sqrt())
+        .collect();
+    let kinds = [Kind::Damping; N];
+    let poses = (0..poses).map(|_| {
+        let mut jacobian = DMatrix::from_fn(3, N, |_, _| random.normal());
+        jacobian.column_mut(BLIND).fill(0.0);
+        let mut pose = Pose {
+            mass: mass(&mut random),
+            damping: DMatrix::zeros(N, N),
+            stiffness: DMatrix::from_diagonal(&stiffness.clone().into()),
+            jacobian,
+            directions: (0..N).map(unit).collect(),
+            measured: Vec::new(),
+        };
+        for (input, output) in (0..9).map(|c| (c / 3, c % 3)) {
+            let frequency_hz: Vec<f64> = (8..=200).map(|k| f64::from(k) * 0.25).collect();
+            let mut pair = Measured {
+                input,
+                output,
+                rate,
+                length_s: 4.0,
+                variance: vec![1.0; frequency_hz.len()],
+                frf: vec![Complex64::new(0.0, 0.0); frequency_hz.len()],
+                frequency_hz,
+            };
+            let exact = pose.accelerance(&kinds, &truth, &pair).unwrap();
+            let rms = (exact.iter().map(|h| h.norm_sqr()).sum::<f64>() / exact.len() as f64).sqrt();
+            let deviation = noise * rms;
+            let mut spoiled =
+                |h: &Complex64| h + Complex64::new(random.normal(), random.normal()) * deviation;
+            pair.frf = exact.iter().map(&mut spoiled).collect();
+            pair.variance = vec![2.0 * deviation * deviation; exact.len()];
+            pose.measured.push(pair);
+        }
+        pose
+    });
+    let poses = poses.collect();
+    let parameters = (0..N).map(|i| Parameter {
+        site: format!("A{}", i + 1),
+        kind: Kind::Damping,
+        start: 0.02 * (stiffness[i] * 150.0).sqrt(),
+        bounds: [1.0, 1e7],
+        prior_ln_std: None,
+    });
+    let parameters = parameters.collect();
+    (
+        Tuning {
+            parameters,
+            poses,
+            residuals: Residuals::None,
+            starts: 4,
+        },
+        truth,
+    )
+}
+
+#[test]
+fn derivatives_equal_finite_differences() {
+    let (task, truth) = task(1, 0.01, 1, 0.7);
+    let pose = &task.poses[0];
+    let kinds = [
+        Kind::Damping,
+        Kind::Stiffness,
+        Kind::Mass,
+        Kind::Damping,
+        Kind::Stiffness,
+        Kind::Mass,
+        Kind::Damping,
+    ];
+    let theta = truth.clone();
+    let pair = &pose.measured[1];
+    let (frf, slopes) = pose.sensitivities(&kinds, &theta, pair).unwrap();
+    for p in 0..N {
+        let step = 1e-5 * theta[p];
+        let moved = |sign: f64| {
+            let mut theta = theta.clone();
+            theta[p] += sign * step;
+            pose.accelerance(&kinds, &theta, pair).unwrap()
+        };
+        let (up, down) = (moved(1.0), moved(-1.0));
+        for k in (0..frf.len()).step_by(17) {
+            let difference = (up[k] - down[k]) / (2.0 * step);
+            let size = frf[k].norm() / theta[p];
+            assert!((difference - slopes[p][k]).norm() < 1e-4 * size.max(difference.norm()));
+        }
+    }
+}
+
+#[test]
+fn dampings_are_recovered_within_their_intervals() {
+    let (mut inside, mut all) = (0, 0);
+    for seed in 1..=10 {
+        let (task, truth) = task(seed, 0.02, 1, 0.0);
+        let tuned = tune(&task).unwrap();
+        assert!(
+            (0.8..1.2).contains(&tuned.reduced_chi_square),
+            "{}",
+            tuned.reduced_chi_square
+        );
+        for (i, statement) in tuned.uncertainty.statements.iter().enumerate() {
+            if i == BLIND {
+                assert_eq!(statement.status, Status::NotIdentifiable);
+                assert!(statement.ci95.is_none());
+                continue;
+            }
+            assert_eq!(statement.status, Status::Identified);
+            let [low, high] = statement.ci95.unwrap();
+            inside += usize::from((low..=high).contains(&truth[i]));
+            all += 1;
+            assert!((tuned.values[i] / truth[i] - 1.0).abs() < 0.1);
+        }
+        assert_eq!(tuned.uncertainty.fixed.len(), N - 1);
+        for [before, after] in tuned.matches.iter().flatten() {
+            assert!(after.frac > 0.99 && after.frac > before.frac - 1e-9);
+        }
+    }
+    println!("inside 95 %: {inside} of {all}");
+    assert!(inside as f64 >= 0.88 * all as f64);
+}
+
+#[test]
+fn several_poses_and_a_window_work_together() {
+    let (task, truth) = task(3, 0.02, 2, 1.15);
+    let tuned = tune(&task).unwrap();
+    for (found, true_value) in tuned.values.iter().zip(&truth).take(BLIND) {
+        assert!((found / true_value - 1.0).abs() < 0.05);
+    }
+}
+
+#[test]
+fn a_prior_is_used_only_where_stated_and_says_so() {
+    let (mut task, truth) = task(4, 0.02, 1, 0.0);
+    task.parameters[BLIND].prior_ln_std = Some(0.2);
+    let tuned = tune(&task).unwrap();
+    let statement = &tuned.uncertainty.statements[BLIND];
+    assert_eq!(statement.status, Status::Identified);
+    assert!(statement.by_prior);
+    assert!((tuned.values[BLIND] / task.parameters[BLIND].start - 1.0).abs() < 1e-6);
+    assert!(tuned.uncertainty.statements[0].ci95.is_some() && truth[0] > 0.0);
+}
+
+#[test]
+fn residual_terms_take_up_what_the_model_leaves_out() {
+    let (mut task, truth) = task(5, 0.01, 1, 0.0);
+    for pair in &mut task.poses[0].measured {
+        for k in 0..pair.frf.len() {
+            let s = pair.s(k);
+            pair.frf[k] += s * s * 2e-8;
+        }
+    }
+    task.residuals = Residuals::Upper;
+    let tuned = tune(&task).unwrap();
+    assert!(tuned.reduced_chi_square < 1.2);
+    for (found, true_value) in tuned.values.iter().zip(&truth).take(BLIND) {
+        assert!((found / true_value - 1.0).abs() < 0.05);
+    }
+}
+
+#[test]
+fn a_bound_is_named() {
+    let (mut task, truth) = task(6, 0.02, 1, 0.0);
+    task.parameters[0].bounds[1] = 0.5 * truth[0];
+    let tuned = tune(&task).unwrap();
+    assert_eq!(tuned.uncertainty.statements[0].status, Status::AtBound);
+}
