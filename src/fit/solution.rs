@@ -62,6 +62,7 @@ pub fn fit_from(
         let best = starts
             .iter()
             .map(|start| minimise(&problem, start, Search::default()))
+            .filter(|optimum| optimum.chi2.is_finite())
             .min_by(|a, b| a.chi2.total_cmp(&b.chi2));
         let Some(best) = best else { break };
         colour = noise_of(&problem, &best);
