@@ -1,6 +1,7 @@
 //! `ident frf`: frequency response functions of any structure from hammer tests.
 
 use super::{Ending, json};
+use super::{Verb, arguments};
 use crate::experiments::hammer_frf::{self, HammerFrf, InputFrf, Settings};
 use crate::experiments::hammer_functions::universal_file;
 use crate::experiments::hammer_modes::modes;
@@ -17,6 +18,14 @@ use clap::{ArgMatches, Args, ValueEnum};
 use rustfft::num_complex::Complex64;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
+
+/// The verb.
+pub const VERB: Verb = Verb {
+    name: "frf",
+    about: "Frequency response functions from hammer tests: hits judged, H1, H2, Hv, coherence",
+    arguments: arguments::<FrfArgs>,
+    run: run,
+};
 
 /// Arguments of `ident frf`.
 #[derive(Debug, Args)]

@@ -44,12 +44,6 @@ pub const VERBS: &[Verb] = &[
     effects::VERB,
     lab::VERB,
 ];
-pub const VERBS: &[Verb] = &[Verb {
-    name: "frf",
-    about: "Frequency response functions from hammer tests: hits judged, H1, H2, Hv, coherence",
-    arguments: arguments::<frf::FrfArgs>,
-    run: frf::run,
-}];
 
 /// Adds the arguments of a derived `Args` type: the usual [`Verb::arguments`].
 pub fn arguments<A: Args>(command: Command) -> Command {

@@ -9,7 +9,7 @@ use crate::fit::parameter::{Identified, Status};
 use crate::fit::stiffness::{Account, DEFAULT_EFFECTS, Request, identify, measured_losses};
 use crate::fit::store::{SCHEMA, StoredFit, stored_effects, stored_scale};
 use crate::ground::files;
-use crate::ground::problem::Outcome;
+use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::load_cycle::{Axis, LoadCycle};
 use crate::measurement::workspace::{Place, resolve};
 use crate::report::{json, svg, text};
@@ -66,17 +66,20 @@ struct Result {
 fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let arguments: Arguments = parsed(matches);
     let request = request(&arguments)?;
-    let progress = Progress::new(arguments.files.len(), arguments.progress);
-    let results = arguments
-        .files
-        .par_iter()
-        .map(|name| {
-            let result = one(name, &request);
-            progress.done(&name.display().to_string());
+    let paths = paths(&arguments)?;
+    let progress = Progress::new(paths.len(), arguments.progress);
+    let results: Vec<Outcome<Result>> = paths
+        .into_par_iter()
+        .map(|path| {
+            let name = path.display().to_string();
+            let result = one(path, &request);
+            progress.done(&name);
             result
         })
-        .collect::<Outcome<Vec<Result>>>()?;
+        .collect();
     progress.finish();
+    // of several bad files the first is named, whichever thread was faster
+    let results = results.into_iter().collect::<Outcome<Vec<Result>>>()?;
     if !arguments.dry_run {
         write(&results)?;
     }
@@ -115,11 +118,31 @@ fn request(arguments: &Arguments) -> Outcome<Request> {
     })
 }
 
-fn one(name: &Path, request: &Request) -> Outcome<Result> {
-    let (path, said) = resolve(name)?;
-    if let Some(said) = said {
-        tell(&said);
+/// The files meant. Two that would write the same results are refused, unless nothing is written.
+fn paths(arguments: &Arguments) -> Outcome<Vec<PathBuf>> {
+    let mut paths: Vec<PathBuf> = Vec::new();
+    for name in &arguments.files {
+        let (path, said) = resolve(name)?;
+        said.iter().for_each(|s| tell(s));
+        let same = |other: &&PathBuf| {
+            Place::of(other) == Place::of(&path) && other.file_stem() == path.file_stem()
+        };
+        match paths.iter().find(same) {
+            Some(other) if *other != path && !arguments.dry_run => {
+                return Err(Problem::new(
+                    format!("its results would overwrite those of {}", other.display()),
+                    "put the files under measurements/<campaign>/, rename one, or add --dry-run",
+                )
+                .in_file(&path));
+            }
+            Some(other) if *other == path => {}
+            _ => paths.push(path),
+        }
     }
+    Ok(paths)
+}
+
+fn one(path: PathBuf, request: &Request) -> Outcome<Result> {
     let file = LoadCycle::read(&path)?;
     let account = identify(&file, request);
     Ok(Result {
@@ -144,10 +167,11 @@ fn write(results: &[Result]) -> Outcome<()> {
         .map(ink)
         .collect::<Outcome<Vec<_>>>()?
         .concat();
-    for (path, content) in inked {
-        files::replace(&path, content.as_bytes())?;
-    }
-    Ok(())
+    let inked: Vec<(&Path, &[u8])> = inked
+        .iter()
+        .map(|(path, content)| (path.as_path(), content.as_bytes()))
+        .collect();
+    files::replace_all(&inked)
 }
 
 fn ink(result: &Result) -> Outcome<Vec<(PathBuf, String)>> {

@@ -62,6 +62,7 @@ pub fn fit_from(
         let best = starts
             .iter()
             .map(|start| minimise(&problem, start, Search::default()))
+            .filter(|optimum| optimum.chi2.is_finite())
             .min_by(|a, b| a.chi2.total_cmp(&b.chi2));
         let Some(best) = best else { break };
         colour = noise_of(&problem, &best);
@@ -137,7 +138,13 @@ fn covariance(optimum: &Optimum) -> DMatrix<f64> {
     let free: Vec<usize> = (0..n).filter(|j| optimum.active[*j] == 0).collect();
     let columns = optimum.jacobian.select_columns(&free);
     let mut covariance = DMatrix::zeros(n, n);
-    let eigen = (columns.transpose() * &columns).symmetric_eigen();
+    let normal = columns.transpose() * &columns;
+    if normal.is_empty() || !normal.iter().all(|v| v.is_finite()) {
+        free.iter()
+            .for_each(|j| covariance[(*j, *j)] = f64::INFINITY);
+        return covariance;
+    }
+    let eigen = normal.symmetric_eigen();
     let largest = eigen.eigenvalues.iter().fold(0.0_f64, |m, v| m.max(*v));
     for (k, value) in eigen.eigenvalues.iter().enumerate() {
         let vector = eigen.eigenvectors.column(k);

@@ -28,41 +28,49 @@ pub trait Scalar:
     fn chain(self, f: f64, slope: f64) -> Self;
 
     /// Sine.
+    #[inline]
     fn sin(self) -> Self {
         let v = self.value();
         self.chain(v.sin(), v.cos())
     }
     /// Cosine.
+    #[inline]
     fn cos(self) -> Self {
         let v = self.value();
         self.chain(v.cos(), -v.sin())
     }
     /// Natural exponential.
+    #[inline]
     fn exp(self) -> Self {
         let e = self.value().exp();
         self.chain(e, e)
     }
     /// Square root.
+    #[inline]
     fn sqrt(self) -> Self {
         let r = self.value().sqrt();
         self.chain(r, 0.5 / r)
     }
     /// Hyperbolic tangent.
+    #[inline]
     fn tanh(self) -> Self {
         let t = self.value().tanh();
         self.chain(t, 1.0 - t * t)
     }
     /// Constant real power, base positive.
+    #[inline]
     fn powf(self, exponent: f64) -> Self {
         let v = self.value();
         self.chain(v.powf(exponent), exponent * v.powf(exponent - 1.0))
     }
     /// Absolute value; slope 0 at 0.
+    #[inline]
     fn abs(self) -> Self {
         let v = self.value();
         self.chain(v.abs(), if v == 0.0 { 0.0 } else { v.signum() })
     }
     /// The larger of two.
+    #[inline]
     fn max(self, other: Self) -> Self {
         if self.value() >= other.value() {
             self
@@ -71,6 +79,7 @@ pub trait Scalar:
         }
     }
     /// The smaller of two.
+    #[inline]
     fn min(self, other: Self) -> Self {
         if self.value() <= other.value() {
             self
@@ -84,9 +93,11 @@ impl Scalar for f64 {
     fn constant(value: f64) -> Self {
         value
     }
+    #[inline]
     fn value(self) -> f64 {
         self
     }
+    #[inline]
     fn chain(self, f: f64, _slope: f64) -> Self {
         f
     }
@@ -103,12 +114,14 @@ pub struct Dual<const N: usize> {
 
 impl<const N: usize> Dual<N> {
     /// The i-th parameter itself: derivative 1 in place i.
+    #[inline]
     pub fn variable(value: f64, i: usize) -> Self {
         let mut eps = [0.0; N];
         eps[i] = 1.0;
         Self { re: value, eps }
     }
 
+    #[inline]
     fn zip(self, other: Self, re: f64, f: impl Fn(f64, f64) -> f64) -> Self {
         Self {
             re,
@@ -118,15 +131,18 @@ impl<const N: usize> Dual<N> {
 }
 
 impl<const N: usize> Scalar for Dual<N> {
+    #[inline]
     fn constant(value: f64) -> Self {
         Self {
             re: value,
             eps: [0.0; N],
         }
     }
+    #[inline]
     fn value(self) -> f64 {
         self.re
     }
+    #[inline]
     fn chain(self, f: f64, slope: f64) -> Self {
         Self {
             re: f,
@@ -136,6 +152,7 @@ impl<const N: usize> Scalar for Dual<N> {
 }
 
 impl<const N: usize> PartialOrd for Dual<N> {
+    #[inline]
     fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
         self.re.partial_cmp(&other.re)
     }
@@ -143,12 +160,14 @@ impl<const N: usize> PartialOrd for Dual<N> {
 
 impl<const N: usize> Add for Dual<N> {
     type Output = Self;
+    #[inline]
     fn add(self, o: Self) -> Self {
         self.zip(o, self.re + o.re, |a, b| a + b)
     }
 }
 impl<const N: usize> Sub for Dual<N> {
     type Output = Self;
+    #[inline]
     fn sub(self, o: Self) -> Self {
         self.zip(o, self.re - o.re, |a, b| a - b)
     }
@@ -156,6 +175,7 @@ impl<const N: usize> Sub for Dual<N> {
 #[allow(clippy::suspicious_arithmetic_impl)] // the product rule adds
 impl<const N: usize> Mul for Dual<N> {
     type Output = Self;
+    #[inline]
     fn mul(self, o: Self) -> Self {
         self.zip(o, self.re * o.re, |a, b| a * o.re + b * self.re)
     }
@@ -163,6 +183,7 @@ impl<const N: usize> Mul for Dual<N> {
 #[allow(clippy::suspicious_arithmetic_impl)] // the quotient rule subtracts
 impl<const N: usize> Div for Dual<N> {
     type Output = Self;
+    #[inline]
     fn div(self, o: Self) -> Self {
         let q = self.re / o.re;
         self.zip(o, q, |a, b| (a - q * b) / o.re)
@@ -170,45 +191,53 @@ impl<const N: usize> Div for Dual<N> {
 }
 impl<const N: usize> Neg for Dual<N> {
     type Output = Self;
+    #[inline]
     fn neg(self) -> Self {
         self.chain(-self.re, -1.0)
     }
 }
 impl<const N: usize> Add<f64> for Dual<N> {
     type Output = Self;
+    #[inline]
     fn add(self, o: f64) -> Self {
         self.chain(self.re + o, 1.0)
     }
 }
 impl<const N: usize> Sub<f64> for Dual<N> {
     type Output = Self;
+    #[inline]
     fn sub(self, o: f64) -> Self {
         self.chain(self.re - o, 1.0)
     }
 }
 impl<const N: usize> Mul<f64> for Dual<N> {
     type Output = Self;
+    #[inline]
     fn mul(self, o: f64) -> Self {
         self.chain(self.re * o, o)
     }
 }
 impl<const N: usize> Div<f64> for Dual<N> {
     type Output = Self;
+    #[inline]
     fn div(self, o: f64) -> Self {
         self.chain(self.re / o, 1.0 / o)
     }
 }
 impl<const N: usize> AddAssign for Dual<N> {
+    #[inline]
     fn add_assign(&mut self, o: Self) {
         *self = *self + o;
     }
 }
 impl<const N: usize> SubAssign for Dual<N> {
+    #[inline]
     fn sub_assign(&mut self, o: Self) {
         *self = *self - o;
     }
 }
 impl<const N: usize> MulAssign for Dual<N> {
+    #[inline]
     fn mul_assign(&mut self, o: Self) {
         *self = *self * o;
     }

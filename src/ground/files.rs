@@ -4,6 +4,7 @@ use super::problem::{Outcome, Problem};
 use sha2::{Digest, Sha256};
 use std::io::Write;
 use std::path::Path;
+use tempfile::NamedTempFile;
 
 /// The bytes of a file, or a problem naming it.
 pub fn read_bytes(path: &Path) -> Outcome<Vec<u8>> {
@@ -27,16 +28,31 @@ pub fn sha256(bytes: &[u8]) -> String {
 
 /// Replaces `path` in one step: written beside it, synced, renamed. A crash leaves the old file.
 pub fn replace(path: &Path, content: &[u8]) -> Outcome<()> {
-    write_beside(path, content).map_err(|error| {
+    replace_all(&[(path, content)])
+}
+
+/// Replaces several files: all are written beside their places before the first is renamed, so
+/// that a full disk or a forbidden folder leaves every old file.
+pub fn replace_all(files: &[(&Path, &[u8])]) -> Outcome<()> {
+    let refused = |path: &Path, error: std::io::Error| {
         Problem::new(
             format!("cannot be written ({error})"),
             "check that the folder exists, is writable and has room",
         )
         .in_file(path)
-    })
+    };
+    let mut staged = Vec::new();
+    for (path, content) in files {
+        staged.push(stage(path, content).map_err(|e| refused(path, e))?);
+    }
+    for (file, (path, _)) in staged.into_iter().zip(files) {
+        file.persist(path).map_err(|e| refused(path, e.error))?;
+    }
+    Ok(())
 }
 
-fn write_beside(path: &Path, content: &[u8]) -> std::io::Result<()> {
+/// Writes a temporary file in the folder of `path`; it removes itself unless it is renamed.
+fn stage(path: &Path, content: &[u8]) -> std::io::Result<NamedTempFile> {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
     std::fs::create_dir_all(folder)?;
@@ -47,8 +63,7 @@ fn write_beside(path: &Path, content: &[u8]) -> std::io::Result<()> {
     file.write_all(content)?;
     file.as_file().sync_all()?;
     set_plain_permissions(file.as_file())?;
-    file.persist(path).map_err(|e| e.error)?;
-    Ok(())
+    Ok(file)
 }
 
 #[cfg(unix)]

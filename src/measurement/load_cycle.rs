@@ -137,7 +137,6 @@ impl LoadCycle {
         let ports = Channels::find(&table, &facts)?;
         ports.check_facts(&table.front, &facts)?;
         let cycle = ports.assemble(table, facts)?;
-        cycle.check_time()?;
         cycle.check_rows()?;
         Ok(cycle)
     }
@@ -160,31 +159,15 @@ impl LoadCycle {
         stem.unwrap_or_else(|| "measurement".into())
     }
 
-    fn check_time(&self) -> Outcome<()> {
-        let back = self.time.windows(2).position(|w| w[1] < w[0]);
-        match back {
-            None => Ok(()),
-            Some(i) => Err(Problem::new(
-                format!(
-                    "time runs backwards, from {} s to {} s",
-                    self.time[i],
-                    self.time[i + 1]
-                ),
-                "sort the rows by time, or split the file into one per run",
-            )
-            .in_column("time_s")
-            .at_line(self.first_line + i + 1)),
-        }
-    }
-
     fn check_rows(&self) -> Outcome<()> {
         if self.load.len() >= 4 {
             return Ok(());
         }
         Err(Problem::new(
             format!(
-                "holds {} usable rows ({} of {} left out for an empty cell)",
+                "holds {} usable row{} ({} of {} left out for an empty cell)",
                 self.load.len(),
+                if self.load.len() == 1 { "" } else { "s" },
                 self.left_out,
                 self.rows
             ),
@@ -192,6 +175,26 @@ impl LoadCycle {
         )
         .at_line(self.first_line))
     }
+}
+
+/// Time must not run backwards; missing cells do not count.
+fn check_time(table: &Table) -> Outcome<()> {
+    let Some((column, time)) = table.column("time").and_then(|c| Some((c, c.numbers()?))) else {
+        return Ok(());
+    };
+    let mut before = f64::NEG_INFINITY;
+    for (row, now) in time.iter().enumerate().filter(|(_, t)| !t.is_nan()) {
+        if *now < before {
+            return Err(Problem::new(
+                format!("time runs backwards, from {before} s to {now} s"),
+                "sort the rows by time, or split the file into one per run",
+            )
+            .in_column(&column.name)
+            .at_line(table.line_of(row)));
+        }
+        before = *now;
+    }
+    Ok(())
 }
 
 fn check_kind(front: &Front) -> Outcome<()> {
@@ -362,6 +365,7 @@ impl Channels {
     }
 
     fn assemble(self, mut table: Table, facts: Facts) -> Outcome<LoadCycle> {
+        check_time(&table)?;
         let conversions = self.conversions(&table, &facts);
         let time = take(&mut table, "time", 1.0);
         let load = take(&mut table, self.load.0, self.load.1);
@@ -384,7 +388,6 @@ impl Channels {
             conversions,
             path: table.path,
         };
-        cycle.check_time()?;
         cycle.leave_out_missing();
         cycle.undo_declared_delay();
         Ok(cycle)

@@ -6,7 +6,6 @@
 use super::front::Front;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::units::{self, Dimension};
-use csv::ByteRecord;
 use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
@@ -57,6 +56,8 @@ pub struct Table {
     pub decimal_comma: bool,
     /// 1-based line of the first data row.
     pub first_line: usize,
+    /// Rows that do not stand on the line after the row before, and their 1-based lines.
+    jumps: Vec<(usize, usize)>,
 }
 
 /// Columns that carry no unit, and whether they hold words.
@@ -75,7 +76,18 @@ const PLAIN: &[(&str, bool)] = &[
 impl Table {
     /// Reads a file.
     pub fn read(path: &Path) -> Outcome<Self> {
-        Self::read_inner(path).map_err(|problem| problem.in_file(path))
+        let open = || {
+            let file = File::open(path)?;
+            let bytes = file.metadata()?.len();
+            Ok((file, bytes))
+        };
+        let (file, bytes) = open().map_err(|e| unreadable(&e).in_file(path))?;
+        Self::from_reader(path, file, bytes)
+    }
+
+    /// Reads a table from any source; `path` names it, `bytes` (any good guess) is its length.
+    pub fn from_reader(path: &Path, source: impl Read, bytes: u64) -> Outcome<Self> {
+        Self::parse(path, source, bytes).map_err(|problem| problem.in_file(path))
     }
 
     /// The column with this stem, if present.
@@ -83,10 +95,16 @@ impl Table {
         self.columns.iter().find(|column| column.stem == stem)
     }
 
-    fn read_inner(path: &Path) -> Outcome<Self> {
-        let file = File::open(path).map_err(|e| unreadable(&e))?;
-        let bytes = file.metadata().map(|m| m.len()).unwrap_or(0);
-        let mut reader = BufReader::with_capacity(1 << 18, Hashing::new(file));
+    /// 1-based line on which a data row stands.
+    pub fn line_of(&self, row: usize) -> usize {
+        match self.jumps.partition_point(|jump| jump.0 <= row) {
+            0 => self.first_line + row,
+            n => self.jumps[n - 1].1 + row - self.jumps[n - 1].0,
+        }
+    }
+
+    fn parse(path: &Path, source: impl Read, bytes: u64) -> Outcome<Self> {
+        let mut reader = BufReader::with_capacity(1 << 18, Hashing::new(source));
         let (front, header, header_line) = read_head(&mut reader)?;
         let layout = Layout::of_header(&header, header_line)?;
         let mut body = Body::new(layout, bytes as usize, header.len());
@@ -101,6 +119,7 @@ impl Table {
             decimal_comma: body.decimal_comma == Some(true),
             first_line: header_line + 1,
             columns: body.columns,
+            jumps: body.jumps,
         })
     }
 }
@@ -114,17 +133,19 @@ fn unreadable(error: &std::io::Error) -> Problem {
     Problem::new(format!("cannot be read ({error})"), remedy)
 }
 
-/// A reader that hashes what passes through it.
-struct Hashing {
-    file: File,
+/// A reader that hashes what passes through it and refuses endless lines.
+struct Hashing<R> {
+    source: R,
     digest: Sha256,
+    since_line_end: usize,
 }
 
-impl Hashing {
-    fn new(file: File) -> Self {
+impl<R: Read> Hashing<R> {
+    fn new(source: R) -> Self {
         Self {
-            file,
+            source,
             digest: Sha256::new(),
+            since_line_end: 0,
         }
     }
 
@@ -135,24 +156,29 @@ impl Hashing {
     }
 }
 
-impl Read for Hashing {
+impl<R: Read> Read for Hashing<R> {
     fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
-        let n = self.file.read(buffer)?;
+        let n = self.source.read(buffer)?;
         self.digest.update(&buffer[..n]);
+        self.since_line_end = match buffer[..n].iter().rposition(|b| *b == b'\n') {
+            Some(at) => n - at - 1,
+            None => self.since_line_end + n,
+        };
+        if self.since_line_end > LONGEST_LINE {
+            return Err(std::io::Error::other("line longer than any row of a table"));
+        }
         Ok(n)
     }
 }
 
-/// Longest line accepted: longer ones are no table.
-const LONGEST_LINE: u64 = 1 << 20;
+/// Longest line accepted: longer ones are no table, and must not fill the memory.
+const LONGEST_LINE: usize = 1 << 20;
 
 fn read_line(reader: &mut impl BufRead, line: usize) -> Outcome<Option<String>> {
     let mut bytes = Vec::new();
     let n = reader
-        .by_ref()
-        .take(LONGEST_LINE)
         .read_until(b'\n', &mut bytes)
-        .map_err(|e| unreadable(&e))?;
+        .map_err(|e| unreadable(&e).at_line(line))?;
     if n == 0 {
         return Ok(None);
     }
@@ -164,7 +190,7 @@ fn read_line(reader: &mut impl BufRead, line: usize) -> Outcome<Option<String>> 
     }
     let not_text =
         || Problem::new("is not UTF-8 text", "export the table as CSV in UTF-8").at_line(line);
-    if bytes.contains(&0) || n as u64 == LONGEST_LINE {
+    if bytes.contains(&0) {
         return Err(not_text());
     }
     let text = String::from_utf8(bytes).map_err(|_| not_text())?;
@@ -300,6 +326,8 @@ struct Body {
     layout: Layout,
     columns: Vec<Column>,
     rows: usize,
+    jumps: Vec<(usize, usize)>,
+    next_line: usize,
     decimal_comma: Option<bool>,
     bytes: usize,
     header_length: usize,
@@ -310,56 +338,57 @@ impl Body {
         let columns = std::mem::take(&mut layout.columns);
         let decimal_comma = (layout.delimiter == b',').then_some(false);
         Self {
+            next_line: layout.header_line + 1,
             layout,
             columns,
             rows: 0,
+            jumps: Vec::new(),
             decimal_comma,
             bytes,
             header_length,
         }
     }
 
-    fn read(&mut self, reader: &mut impl Read) -> Outcome<()> {
-        let mut rows = csv::ReaderBuilder::new()
-            .delimiter(self.layout.delimiter)
-            .has_headers(false)
-            .flexible(true)
-            .buffer_capacity(1 << 18)
-            .from_reader(reader);
-        let mut record = ByteRecord::new();
-        loop {
-            let more = rows
-                .read_byte_record(&mut record)
-                .map_err(|e| broken_row(&e))?;
-            if !more {
+    fn read(&mut self, reader: &mut impl BufRead) -> Outcome<()> {
+        let mut text = Vec::new();
+        for line in self.layout.header_line + 1.. {
+            text.clear();
+            let read = reader.read_until(b'\n', &mut text);
+            if read.map_err(|e| unreadable(&e).at_line(line))? == 0 {
                 break;
             }
-            let line = record.position().map_or(1, |p| p.line() as usize);
-            self.row(&record)
-                .map_err(|p| p.at_line(self.layout.header_line + line))?;
+            self.row(without_line_end(&text), line)
+                .map_err(|p| p.at_line(line))?;
         }
         Ok(())
     }
 
-    fn row(&mut self, record: &ByteRecord) -> Outcome<()> {
-        if record.len() != self.columns.len() {
-            return match record.iter().all(|cell| cell.trim_ascii().is_empty()) {
+    fn row(&mut self, text: &[u8], line: usize) -> Outcome<()> {
+        let delimiter = self.layout.delimiter;
+        let cells = || text.split(|b| *b == delimiter);
+        let found = cells().count();
+        if found != self.columns.len() {
+            return match cells().all(|cell| cell.trim_ascii().is_empty()) {
                 true => Ok(()),
-                false => Err(self.wrong_length(record)),
+                false => Err(self.wrong_length(found)),
             };
         }
         if self.rows == 0 {
-            self.reserve(record.as_slice().len() + record.len());
+            self.reserve(text.len() + 1);
         }
         if self.decimal_comma.is_none() {
-            self.decimal_comma = decide_decimal(record);
+            self.decimal_comma = decide_decimal(text, delimiter);
         }
         let comma = self.decimal_comma == Some(true);
-        for (column, cell) in self.columns.iter_mut().zip(record.iter()) {
+        for (column, cell) in self.columns.iter_mut().zip(cells()) {
             column
-                .push(cell.trim_ascii(), comma)
+                .push(unquoted(cell), comma)
                 .map_err(|p| p.in_column(&column.name))?;
         }
+        if line != self.next_line {
+            self.jumps.push((self.rows, line));
+        }
+        self.next_line = line + 1;
         self.rows += 1;
         Ok(())
     }
@@ -376,8 +405,8 @@ impl Body {
         }
     }
 
-    fn wrong_length(&self, record: &ByteRecord) -> Problem {
-        let (found, wanted) = (record.len(), self.columns.len());
+    fn wrong_length(&self, found: usize) -> Problem {
+        let wanted = self.columns.len();
         let remedy = if self.layout.delimiter == b',' && found == 2 * wanted {
             "decimal commas need `;` or tab between the cells: export with `;`".to_string()
         } else {
@@ -392,18 +421,27 @@ impl Body {
     }
 }
 
-fn broken_row(error: &csv::Error) -> Problem {
-    Problem::new(
-        format!("cannot be read ({error})"),
-        "check that the file is complete",
-    )
+fn without_line_end(line: &[u8]) -> &[u8] {
+    let line = line.strip_suffix(b"\n").unwrap_or(line);
+    line.strip_suffix(b"\r").unwrap_or(line)
 }
 
-/// A decimal comma shows in the first row that has a comma or a point in a number.
-fn decide_decimal(record: &ByteRecord) -> Option<bool> {
-    let has = |sign: u8| record.iter().any(|cell| cell.contains(&sign));
-    match (has(b','), has(b'.')) {
-        (true, _) => Some(true),
+/// A cell without blanks and quotes around it.
+fn unquoted(cell: &[u8]) -> &[u8] {
+    let cell = cell.trim_ascii();
+    match cell {
+        [b'"', inner @ .., b'"'] => inner.trim_ascii(),
+        _ => cell,
+    }
+}
+
+/// A decimal comma shows in the first row that has a comma or a point in a number; a row with both
+/// is refused, whichever it is.
+fn decide_decimal(row: &[u8], delimiter: u8) -> Option<bool> {
+    let comma = delimiter != b',' && row.contains(&b',');
+    match (comma, row.contains(&b'.')) {
+        (true, true) => None,
+        (true, false) => Some(true),
         (false, true) => Some(false),
         (false, false) => None,
     }
@@ -419,7 +457,7 @@ impl Column {
                 Ok(())
             }
             Cells::Numbers(values) => {
-                values.push(number(cell, comma)? * self.factor);
+                values.push(in_si(cell, number(cell, comma)?, self.factor)?);
                 Ok(())
             }
         }
@@ -476,12 +514,26 @@ fn number(cell: &[u8], comma: bool) -> Outcome<f64> {
     }
 }
 
+/// Largest magnitude that is taken for a measured value: squares of it stay finite.
+const LARGEST: f64 = 1e50;
+
+fn in_si(cell: &[u8], value: f64, factor: f64) -> Outcome<f64> {
+    let value = value * factor;
+    if value.abs() <= LARGEST {
+        return Ok(value);
+    }
+    Err(Problem::new(
+        format!("`{}` is too large for a measured value", shown(cell)),
+        "check the exponent, and the unit at the end of the column name",
+    ))
+}
+
 fn parse_comma(cell: &[u8]) -> Option<f64> {
     let mut buffer = [0u8; 64];
     let buffer = buffer.get_mut(..cell.len())?;
     buffer.copy_from_slice(cell);
-    if buffer.contains(&b'.') && buffer.contains(&b',') {
-        return None;
+    if buffer.contains(&b'.') {
+        return None; // a thousands separator, or a second decimal sign: 1.234 would be 1234
     }
     for byte in buffer.iter_mut().filter(|b| **b == b',') {
         *byte = b'.';
@@ -493,7 +545,9 @@ fn not_a_number(cell: &[u8], comma: bool) -> Problem {
     let remedy = if cell.contains(&b',') && cell.contains(&b'.') {
         "remove the thousands separators"
     } else if cell.contains(&b',') && !comma {
-        "this file writes decimal points elsewhere: use one decimal sign throughout"
+        "use decimal points throughout and no thousands separators"
+    } else if cell.contains(&b'.') && comma {
+        "use decimal commas throughout and no thousands separators"
     } else {
         "write a number, or leave the cell empty if the value is missing"
     };

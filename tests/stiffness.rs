@@ -1,0 +1,144 @@
+//! Known truth is recovered: Table 3.1 from the example campaign, and over many repetitions with
+//! other seeds the stated intervals cover as often as they say.
+
+use ident::effects::Composite;
+use ident::fit::parameter::Z95;
+use ident::fit::stiffness::{Account, DEFAULT_EFFECTS, Request, identify};
+use ident::laboratory::truth::{LoadCycleTruth, Truth};
+use ident::measurement::load_cycle::LoadCycle;
+use ident::measurement::table::Table;
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+
+/// Half of a 99.7 % interval in standard errors.
+const Z997: f64 = 2.967_737_925_342_127;
+/// Repetitions of each of the twelve tests: 204 in all.
+const SEEDS: u64 = 17;
+
+fn campaign() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("measurements/kr210")
+}
+
+fn truth() -> Truth {
+    Truth::read(&campaign().join("truth.toml")).expect("the truth of the example campaign")
+}
+
+fn request() -> Request {
+    Request {
+        model: Composite::named(DEFAULT_EFFECTS).unwrap(),
+        bootstrap: 0,
+        seed: 1,
+    }
+}
+
+/// True value, estimate and standard error of one parameter; no estimate unless identified.
+struct Hit {
+    truth: f64,
+    estimate: Option<(f64, f64)>,
+}
+
+impl Hit {
+    fn of(account: &Account, name: &str, truth: f64) -> Self {
+        let found = account.parameters.iter().find(|p| p.name == name).unwrap();
+        Self {
+            truth,
+            estimate: found.value.zip(found.stderr),
+        }
+    }
+
+    fn within(&self, z: f64) -> bool {
+        self.estimate
+            .is_some_and(|(value, std)| (value - self.truth).abs() <= z * std)
+    }
+
+    fn relative_error(&self) -> f64 {
+        self.estimate
+            .map_or(1.0, |(value, _)| (value / self.truth - 1.0).abs())
+    }
+}
+
+#[test]
+fn the_example_campaign_gives_table_3_1() {
+    let hits: Vec<(String, Hit)> = truth()
+        .load_cycle
+        .par_iter()
+        .map(|test| {
+            let file = LoadCycle::read(&campaign().join(&test.file)).unwrap();
+            let account = identify(&file, &request());
+            let hit = Hit::of(&account, "stiffness", test.stiffness);
+            (test.file.clone(), hit)
+        })
+        .collect();
+    assert_eq!(hits.len(), 12);
+    for (file, hit) in &hits {
+        let (value, std) = hit.estimate.expect("every stiffness is identified");
+        let distance = (value - hit.truth) / std;
+        println!(
+            "{file:16} truth {:9.0} found {value:9.0} off by {distance:+.2} σ",
+            hit.truth
+        );
+        assert!(hit.within(Z997), "{file} lies outside its 99.7 % interval");
+    }
+    let inside = hits.iter().filter(|(_, hit)| hit.within(Z95)).count();
+    assert!(inside >= 10, "only {inside} of 12 inside the 95 % interval");
+}
+
+/// One repetition: stiffness and backlash.
+fn repeat(truth: &Truth, test: &LoadCycleTruth, seed: u64) -> [Hit; 2] {
+    let recording = test.record(&truth.robot, &truth.source, seed).unwrap();
+    let text = recording.text();
+    let table = Table::from_reader(Path::new(&test.file), text.as_bytes(), text.len() as u64);
+    let file = LoadCycle::from_table(table.unwrap()).unwrap();
+    let account = identify(&file, &request());
+    let gap = test.effects["backlash"]["gap"];
+    [
+        Hit::of(&account, "stiffness", test.stiffness),
+        Hit::of(&account, "backlash", gap),
+    ]
+}
+
+fn coverage(hits: &[&Hit]) -> f64 {
+    let inside = hits.iter().filter(|hit| hit.within(Z95)).count();
+    100.0 * inside as f64 / hits.len() as f64
+}
+
+fn median(sorted: &[f64]) -> f64 {
+    sorted[sorted.len() / 2]
+}
+
+#[test]
+fn intervals_cover_as_often_as_they_say() {
+    let truth = truth();
+    let runs: Vec<(&LoadCycleTruth, u64)> = truth
+        .load_cycle
+        .iter()
+        .enumerate()
+        .flat_map(|(i, test)| (0..SEEDS).map(move |s| (test, 90_000 + 1000 * i as u64 + s)))
+        .collect();
+    let hits: Vec<[Hit; 2]> = runs
+        .par_iter()
+        .map(|(test, seed)| repeat(&truth, test, *seed))
+        .collect();
+    let of = |j: usize| hits.iter().map(|h| &h[j]).collect::<Vec<_>>();
+    let mut errors: Vec<f64> = of(0).iter().map(|h| h.relative_error()).collect();
+    errors.sort_by(f64::total_cmp);
+    let (middle, worst) = (median(&errors), errors[errors.len() - 1]);
+    let (stiffness, backlash) = (coverage(&of(0)), coverage(&of(1)));
+    println!(
+        "{} repetitions: 95 % interval covers stiffness {stiffness:.1} %, backlash {backlash:.1} %",
+        hits.len()
+    );
+    println!(
+        "stiffness error: median {:.3} %, worst {:.3} %",
+        100.0 * middle,
+        100.0 * worst
+    );
+    for (name, share) in [("stiffness", stiffness), ("backlash", backlash)] {
+        assert!(
+            (92.0..=98.0).contains(&share),
+            "{name} covered {share:.1} %"
+        );
+    }
+    assert!(middle < 0.003, "median error {middle}");
+    assert!(worst < 0.02, "worst error {worst}");
+}
