@@ -1,8 +1,9 @@
 //! Floor 0: what knows no robots and no measurements. Units, problems with a remedy, scalars that
-//! carry derivatives, seeded random numbers.
+//! carry derivatives, 6-D spatial algebra, seeded random numbers.
 
 pub mod dual;
 pub mod files;
 pub mod problem;
 pub mod random;
+pub mod spatial;
 pub mod units;
