@@ -3,3 +3,5 @@
 
 pub mod cli;
 pub mod ground;
+pub mod motion;
+pub mod robot;

@@ -1,0 +1,31 @@
+//! `ident simulate pose | deflection | frf | motion`: what the model says.
+
+mod pose;
+mod robot_args;
+
+use super::Ending;
+use crate::ground::problem::Outcome;
+use clap::{ArgMatches, Args, Subcommand};
+
+/// Simulate the robot: pose, deflection, frequency response, motion.
+#[derive(Debug, Args)]
+pub struct Simulate {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Debug, Subcommand)]
+enum What {
+    /// Tool pose, Jacobian, mass matrix and gravity torques
+    Pose(pose::Pose),
+}
+
+/// Runs `ident simulate`.
+///
+/// # Errors
+/// A robot or argument that is refused, with its remedy.
+pub fn run(matches: &ArgMatches) -> Outcome<Ending> {
+    match super::parsed::<Simulate>(matches).what {
+        What::Pose(pose) => pose.run(),
+    }
+}
