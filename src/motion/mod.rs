@@ -6,6 +6,7 @@ pub mod chain;
 pub mod dynamics;
 pub mod forward;
 pub mod kinematics;
+pub mod statics;
 pub mod work;
 
 pub use build::{elastic, rigid};

@@ -17,6 +17,13 @@ pub struct Loaded {
     pub sha256: String,
 }
 
+impl Loaded {
+    /// Path and hash, as results list their inputs.
+    pub fn input(&self) -> (String, String) {
+        (self.path.clone(), self.sha256.clone())
+    }
+}
+
 /// Loads the robot `name`: a built-in name, else a file. A relative path is looked up beside
 /// `measurement` (the file that names the robot) first, then from the working directory.
 ///

@@ -1,5 +1,6 @@
 //! `ident simulate pose | deflection | frf | motion`: what the model says.
 
+mod deflection;
 mod pose;
 mod robot_args;
 
@@ -18,6 +19,8 @@ pub struct Simulate {
 enum What {
     /// Tool pose, Jacobian, mass matrix and gravity torques
     Pose(pose::Pose),
+    /// Displacement of the tool under a force, compliance, stiffness
+    Deflection(deflection::Deflection),
 }
 
 /// Runs `ident simulate`.
@@ -27,5 +30,6 @@ enum What {
 pub fn run(matches: &ArgMatches) -> Outcome<Ending> {
     match super::parsed::<Simulate>(matches).what {
         What::Pose(pose) => pose.run(),
+        What::Deflection(deflection) => deflection.run(),
     }
 }

@@ -1,6 +1,6 @@
 //! `ident simulate pose`.
 
-use super::robot_args::{RobotArgs, limit_warnings};
+use super::robot_args::{RobotArgs, ending, limit_warnings};
 use crate::cli::Ending;
 use crate::cli::output::{print, print_json, result};
 use crate::ground::problem::Outcome;
@@ -37,18 +37,11 @@ impl Pose {
         check::dynamics(&loaded.robot)
             .map_err(|problem| problem.in_file(Path::new(&loaded.path)))?;
         let answer = compute(&loaded.robot, &q);
-        let warnings = limit_warnings(&loaded, &q);
-        warnings.iter().for_each(|line| eprintln!("{line}"));
-        let input = [(loaded.path.clone(), loaded.sha256.clone())];
         match self.robot.json {
-            true => print_json(&result("simulate pose", &input, answer.json()))?,
+            true => print_json(&result("simulate pose", &[loaded.input()], answer.json()))?,
             false => print(&answer.text(&loaded.robot.name))?,
         }
-        Ok(if warnings.is_empty() {
-            Ending::Done
-        } else {
-            Ending::Attention
-        })
+        Ok(ending(&limit_warnings(&loaded, &self.robot.joints_deg)))
     }
 }
 

@@ -1,9 +1,13 @@
 //! The arguments that every simulation shares.
 
+use crate::cli::Ending;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::units::DEGREE;
+use crate::motion::{self, Chain};
+use crate::robot::check;
 use crate::robot::load::{Loaded, load};
 use clap::Args;
+use std::path::Path;
 
 /// Robot, posture and form of the answer.
 #[derive(Debug, Args)]
@@ -53,18 +57,37 @@ impl RobotArgs {
     }
 }
 
-/// Joints beyond their limits, as one warning line each.
-pub fn limit_warnings(loaded: &Loaded, q: &[f64]) -> Vec<String> {
-    let joints = loaded.robot.joints.iter().zip(q);
-    let outside =
-        joints.filter(|(joint, q)| **q < joint.limits[0] - 1e-9 || **q > joint.limits[1] + 1e-9);
-    let line = outside.map(|(joint, q)| {
+/// Joints beyond their limits, one warning line each, printed to standard error.
+pub fn limit_warnings(loaded: &Loaded, joints_deg: &[f64]) -> Vec<String> {
+    let joints = loaded.robot.joints.iter().zip(joints_deg);
+    let lines = joints.filter_map(|(joint, q)| {
         let [low, high] = joint.limits.map(|limit| limit / DEGREE);
-        format!(
-            "warning: {} at {:.3} deg is outside its limits {low:.1} .. {high:.1} deg",
-            joint.name,
-            q / DEGREE
-        )
+        let outside = *q < low - 1e-6 || *q > high + 1e-6;
+        outside.then(|| format!("warning: {} at {q:.3} deg is outside its limits {low:.1} .. {high:.1} deg", joint.name))
     });
-    line.collect()
+    let lines: Vec<String> = lines.collect();
+    lines.iter().for_each(|line| eprintln!("{line}"));
+    lines
+}
+
+/// Exit status: a posture that cannot be reached needs attention.
+pub fn ending(warnings: &[String]) -> Ending {
+    if warnings.is_empty() { Ending::Done } else { Ending::Attention }
+}
+
+/// The chain with all its springs.
+///
+/// # Errors
+/// A body that cannot exist, or a robot in which nothing is elastic.
+pub fn elastic_chain(loaded: &Loaded, without_tilt: bool) -> Outcome<Chain> {
+    let robot = if without_tilt { loaded.robot.without_tilt() } else { loaded.robot.clone() };
+    let place = |problem: Problem| problem.in_file(Path::new(&loaded.path));
+    check::bodies(&robot).map_err(place)?;
+    if !robot.is_elastic() {
+        return Err(place(Problem::new(
+            "nothing in this robot is elastic: no drive, tilt or elastic axis has a stiffness",
+            "add `drive = { stiffness_Nm_rad = .. }` to its joints; `ident robot convert FILE` makes an editable copy of a URDF",
+        )));
+    }
+    Ok(motion::elastic(&robot))
 }
