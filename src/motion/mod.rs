@@ -5,7 +5,9 @@ pub mod build;
 pub mod chain;
 pub mod dynamics;
 pub mod forward;
+pub mod inverse;
 pub mod kinematics;
+pub mod numeric;
 pub mod statics;
 pub mod work;
 
