@@ -29,14 +29,29 @@ fn round_trip(robot: &Robot, poses: usize, seed: u64) {
         for posture in found.as_slice() {
             let back = motion::forward_kinematics(&chain, &mut work, &posture.q);
             let miss = numeric::error(&back, &pose);
-            assert!(norm([miss[0], miss[1], miss[2]]) < TOLERANCE, "{q:?} {posture:?} {miss:?}");
-            assert!(norm([miss[3], miss[4], miss[5]]) < TOLERANCE, "{q:?} {posture:?} {miss:?}");
+            assert!(
+                norm([miss[0], miss[1], miss[2]]) < TOLERANCE,
+                "{q:?} {posture:?} {miss:?}"
+            );
+            assert!(
+                norm([miss[3], miss[4], miss[5]]) < TOLERANCE,
+                "{q:?} {posture:?} {miss:?}"
+            );
         }
         let own = found.nearest(&q).unwrap();
-        let step = own.q.iter().zip(&q).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let step = own
+            .q
+            .iter()
+            .zip(&q)
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, f64::max);
         assert!(step < 1e-6 || own.singular.any(), "{q:?} {own:?}");
     }
-    println!("{}: {:.2} branches per pose", robot.name, branches as f64 / poses as f64);
+    println!(
+        "{}: {:.2} branches per pose",
+        robot.name,
+        branches as f64 / poses as f64
+    );
 }
 
 #[test]
@@ -57,7 +72,10 @@ fn mirrored_signs_and_other_zeros_come_back() {
 #[test]
 fn out_of_reach_gives_no_posture() {
     let robot = builtin::named("kr210").unwrap().unwrap();
-    let far = ident::ground::spatial::Pose { rotation: IDENTITY, point: [9.0, 0.0, 1.0] };
+    let far = ident::ground::spatial::Pose {
+        rotation: IDENTITY,
+        point: [9.0, 0.0, 1.0],
+    };
     assert!(solver(&robot).solve(&far, &[0.0; 6]).as_slice().is_empty());
 }
 
@@ -72,7 +90,11 @@ fn singular_postures_are_reported_and_still_reach() {
     let own = found.nearest(&q).unwrap();
     assert!(own.singular.wrist && !own.singular.shoulder);
     let back = motion::forward_kinematics(&chain, &mut work, &own.q);
-    assert!(numeric::error(&back, &pose).iter().all(|e| e.abs() < TOLERANCE));
+    assert!(
+        numeric::error(&back, &pose)
+            .iter()
+            .all(|e| e.abs() < TOLERANCE)
+    );
 }
 
 #[test]
@@ -85,7 +107,11 @@ fn a_wrist_that_is_not_spherical_is_solved_numerically() {
     let mut work = Work::new(&chain);
     let mut random = Random::new(3);
     for _ in 0..200 {
-        let q: Vec<f64> = robot.joints.iter().map(|_| random.uniform(-1.0, -0.3)).collect();
+        let q: Vec<f64> = robot
+            .joints
+            .iter()
+            .map(|_| random.uniform(-1.0, -0.3))
+            .collect();
         let pose = motion::forward_kinematics(&chain, &mut work, &q);
         let seed: Vec<f64> = q.iter().map(|q| q + random.uniform(-0.1, 0.1)).collect();
         let found = numeric::solve(&chain, &mut work, &pose, &seed).unwrap();

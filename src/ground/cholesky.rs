@@ -31,7 +31,11 @@ pub fn solve(l: &[f64], n: usize, b: &mut [f64]) {
 /// Solves L y = b in place.
 pub fn forward(l: &[f64], n: usize, b: &mut [f64]) {
     for i in 0..n {
-        let sum: f64 = l[i * n..i * n + i].iter().zip(b.iter()).map(|(x, y)| x * y).sum();
+        let sum: f64 = l[i * n..i * n + i]
+            .iter()
+            .zip(b.iter())
+            .map(|(x, y)| x * y)
+            .sum();
         b[i] = (b[i] - sum) / l[i * n + i];
     }
 }

@@ -68,7 +68,14 @@ impl Postures {
 
     /// The reachable posture with the smallest largest joint step from `from` (rad).
     pub fn nearest(&self, from: &[f64; 6]) -> Option<&Posture> {
-        let step = |posture: &Posture| posture.q.iter().zip(from).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let step = |posture: &Posture| {
+            posture
+                .q
+                .iter()
+                .zip(from)
+                .map(|(a, b)| (a - b).abs())
+                .fold(0.0, f64::max)
+        };
         let reachable = self.as_slice().iter().filter(|posture| posture.reachable);
         reachable.min_by(|a, b| step(a).total_cmp(&step(b)))
     }
@@ -90,7 +97,13 @@ impl SphericalWrist {
     /// Recognises the geometry of a rigid chain; `None` if it is another one (then see
     /// [`super::numeric::solve`]). `limits`: one [low, high] per joint, rad.
     pub fn of(chain: &Chain, limits: &[[f64; 2]]) -> Option<Self> {
-        let axis: [V3; 6] = chain.hinges.iter().map(|hinge| hinge.axis).collect::<Vec<_>>().try_into().ok()?;
+        let axis: [V3; 6] = chain
+            .hinges
+            .iter()
+            .map(|hinge| hinge.axis)
+            .collect::<Vec<_>>()
+            .try_into()
+            .ok()?;
         let points: [V3; 6] = chain.points_at_zero().try_into().ok()?;
         let limits: [[f64; 2]; 6] = limits.try_into().ok()?;
         let wrist = wrist_centre(&axis, &points)?;
@@ -101,7 +114,15 @@ impl SphericalWrist {
         let fore = reject(sub(wrist, points[2]), a2);
         let long = norm(upper) > GEOMETRY && norm(fore) > GEOMETRY;
         let point = [points[0], points[1], points[2]];
-        (across && arm && long).then(|| Self { axis, point, wrist, zero: chain.zero_pose(), upper, fore, limits })
+        (across && arm && long).then(|| Self {
+            axis,
+            point,
+            wrist,
+            zero: chain.zero_pose(),
+            upper,
+            fore,
+            limits,
+        })
     }
 
     /// Every posture that brings the tool to `pose`, up to eight; none if it is out of reach.
@@ -109,17 +130,29 @@ impl SphericalWrist {
     pub fn solve(&self, pose: &Pose, seed: &[f64; 6]) -> Postures {
         let mut found = Postures::default();
         let turned = product(&pose.rotation, &transpose(&self.zero.rotation));
-        let wrist = add(pose.point, rotate(&turned, sub(self.wrist, self.zero.point)));
+        let wrist = add(
+            pose.point,
+            rotate(&turned, sub(self.wrist, self.zero.point)),
+        );
         let (first, shoulder) = self.first_angles(wrist, seed[0]);
         for (k1, q1) in first.into_iter().flatten().enumerate() {
             let base: M3 = rotation(self.axis[0], q1);
             let local = add(self.point[0], rotate_back(&base, sub(wrist, self.point[0])));
             let (arms, elbow) = self.arm_angles(local);
             for (k3, (q2, q3)) in arms.into_iter().flatten().enumerate() {
-                let arm = turn(&turn(&base, self.axis[1], q2.sin_cos()), self.axis[2], q3.sin_cos());
-                let (hands, straight) = self.hand_angles(&product(&transpose(&arm), &turned), seed[3]);
+                let arm = turn(
+                    &turn(&base, self.axis[1], q2.sin_cos()),
+                    self.axis[2],
+                    q3.sin_cos(),
+                );
+                let (hands, straight) =
+                    self.hand_angles(&product(&transpose(&arm), &turned), seed[3]);
                 for (k5, [q4, q5, q6]) in hands.into_iter().flatten().enumerate() {
-                    let singular = Singularity { shoulder, elbow, wrist: straight };
+                    let singular = Singularity {
+                        shoulder,
+                        elbow,
+                        wrist: straight,
+                    };
                     let branch = [k1 == 1, k3 == 1, k5 == 1];
                     found.push(self.posture([q1, q2, q3, q4, q5, q6], seed, branch, singular));
                 }
@@ -167,7 +200,11 @@ impl SphericalWrist {
         let straight = across < SINGULAR;
         let complete = |q5: f64| {
             let tilted = rotate(&rotation(a5, q5), a6);
-            let q4 = if across < 1e-12 { seed } else { angle_about(a4, tilted, ahead) };
+            let q4 = if across < 1e-12 {
+                seed
+            } else {
+                angle_about(a4, tilted, ahead)
+            };
             let hand = turn(&rotation(a4, q4), a5, q5.sin_cos());
             let side = rotate_back(&hand, rotate(rest, a5));
             [q4, q5, angle_about(a6, a5, side)]
@@ -176,8 +213,19 @@ impl SphericalWrist {
         ([Some(complete(start + lean)), second], straight)
     }
 
-    fn posture(&self, q: [f64; 6], seed: &[f64; 6], branch: [bool; 3], singular: Singularity) -> Posture {
-        let mut posture = Posture { q, branch, reachable: true, singular };
+    fn posture(
+        &self,
+        q: [f64; 6],
+        seed: &[f64; 6],
+        branch: [bool; 3],
+        singular: Singularity,
+    ) -> Posture {
+        let mut posture = Posture {
+            q,
+            branch,
+            reachable: true,
+            singular,
+        };
         for ((q, seed), limits) in posture.q.iter_mut().zip(seed).zip(&self.limits) {
             let (angle, inside) = within(*q, *seed, limits);
             *q = angle;
@@ -191,8 +239,16 @@ impl SphericalWrist {
 fn within(q: f64, seed: f64, [low, high]: &[f64; 2]) -> (f64, bool) {
     const SLACK: f64 = 1e-9;
     let nearest = q + TAU * ((seed - q) / TAU).round();
-    let turns = [nearest, nearest - TAU, nearest + TAU, nearest - 2.0 * TAU, nearest + 2.0 * TAU];
-    let inside = turns.into_iter().filter(|q| *q >= low - SLACK && *q <= high + SLACK);
+    let turns = [
+        nearest,
+        nearest - TAU,
+        nearest + TAU,
+        nearest - 2.0 * TAU,
+        nearest + 2.0 * TAU,
+    ];
+    let inside = turns
+        .into_iter()
+        .filter(|q| *q >= low - SLACK && *q <= high + SLACK);
     let best = inside.min_by(|a, b| (a - seed).abs().total_cmp(&(b - seed).abs()));
     let wrapped = q - TAU * ((q + PI) / TAU).floor();
     best.map_or((wrapped, false), |q| (q, true))

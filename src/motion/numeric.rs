@@ -35,7 +35,11 @@ pub fn solve(chain: &Chain, work: &mut Work, pose: &Pose, seed: &[f64]) -> Outco
     match size(&miss) < 1e-9 {
         true => Ok(q),
         false => Err(Problem::new(
-            format!("the pose is not reached: {:.3e} m, {:.3e} rad are left", norm([miss[0], miss[1], miss[2]]), norm([miss[3], miss[4], miss[5]])),
+            format!(
+                "the pose is not reached: {:.3e} m, {:.3e} rad are left",
+                norm([miss[0], miss[1], miss[2]]),
+                norm([miss[3], miss[4], miss[5]])
+            ),
             "start nearer to the goal, or check that it lies in the workspace",
         )),
     }
@@ -57,7 +61,10 @@ fn step(chain: &Chain, work: &Work, q: &[f64], miss: &[f64; 6], damping: f64) ->
     let columns = jacobian(chain, work);
     let n = columns.len();
     let product = |a: &[f64; 6], b: &[f64; 6]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-    let mut normal: Vec<f64> = columns.iter().flat_map(|a| columns.iter().map(move |b| product(a, b))).collect();
+    let mut normal: Vec<f64> = columns
+        .iter()
+        .flat_map(|a| columns.iter().map(move |b| product(a, b)))
+        .collect();
     (0..n).for_each(|i| normal[i * n + i] += damping);
     let mut change: Vec<f64> = columns.iter().map(|column| product(column, miss)).collect();
     if cholesky::factor(&mut normal, n) {

@@ -45,7 +45,11 @@ pub fn compliance6(chain: &Chain, work: &Work) -> M6 {
 
 /// Every elastic hinge with its spring.
 pub fn springs(chain: &Chain) -> impl Iterator<Item = (usize, &Spring)> {
-    chain.springs.iter().enumerate().filter_map(|(i, spring)| Some((i, spring.as_ref()?)))
+    chain
+        .springs
+        .iter()
+        .enumerate()
+        .filter_map(|(i, spring)| Some((i, spring.as_ref()?)))
 }
 
 /// Displacement of the tool (m) under `force` (N, base frame, at the tool), small deflections.
@@ -79,7 +83,13 @@ pub struct Equilibrium {
 ///
 /// # Errors
 /// No equilibrium within 100 steps: the force is beyond what the springs can carry.
-pub fn large_deflection(chain: &Chain, work: &mut Work, q: &[f64], force: V3, weight: Weight) -> Outcome<Equilibrium> {
+pub fn large_deflection(
+    chain: &Chain,
+    work: &mut Work,
+    q: &[f64],
+    force: V3,
+    weight: Weight,
+) -> Outcome<Equilibrium> {
     const STEPS: usize = 100;
     let start = forward_kinematics(chain, work, q).point;
     let held = loads(chain, work, q, [0.0; 3]);
@@ -88,12 +98,18 @@ pub fn large_deflection(chain: &Chain, work: &mut Work, q: &[f64], force: V3, we
         let bent: Vec<f64> = q.iter().zip(&delta).map(|(q, d)| q + d).collect();
         let mut load = loads(chain, work, &bent, force);
         if weight == Weight::Balanced {
-            load.iter_mut().zip(&held).for_each(|(load, held)| *load -= held);
+            load.iter_mut()
+                .zip(&held)
+                .for_each(|(load, held)| *load -= held);
         }
         let change = relax(chain, &mut delta, &load);
         if change < 1e-14 {
             let displacement = sub(forward_kinematics(chain, work, &bent).point, start);
-            return Ok(Equilibrium { deflection: delta, displacement, steps });
+            return Ok(Equilibrium {
+                deflection: delta,
+                displacement,
+                steps,
+            });
         }
     }
     Err(Problem::new(

@@ -16,7 +16,13 @@ pub struct Deflection {
     #[command(flatten)]
     robot: RobotArgs,
     /// Force at the tool in newtons, base frame
-    #[arg(long = "force-N", value_name = "X,Y,Z", value_delimiter = ',', allow_hyphen_values = true, required = true)]
+    #[arg(
+        long = "force-N",
+        value_name = "X,Y,Z",
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        required = true
+    )]
     force: Vec<f64>,
     /// Leave the elastic bearings out
     #[arg(long)]
@@ -41,9 +47,17 @@ impl Deflection {
         let (mut work, q) = (Work::new(&chain), chain.spread(&q));
         let (compliance, linear) = deflect(&chain, &mut work, &q, force);
         let large = large_deflection(&chain, &mut work, &q, force, Weight::Balanced)?;
-        let answer = Answer { compliance, linear, large };
+        let answer = Answer {
+            compliance,
+            linear,
+            large,
+        };
         match self.robot.json {
-            true => print_json(&result("simulate deflection", &[loaded.input()], answer.json()))?,
+            true => print_json(&result(
+                "simulate deflection",
+                &[loaded.input()],
+                answer.json(),
+            ))?,
             false => print(&answer.text(force))?,
         }
         Ok(ending(&limit_warnings(&loaded, &self.robot.joints_deg)))
@@ -51,9 +65,15 @@ impl Deflection {
 
     fn force(&self) -> Outcome<V3> {
         let force = V3::try_from(self.force.as_slice()).ok();
-        force.filter(|f| f.iter().all(|x| x.is_finite())).ok_or_else(|| {
-            Problem::new("the force is not three finite numbers", "write it in newtons: --force-N 0,0,-100").in_column("--force-N")
-        })
+        force
+            .filter(|f| f.iter().all(|x| x.is_finite()))
+            .ok_or_else(|| {
+                Problem::new(
+                    "the force is not three finite numbers",
+                    "write it in newtons: --force-N 0,0,-100",
+                )
+                .in_column("--force-N")
+            })
     }
 }
 
@@ -76,7 +96,9 @@ impl Answer {
     fn text(&self, [fx, fy, fz]: V3) -> String {
         let [x, y, z] = self.linear.map(|d| d * 1e3);
         let size = self.linear.iter().map(|d| d * d).sum::<f64>().sqrt() * 1e3;
-        let stiffness = self.stiffness().map(|k| k.map_or("rigid".into(), |k| format!("{:.1} N/mm", k * 1e-3)));
+        let stiffness = self
+            .stiffness()
+            .map(|k| k.map_or("rigid".into(), |k| format!("{:.1} N/mm", k * 1e-3)));
         let [kx, ky, kz] = stiffness;
         format!(
             "Under ({fx}, {fy}, {fz}) N the tool moves {size:.4} mm: ({x:.4}, {y:.4}, {z:.4}) mm.\n\

@@ -1,6 +1,7 @@
 //! `ident simulate pose | deflection | frf | motion`: what the model says.
 
 mod deflection;
+mod frf;
 mod pose;
 mod robot_args;
 
@@ -21,6 +22,8 @@ enum What {
     Pose(pose::Pose),
     /// Displacement of the tool under a force, compliance, stiffness
     Deflection(deflection::Deflection),
+    /// Accelerance of the tool and the natural modes
+    Frf(frf::Frf),
 }
 
 /// Runs `ident simulate`.
@@ -31,5 +34,6 @@ pub fn run(matches: &ArgMatches) -> Outcome<Ending> {
     match super::parsed::<Simulate>(matches).what {
         What::Pose(pose) => pose.run(),
         What::Deflection(deflection) => deflection.run(),
+        What::Frf(frf) => frf.run(),
     }
 }

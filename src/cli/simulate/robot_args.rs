@@ -63,7 +63,12 @@ pub fn limit_warnings(loaded: &Loaded, joints_deg: &[f64]) -> Vec<String> {
     let lines = joints.filter_map(|(joint, q)| {
         let [low, high] = joint.limits.map(|limit| limit / DEGREE);
         let outside = *q < low - 1e-6 || *q > high + 1e-6;
-        outside.then(|| format!("warning: {} at {q:.3} deg is outside its limits {low:.1} .. {high:.1} deg", joint.name))
+        outside.then(|| {
+            format!(
+                "warning: {} at {q:.3} deg is outside its limits {low:.1} .. {high:.1} deg",
+                joint.name
+            )
+        })
     });
     let lines: Vec<String> = lines.collect();
     lines.iter().for_each(|line| eprintln!("{line}"));
@@ -72,7 +77,11 @@ pub fn limit_warnings(loaded: &Loaded, joints_deg: &[f64]) -> Vec<String> {
 
 /// Exit status: a posture that cannot be reached needs attention.
 pub fn ending(warnings: &[String]) -> Ending {
-    if warnings.is_empty() { Ending::Done } else { Ending::Attention }
+    if warnings.is_empty() {
+        Ending::Done
+    } else {
+        Ending::Attention
+    }
 }
 
 /// The chain with all its springs.
@@ -80,7 +89,11 @@ pub fn ending(warnings: &[String]) -> Ending {
 /// # Errors
 /// A body that cannot exist, or a robot in which nothing is elastic.
 pub fn elastic_chain(loaded: &Loaded, without_tilt: bool) -> Outcome<Chain> {
-    let robot = if without_tilt { loaded.robot.without_tilt() } else { loaded.robot.clone() };
+    let robot = if without_tilt {
+        loaded.robot.without_tilt()
+    } else {
+        loaded.robot.clone()
+    };
     let place = |problem: Problem| problem.in_file(Path::new(&loaded.path));
     check::bodies(&robot).map_err(place)?;
     if !robot.is_elastic() {
