@@ -12,6 +12,7 @@ pub mod linear;
 pub mod modes;
 pub mod numeric;
 pub mod statics;
+pub mod swing;
 pub mod work;
 
 pub use build::{elastic, rigid};

@@ -90,12 +90,27 @@ pub fn large_deflection(
     force: V3,
     weight: Weight,
 ) -> Outcome<Equilibrium> {
+    equilibrium(chain, work, q, &vec![0.0; chain.len()], force, weight)
+}
+
+/// [`large_deflection`] with every hinge moved by `play` (rad) inside its gap before the springs act.
+///
+/// # Errors
+/// As [`large_deflection`].
+pub fn equilibrium(
+    chain: &Chain,
+    work: &mut Work,
+    q: &[f64],
+    play: &[f64],
+    force: V3,
+    weight: Weight,
+) -> Outcome<Equilibrium> {
     const STEPS: usize = 100;
     let start = forward_kinematics(chain, work, q).point;
     let held = loads(chain, work, q, [0.0; 3]);
     let mut delta = vec![0.0; chain.len()];
     for steps in 1..=STEPS {
-        let bent: Vec<f64> = q.iter().zip(&delta).map(|(q, d)| q + d).collect();
+        let bent: Vec<f64> = (0..q.len()).map(|i| q[i] + play[i] + delta[i]).collect();
         let mut load = loads(chain, work, &bent, force);
         if weight == Weight::Balanced {
             load.iter_mut()
