@@ -1,6 +1,7 @@
 //! Floor 9: one file per verb. A new verb is one file, one `mod` line and one line in [`VERBS`].
 
 pub mod output;
+pub mod robot;
 pub mod simulate;
 
 use crate::ground::problem::Outcome;
@@ -28,12 +29,20 @@ pub struct Verb {
 }
 
 /// Every verb, in the order of the help text.
-pub const VERBS: &[Verb] = &[Verb {
-    name: "simulate",
-    about: "Simulate the robot: pose, deflection, frequency response, motion",
-    arguments: arguments::<simulate::Simulate>,
-    run: simulate::run,
-}];
+pub const VERBS: &[Verb] = &[
+    Verb {
+        name: "robot",
+        about: "Show, check and convert robot files",
+        arguments: arguments::<robot::RobotVerb>,
+        run: robot::run,
+    },
+    Verb {
+        name: "simulate",
+        about: "Simulate the robot: pose, deflection, frequency response, motion",
+        arguments: arguments::<simulate::Simulate>,
+        run: simulate::run,
+    },
+];
 
 /// Adds the arguments of a derived `Args` type: the usual [`Verb::arguments`].
 pub fn arguments<A: Args>(command: Command) -> Command {

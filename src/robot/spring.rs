@@ -41,7 +41,7 @@ impl Spring {
 
     /// The whole gap from stop to stop, rad.
     pub fn gap(&self) -> f64 {
-        self.backlash.iter().sum()
+        self.backlash.iter().fold(0.0, |sum, gap| sum + gap)
     }
 
     /// Why no passive spring has these numbers, if so.

@@ -2,7 +2,9 @@
 
 mod deflection;
 mod frf;
+mod motion;
 mod pose;
+mod record;
 mod robot_args;
 
 use super::Ending;
@@ -24,6 +26,8 @@ enum What {
     Deflection(deflection::Deflection),
     /// Accelerance of the tool and the natural modes
     Frf(frf::Frf),
+    /// Time response to a force record or a joint path, as CSV
+    Motion(motion::Motion),
 }
 
 /// Runs `ident simulate`.
@@ -35,5 +39,6 @@ pub fn run(matches: &ArgMatches) -> Outcome<Ending> {
         What::Pose(pose) => pose.run(),
         What::Deflection(deflection) => deflection.run(),
         What::Frf(frf) => frf.run(),
+        What::Motion(motion) => motion.run(),
     }
 }
