@@ -28,9 +28,9 @@ fn compare(robot: &Robot, golden: &Value) {
     );
     let pose = motion::forward_kinematics(&chain, &mut work, &q);
     let wanted = matrix(&golden["T_tool0"]);
-    for i in 0..3 {
-        near(&[pose.point[i]], &wanted[i][3..], TOLERANCE, "point");
-        near(&pose.rotation[i], &wanted[i][..3], TOLERANCE, "rotation");
+    for (i, row) in wanted.iter().take(3).enumerate() {
+        near(&[pose.point[i]], &row[3..], TOLERANCE, "point");
+        near(&pose.rotation[i], &row[..3], TOLERANCE, "rotation");
     }
     let columns = motion::jacobian(&chain, &work);
     let rows: Vec<f64> = (0..6)
@@ -121,7 +121,7 @@ fn eighteen_hinges_agree_with_pinocchio() {
         "g",
     );
     near(
-        motion::rnea(&chain, &mut work, &q, &v, &vec![0.0; 18]),
+        motion::rnea(&chain, &mut work, &q, &v, &[0.0; 18]),
         &vector(&golden["nle"]),
         TOLERANCE,
         "nle",

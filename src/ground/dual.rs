@@ -153,12 +153,14 @@ impl<const N: usize> Sub for Dual<N> {
         self.zip(o, self.re - o.re, |a, b| a - b)
     }
 }
+#[allow(clippy::suspicious_arithmetic_impl)] // the product rule adds
 impl<const N: usize> Mul for Dual<N> {
     type Output = Self;
     fn mul(self, o: Self) -> Self {
         self.zip(o, self.re * o.re, |a, b| a * o.re + b * self.re)
     }
 }
+#[allow(clippy::suspicious_arithmetic_impl)] // the quotient rule subtracts
 impl<const N: usize> Div for Dual<N> {
     type Output = Self;
     fn div(self, o: Self) -> Self {

@@ -39,10 +39,10 @@ pub fn forward_dynamics<'w, S: Scalar>(
 /// Velocity products: bias acceleration of each hinge, bias force of each body.
 fn drift<S: Scalar>(chain: &Chain, work: &mut Work<S>, v: &[S]) {
     let mut speed = Motion::zero();
-    for i in 0..chain.len() {
+    for (i, rate) in v.iter().enumerate() {
         let screw = work.screw[i];
-        speed = speed.plus(v[i], &screw);
-        work.bias[i] = Motion::zero().plus(v[i], &speed.cross(&screw));
+        speed = speed.plus(*rate, &screw);
+        work.bias[i] = Motion::zero().plus(*rate, &speed.cross(&screw));
         if chain.hinges[i].body.is_some() {
             let momentum = work.inertia[i].times(&speed);
             work.force[i] = speed.cross_force(&momentum);
@@ -76,7 +76,7 @@ fn articulate<S: Scalar>(chain: &Chain, work: &mut Work<S>, torque: &[S]) {
 fn release<S: Scalar>(inertia: &mut [[S; 6]; 6], u: &[S; 6], d: S) {
     for (row, left) in inertia.iter_mut().zip(u) {
         let scaled = *left * d;
-        (0..6).for_each(|k| row[k] = row[k] - scaled * u[k]);
+        (0..6).for_each(|k| row[k] -= scaled * u[k]);
     }
 }
 
@@ -117,9 +117,9 @@ fn add_body<S: Scalar>(inertia: &mut [[S; 6]; 6], body: &Inertia<S>) {
         inertia[3 + i][3 + i] += body.mass;
     }
     for (i, j, h) in [(0, 1, z), (1, 2, x), (2, 0, y)] {
-        inertia[i][3 + j] = inertia[i][3 + j] - h;
+        inertia[i][3 + j] -= h;
         inertia[j][3 + i] += h;
-        inertia[3 + j][i] = inertia[3 + j][i] - h;
+        inertia[3 + j][i] -= h;
         inertia[3 + i][j] += h;
     }
 }

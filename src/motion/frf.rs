@@ -181,10 +181,10 @@ fn factor(modal: &Modal, work: &mut FrfWork, s: &Lanes) {
 fn collect(modal: &Modal, work: &FrfWork, lines: usize, out: &mut Vec<Response>) {
     let mut sums = [[Lanes::ZERO; 3]; 3];
     for i in 0..modal.n {
-        for a in 0..3 {
+        for (a, row) in sums.iter_mut().enumerate() {
             let left = work.rhs[a][i].times(&work.inverse[i]).scaled(-1.0);
-            for (b, sum) in sums[a].iter_mut().enumerate().take(a + 1) {
-                sum.minus_product(&left, &work.rhs[b][i]);
+            for (sum, right) in row.iter_mut().zip(&work.rhs).take(a + 1) {
+                sum.minus_product(&left, &right[i]);
             }
         }
     }

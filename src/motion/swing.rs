@@ -210,8 +210,8 @@ fn too_large(h: f64) -> Problem {
 
 /// Speeds at the end of the step: unchanged for elastic hinges, the command's for rigid ones.
 fn predict(chain: &Chain, space: &mut SwingWork, state: &State, h: f64, command: &[f64]) {
-    for i in 0..chain.len() {
-        space.speed[i] = match chain.springs[i] {
+    for (i, speed) in space.speed.iter_mut().enumerate() {
+        *speed = match chain.springs[i] {
             Some(_) => state.v[i],
             None => (command[i] - state.command[i]) / h,
         };
@@ -281,8 +281,8 @@ fn correct(
 /// Angles, speeds and accelerations in the middle of the step.
 fn middle(chain: &Chain, space: &mut SwingWork, state: &State, h: f64, command: &[f64]) {
     let [q, v, a] = &mut space.middle;
-    for i in 0..chain.len() {
-        let (start, end) = (state.v[i], space.speed[i]);
+    for (i, end) in space.speed.iter().copied().enumerate() {
+        let start = state.v[i];
         (v[i], q[i]) = match chain.springs[i] {
             Some(_) => (
                 0.5 * (start + end),

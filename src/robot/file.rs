@@ -261,8 +261,8 @@ fn tool_of(raw: ToolText) -> Outcome<Tool> {
         ));
     }
     Ok(Tool {
-        flange: finite("tool", "flange_m", raw.flange_m.unwrap_or(raw.tcp_m))?,
         tcp: finite("tool", "tcp_m", raw.tcp_m)?,
+        flange: finite("tool", "flange_m", raw.flange_m.unwrap_or(raw.tcp_m))?,
         rotation,
         body: raw.body.map(body_of),
         source: raw.source,
@@ -369,8 +369,22 @@ fn syntax(text: &str, error: &toml::de::Error) -> Problem {
         what,
         "compare with `ident robot convert kr210`, a complete robot file; every key carries its unit",
     );
-    match error.span() {
-        Some(span) => problem.at_line(line_of(text, span.start)),
+    let Some(span) = error.span() else {
+        return problem;
+    };
+    let problem = problem.at_line(line_of(text, span.start));
+    match key_before(text, span.start) {
+        Some(key) => problem.in_column(key),
         None => problem,
     }
+}
+
+/// The key whose value stands at a byte offset: the word before the last `=` on that line.
+fn key_before(text: &str, offset: usize) -> Option<&str> {
+    let line = text.get(..offset)?.rsplit('\n').next()?;
+    let key = line.rsplit_once('=')?.0.trim_end();
+    let word = key
+        .rsplit(|c: char| !(c.is_alphanumeric() || c == '_' || c == '-'))
+        .next()?;
+    (!word.is_empty()).then_some(word)
 }
