@@ -7,4 +7,5 @@ pub mod files;
 pub mod problem;
 pub mod random;
 pub mod spatial;
+pub mod trig;
 pub mod units;

@@ -17,12 +17,12 @@ pub const IDENTITY: M3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 /// A constant vector.
 #[inline(always)]
 pub fn lift<S: Scalar>(v: V3) -> V3<S> {
-    v.map(S::constant)
+    [S::constant(v[0]), S::constant(v[1]), S::constant(v[2])]
 }
 /// A constant matrix.
 #[inline(always)]
 pub fn lift_matrix<S: Scalar>(m: M3) -> M3<S> {
-    m.map(lift)
+    [lift(m[0]), lift(m[1]), lift(m[2])]
 }
 /// a + b
 #[inline(always)]
@@ -83,12 +83,17 @@ pub fn rotate_back<S: Scalar>(m: &M3<S>, v: V3<S>) -> V3<S> {
 /// mᵀ
 #[inline(always)]
 pub fn transpose<S: Scalar>(m: &M3<S>) -> M3<S> {
-    [0, 1, 2].map(|j| [m[0][j], m[1][j], m[2][j]])
+    let column = |j: usize| [m[0][j], m[1][j], m[2][j]];
+    [column(0), column(1), column(2)]
 }
 /// a b
 #[inline(always)]
 pub fn product<S: Scalar>(a: &M3<S>, b: &M3<S>) -> M3<S> {
-    a.map(|row| rotate_back(b, row))
+    [
+        rotate_back(b, a[0]),
+        rotate_back(b, a[1]),
+        rotate_back(b, a[2]),
+    ]
 }
 /// Determinant.
 pub fn determinant(m: &M3) -> f64 {
@@ -100,15 +105,15 @@ pub fn determinant(m: &M3) -> f64 {
 #[inline(always)]
 pub fn turn<S: Scalar>(r: &M3<S>, u: V3, (sin, cos): (S, S)) -> M3<S> {
     let rest = -cos + 1.0;
-    r.map(|row| {
+    let row = |row: V3<S>| {
         let along = (row[0] * u[0] + row[1] * u[1] + row[2] * u[2]) * rest;
-        let side = [
-            row[1] * u[2] - row[2] * u[1],
-            row[2] * u[0] - row[0] * u[2],
-            row[0] * u[1] - row[1] * u[0],
-        ];
-        [0, 1, 2].map(|j| cos * row[j] + sin * side[j] + along * u[j])
-    })
+        [
+            cos * row[0] + sin * (row[1] * u[2] - row[2] * u[1]) + along * u[0],
+            cos * row[1] + sin * (row[2] * u[0] - row[0] * u[2]) + along * u[1],
+            cos * row[2] + sin * (row[0] * u[1] - row[1] * u[0]) + along * u[2],
+        ]
+    };
+    [row(r[0]), row(r[1]), row(r[2])]
 }
 
 /// Rot(u, angle): rotation about the unit vector u.
@@ -320,7 +325,14 @@ impl<S: Scalar> Inertia<S> {
         Self {
             mass: self.mass + other.mass,
             moment: add(self.moment, other.moment),
-            tensor: std::array::from_fn(|i| self.tensor[i] + other.tensor[i]),
+            tensor: [
+                self.tensor[0] + other.tensor[0],
+                self.tensor[1] + other.tensor[1],
+                self.tensor[2] + other.tensor[2],
+                self.tensor[3] + other.tensor[3],
+                self.tensor[4] + other.tensor[4],
+                self.tensor[5] + other.tensor[5],
+            ],
         }
     }
 
@@ -347,8 +359,15 @@ pub fn symmetric<S: Scalar>(t: &[S; 6], v: V3<S>) -> V3<S> {
 /// R T Rᵀ of a constant symmetric T (xx yy zz xy xz yz).
 #[inline(always)]
 pub fn rotate_tensor<S: Scalar>(r: &M3<S>, t: &[f64; 6]) -> [S; 6] {
-    let rows = [[t[0], t[3], t[4]], [t[3], t[1], t[5]], [t[4], t[5], t[2]]];
-    let half = r.map(|row| rows.map(|u| row[0] * u[0] + row[1] * u[1] + row[2] * u[2]));
+    let along = |row: V3<S>, x: f64, y: f64, z: f64| row[0] * x + row[1] * y + row[2] * z;
+    let half = |row: V3<S>| {
+        [
+            along(row, t[0], t[3], t[4]),
+            along(row, t[3], t[1], t[5]),
+            along(row, t[4], t[5], t[2]),
+        ]
+    };
+    let half = [half(r[0]), half(r[1]), half(r[2])];
     let entry = |i: usize, j: usize| dot(half[i], r[j]);
     [
         entry(0, 0),

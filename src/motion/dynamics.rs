@@ -7,14 +7,14 @@ use super::chain::Chain;
 use super::kinematics::{place, weigh};
 use super::work::Work;
 use crate::ground::dual::Scalar;
-use crate::ground::spatial::{Force, Inertia, Motion, lift};
+use crate::ground::spatial::{Force, Inertia, Motion, lift, scale};
 
 /// Acceleration of the base that acts like gravity.
 #[inline(always)]
 pub(super) fn base_acceleration<S: Scalar>(chain: &Chain) -> Motion<S> {
     Motion {
         ang: lift([0.0; 3]),
-        lin: lift(chain.gravity.map(|g| -g)),
+        lin: lift(scale(-1.0, chain.gravity)),
     }
 }
 
@@ -50,7 +50,7 @@ pub(super) fn newton_euler<S: Scalar>(chain: &Chain, work: &mut Work<S>, v: &[S]
 
 /// I a + v ×* I v
 #[inline(always)]
-fn inertial_force<S: Scalar>(
+pub(super) fn inertial_force<S: Scalar>(
     inertia: &Inertia<S>,
     speed: &Motion<S>,
     rate: &Motion<S>,

@@ -1,7 +1,7 @@
 //! Forward dynamics: accelerations from torques.
 
 use super::chain::Chain;
-use super::dynamics::{base_acceleration, rnea};
+use super::dynamics::{base_acceleration, inertial_force, rnea};
 use super::kinematics::{place, weigh};
 use super::work::Work;
 use crate::ground::dual::Scalar;
@@ -9,7 +9,8 @@ use crate::ground::spatial::{Force, Inertia, Motion};
 
 /// Accelerations (n, rad/s²) for angles, speeds and torques: articulated bodies (Featherstone 2008,
 /// table 7.1) in one inertial frame, where they need no coordinate changes and beat a factorised
-/// mass matrix at 6 as at 18 hinges.
+/// mass matrix at 6 as at 18 hinges. Weight and velocity products go in as body forces first, so
+/// that only M q̈ = τ − C − G is left to the recursion.
 pub fn aba<'w, S: Scalar>(
     chain: &Chain,
     work: &'w mut Work<S>,
@@ -19,7 +20,7 @@ pub fn aba<'w, S: Scalar>(
 ) -> &'w [S] {
     place(chain, work, q);
     weigh(chain, work);
-    drift(chain, work, v);
+    body_forces(chain, work, v);
     articulate(chain, work, torque);
     accelerate(chain, work);
     &work.out
@@ -36,38 +37,37 @@ pub fn forward_dynamics<'w, S: Scalar>(
     aba(chain, work, q, v, torque)
 }
 
-/// Velocity products: bias acceleration of each hinge, bias force of each body.
-fn drift<S: Scalar>(chain: &Chain, work: &mut Work<S>, v: &[S]) {
-    let mut speed = Motion::zero();
-    for (i, rate) in v.iter().enumerate() {
+/// Force of each body at zero joint accelerations.
+fn body_forces<S: Scalar>(chain: &Chain, work: &mut Work<S>, v: &[S]) {
+    let (mut speed, mut rate) = (Motion::zero(), base_acceleration(chain));
+    for (i, joint) in v.iter().enumerate().take(chain.len()) {
         let screw = work.screw[i];
-        speed = speed.plus(*rate, &screw);
-        work.bias[i] = Motion::zero().plus(*rate, &speed.cross(&screw));
+        speed = speed.plus(*joint, &screw);
+        rate = rate.plus(*joint, &speed.cross(&screw));
         if chain.hinges[i].body.is_some() {
-            let momentum = work.inertia[i].times(&speed);
-            work.force[i] = speed.cross_force(&momentum);
+            work.force[i] = inertial_force(&work.inertia[i], &speed, &rate);
         }
     }
 }
 
-/// Articulated inertia and bias force, from the tip to the base.
+/// Articulated inertia and force, from the tip to the base.
 fn articulate<S: Scalar>(chain: &Chain, work: &mut Work<S>, torque: &[S]) {
     let zero = S::constant(0.0);
-    let (mut inertia, mut bias) = ([[zero; 6]; 6], [zero; 6]);
+    let (mut inertia, mut force) = ([[zero; 6]; 6], [zero; 6]);
     for i in (0..chain.len()).rev() {
         if chain.hinges[i].body.is_some() {
             add_body(&mut inertia, &work.inertia[i]);
-            let force = six_force(&work.force[i]);
-            (0..6).for_each(|k| bias[k] += force[k]);
+            let own = six_force(&work.force[i]);
+            (0..6).for_each(|k| force[k] += own[k]);
         }
         let screw = six(&work.screw[i]);
-        let u = inertia.map(|row| dot6(&row, &screw));
+        let u = times(&inertia, &screw);
         let d = S::constant(1.0) / dot6(&u, &screw);
-        let rest = torque[i] - dot6(&bias, &screw);
+        let rest = torque[i] - dot6(&force, &screw);
         (work.u[i], work.d[i]) = (u, (d, rest));
         release(&mut inertia, &u, d);
-        let drift = six(&work.bias[i]);
-        (0..6).for_each(|k| bias[k] += dot6(&inertia[k], &drift) + u[k] * d * rest);
+        let share = d * rest;
+        (0..6).for_each(|k| force[k] += u[k] * share);
     }
 }
 
@@ -82,9 +82,8 @@ fn release<S: Scalar>(inertia: &mut [[S; 6]; 6], u: &[S; 6], d: S) {
 
 /// Accelerations from the base to the tip.
 fn accelerate<S: Scalar>(chain: &Chain, work: &mut Work<S>) {
-    let mut rate = base_acceleration::<S>(chain);
+    let mut rate = Motion::zero();
     for i in 0..chain.len() {
-        rate = rate.plus(S::constant(1.0), &work.bias[i]);
         let (d, rest) = work.d[i];
         work.out[i] = d * (rest - dot6(&work.u[i], &six(&rate)));
         rate = rate.plus(work.out[i], &work.screw[i]);
@@ -104,6 +103,18 @@ fn six_force<S: Scalar>(f: &Force<S>) -> [S; 6] {
 #[inline(always)]
 fn dot6<S: Scalar>(a: &[S; 6], b: &[S; 6]) -> S {
     (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) + (a[3] * b[3] + a[4] * b[4] + a[5] * b[5])
+}
+
+#[inline(always)]
+fn times<S: Scalar>(m: &[[S; 6]; 6], v: &[S; 6]) -> [S; 6] {
+    [
+        dot6(&m[0], v),
+        dot6(&m[1], v),
+        dot6(&m[2], v),
+        dot6(&m[3], v),
+        dot6(&m[4], v),
+        dot6(&m[5], v),
+    ]
 }
 
 /// Adds [[I, h×], [−h×, m]] of a rigid body.

@@ -7,19 +7,11 @@ use crate::ground::spatial::{
     IDENTITY, Inertia, Motion, Pose, V3, add, cross, lift, lift_matrix, product, rotate_constant,
     rotate_tensor, sub, turn,
 };
-
-/// Sine and cosine, with the exact short cut for virtual axes at rest.
-#[inline(always)]
-fn sine_cosine<S: Scalar>(q: S) -> (S, S) {
-    if q.value() == 0.0 {
-        return (q.chain(0.0, 1.0), q.chain(1.0, 0.0));
-    }
-    let (sin, cos) = q.value().sin_cos();
-    (q.chain(sin, cos), q.chain(cos, -sin))
-}
+use crate::ground::trig;
 
 /// Places every link for the angles `q` (n, rad): orientation, hinge point, screw.
 pub fn place<S: Scalar>(chain: &Chain, work: &mut Work<S>, q: &[S]) {
+    trig::sines_cosines(q.iter().map(|q| q.value()), &mut work.turn);
     let mut rotation = lift_matrix(IDENTITY);
     let mut point = lift([0.0; 3]);
     let links = work
@@ -27,10 +19,17 @@ pub fn place<S: Scalar>(chain: &Chain, work: &mut Work<S>, q: &[S]) {
         .iter_mut()
         .zip(&mut work.point)
         .zip(&mut work.screw);
-    for ((hinge, q), ((frame, at), screw)) in chain.hinges.iter().zip(q).zip(links) {
+    let angles = q.iter().zip(&work.turn);
+    for ((hinge, (q, (sin, cos))), ((frame, at), screw)) in
+        chain.hinges.iter().zip(angles).zip(links)
+    {
         point = add(point, rotate_constant(&rotation, hinge.offset));
         screw.ang = rotate_constant(&rotation, hinge.axis);
-        rotation = turn(&rotation, hinge.axis, sine_cosine(*q));
+        rotation = turn(
+            &rotation,
+            hinge.axis,
+            (q.chain(*sin, *cos), q.chain(*cos, -*sin)),
+        );
         (*frame, *at) = (rotation, point);
     }
     refer(work, point);

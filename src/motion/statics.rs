@@ -6,7 +6,7 @@ use super::dynamics::gravity_torque;
 use super::kinematics::{column, forward_kinematics, place, tcp};
 use super::work::Work;
 use crate::ground::problem::{Outcome, Problem};
-use crate::ground::spatial::{M3, V3, add, dot, rotate, sub};
+use crate::ground::spatial::{M3, V3, dot, rotate, scale, sub};
 use crate::robot::Spring;
 
 /// A 6×6 matrix by rows, translations before rotations.
@@ -17,15 +17,15 @@ pub type M6 = [[f64; 6]; 6];
 /// Linear in every 1/kᵢ; backlash is left out.
 pub fn compliance(chain: &Chain, work: &Work) -> M3 {
     let at = tcp(chain, work).point;
-    let mut c = [[0.0; 3]; 3];
+    let mut sum = [0.0; 6];
     for (i, spring) in springs(chain) {
         let (v, _) = column(work, i, at);
-        let give = v.map(|x| x / spring.stiffness);
-        for (row, x) in c.iter_mut().zip(v) {
-            (0..3).for_each(|j| row[j] += x * give[j]);
-        }
+        let [x, y, z] = scale(1.0 / spring.stiffness, v);
+        let own = [x * v[0], y * v[1], z * v[2], x * v[1], x * v[2], y * v[2]];
+        (0..6).for_each(|k| sum[k] += own[k]);
     }
-    c
+    let [xx, yy, zz, xy, xz, yz] = sum;
+    [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
 }
 
 /// Compliance for forces and moments at the tool centre point: (m, rad) per (N, N·m), base axes.
@@ -164,5 +164,5 @@ pub fn sag(chain: &Chain, work: &mut Work, q: &[f64]) -> Outcome<V3> {
 pub fn deflect(chain: &Chain, work: &mut Work, q: &[f64], force: V3) -> (M3, V3) {
     place(chain, work, q);
     let c = compliance(chain, work);
-    (c, add(rotate(&c, force), [0.0; 3]))
+    (c, rotate(&c, force))
 }

@@ -7,6 +7,8 @@ use crate::ground::spatial::{Inertia, M3, Motion, V3};
 /// Scratch space for one chain and one scalar type. All vectors are in base axes.
 #[derive(Debug, Clone)]
 pub struct Work<S = f64> {
+    /// Sine and cosine of each angle.
+    pub(super) turn: Vec<(f64, f64)>,
     /// Orientation of each link.
     pub(super) rotation: Vec<M3<S>>,
     /// Point of each hinge, m, base frame.
@@ -17,8 +19,6 @@ pub struct Work<S = f64> {
     pub(super) inertia: Vec<Inertia<S>>,
     /// Per-hinge force, 6 numbers: momenta, later joint forces.
     pub(super) force: Vec<crate::ground::spatial::Force<S>>,
-    /// Velocity-product acceleration of each hinge.
-    pub(super) bias: Vec<Motion<S>>,
     /// Articulated inertia times screw of each hinge.
     pub(super) u: Vec<[S; 6]>,
     /// Its projection on the screw, inverted, and the joint torque left over.
@@ -38,12 +38,12 @@ impl<S: Scalar> Work<S> {
         let n = chain.len();
         let zero = S::constant(0.0);
         Self {
+            turn: vec![(0.0, 1.0); n],
             rotation: vec![[[zero; 3]; 3]; n],
             point: vec![[zero; 3]; n],
             screw: vec![Motion::zero(); n],
             inertia: vec![Inertia::zero(); n],
             force: vec![crate::ground::spatial::Force::zero(); n],
-            bias: vec![Motion::zero(); n],
             u: vec![[zero; 6]; n],
             d: vec![(zero, zero); n],
             mass: vec![zero; n * n],
