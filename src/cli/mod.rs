@@ -1,8 +1,12 @@
 //! Floor 9: one file per verb. A new verb is one file, one `mod` line and one line in [`VERBS`].
 
-pub mod output;
-pub mod robot;
-pub mod simulate;
+mod inspect;
+mod lab;
+mod output;
+mod progress;
+mod robot;
+mod simulate;
+mod stiffness;
 
 use crate::ground::problem::Outcome;
 use clap::{ArgMatches, Args, Command, FromArgMatches};
@@ -30,18 +34,11 @@ pub struct Verb {
 
 /// Every verb, in the order of the help text.
 pub const VERBS: &[Verb] = &[
-    Verb {
-        name: "robot",
-        about: "Show, check and convert robot files",
-        arguments: arguments::<robot::RobotVerb>,
-        run: robot::run,
-    },
-    Verb {
-        name: "simulate",
-        about: "Simulate the robot: pose, deflection, frequency response, motion",
-        arguments: arguments::<simulate::Simulate>,
-        run: simulate::run,
-    },
+    inspect::VERB,
+    stiffness::VERB,
+    robot::VERB,
+    simulate::VERB,
+    lab::VERB,
 ];
 
 /// Adds the arguments of a derived `Args` type: the usual [`Verb::arguments`].

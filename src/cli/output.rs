@@ -1,41 +1,38 @@
-//! Standard output: one human account or one JSON document. A closed pipe is not an error.
+//! Standard output that does not mind a closed pipe.
 
 use crate::ground::problem::{Outcome, Problem};
-use serde_json::{Value, json};
-use std::io::{ErrorKind, Write};
+use crate::report::json;
+use serde_json::Value;
+use std::io::Write;
+use std::path::Path;
 
-/// Writes `text` to standard output.
-///
-/// # Errors
-/// Standard output cannot be written, other than by a reader that has gone.
+/// Prints a text; a reader that went away is no error.
 pub fn print(text: &str) -> Outcome<()> {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Problem::new(
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+        Err(error) => Err(Problem::new(
             format!("standard output cannot be written ({error})"),
-            "check that the disk has room",
+            "check where the output goes and whether there is room",
         )),
-        _ => Ok(()),
+        Ok(()) => Ok(()),
     }
 }
 
-/// Writes one JSON document and nothing else.
-///
-/// # Errors
-/// As [`print`].
-pub fn print_json(document: &Value) -> Outcome<()> {
-    print(&format!("{document:#}\n"))
+/// Tells something on standard error; nothing can be done if that fails.
+pub fn tell(text: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
-/// The head common to all results: schema, verb, inputs with their hashes, then `body`'s keys.
-pub fn result(verb: &str, inputs: &[(String, String)], body: Value) -> Value {
-    let inputs: Vec<Value> = inputs
+/// Prints a result as JSON: the common head, then the keys of `body`, and nothing else.
+pub fn print_result(verb: &str, inputs: &[(String, String)], body: Value) -> Outcome<()> {
+    let inputs: Vec<(&Path, &str)> = inputs
         .iter()
-        .map(|(path, sha256)| json!({"path": path, "sha256": sha256}))
+        .map(|(path, hash)| (Path::new(path), hash.as_str()))
         .collect();
-    let mut document = json!({"schema": "ident/1", "verb": verb, "inputs": inputs});
-    if let (Some(head), Value::Object(body)) = (document.as_object_mut(), body) {
-        head.extend(body);
+    let mut document = json::head(verb, &inputs);
+    if let Value::Object(body) = body {
+        document.extend(body);
     }
-    document
+    print(&json::print(document))
 }

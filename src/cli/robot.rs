@@ -1,17 +1,25 @@
 //! `ident robot show | check | convert`: look at a robot file, doubt it, rewrite it.
 
-use super::Ending;
-use super::output::{print, print_json, result};
+use super::output::{print, print_result};
+use super::{Ending, Verb, arguments};
 use crate::ground::files::replace;
 use crate::ground::problem::Outcome;
 use crate::ground::units::DEGREE;
 use crate::robot::check::{self, Remark};
-use crate::robot::load::{Loaded, load};
+use crate::robot::load::load;
 use crate::robot::{Robot, Spring, write};
 use clap::{ArgMatches, Args, Subcommand};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+
+/// The verb.
+pub const VERB: Verb = Verb {
+    name: "robot",
+    about: "Show, check and convert robot files",
+    arguments: arguments::<RobotVerb>,
+    run,
+};
 
 /// Show, check and convert robot files.
 #[derive(Debug, Args)]
@@ -74,11 +82,7 @@ impl Convert {
 fn show(file: &File) -> Outcome<Ending> {
     let loaded = load(&file.robot, None)?;
     match file.json {
-        true => print_json(&result(
-            "robot show",
-            &[loaded.input()],
-            show_json(&loaded.robot),
-        ))?,
+        true => print_result("robot show", &[loaded.input()], show_json(&loaded.robot))?,
         false => print(&show_text(&loaded.robot))?,
     }
     Ok(Ending::Done)
@@ -171,7 +175,7 @@ fn check_file(file: &File) -> Outcome<Ending> {
     check::dynamics(&loaded.robot).map_err(|problem| problem.in_file(Path::new(&loaded.path)))?;
     let remarks = check::remarks(&loaded.robot);
     match file.json {
-        true => print_json(&check_json(&loaded, &remarks))?,
+        true => print_result("robot check", &[loaded.input()], check_json(&remarks))?,
         false => print(&check_text(&loaded.robot, &remarks))?,
     }
     Ok(if remarks.is_empty() {
@@ -181,16 +185,9 @@ fn check_file(file: &File) -> Outcome<Ending> {
     })
 }
 
-fn check_json(loaded: &Loaded, remarks: &[Remark]) -> Value {
-    let remarks: Vec<Value> = remarks
-        .iter()
-        .map(|remark| json!({"site": remark.site, "text": remark.text}))
-        .collect();
-    result(
-        "robot check",
-        &[loaded.input()],
-        json!({"remarks": remarks}),
-    )
+fn check_json(remarks: &[Remark]) -> Value {
+    let remark = |remark: &Remark| json!({"site": remark.site, "text": remark.text});
+    json!({"remarks": remarks.iter().map(remark).collect::<Vec<_>>()})
 }
 
 fn check_text(robot: &Robot, remarks: &[Remark]) -> String {

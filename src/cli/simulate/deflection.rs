@@ -2,7 +2,7 @@
 
 use super::robot_args::{RobotArgs, elastic_chain, ending, limit_warnings};
 use crate::cli::Ending;
-use crate::cli::output::{print, print_json, result};
+use crate::cli::output::{print, print_result};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{M3, V3};
 use crate::motion::Work;
@@ -53,11 +53,7 @@ impl Deflection {
             large,
         };
         match self.robot.json {
-            true => print_json(&result(
-                "simulate deflection",
-                &[loaded.input()],
-                answer.json(),
-            ))?,
+            true => print_result("simulate deflection", &[loaded.input()], answer.json())?,
             false => print(&answer.text(force))?,
         }
         Ok(ending(&limit_warnings(&loaded, &self.robot.joints_deg)))

@@ -2,7 +2,7 @@
 
 use super::robot_args::{RobotArgs, elastic_chain, ending, limit_warnings};
 use crate::cli::Ending;
-use crate::cli::output::{print, print_json, result};
+use crate::cli::output::{print, print_result};
 use crate::ground::problem::{Outcome, Problem};
 use crate::motion::frf::{C64, FrfWork, Response, accelerance, lines};
 use crate::motion::linear::Linear;
@@ -64,7 +64,7 @@ impl Frf {
             modes,
         };
         match self.robot.json {
-            true => print_json(&result("simulate frf", &[loaded.input()], answer.json()))?,
+            true => print_result("simulate frf", &[loaded.input()], answer.json())?,
             false => print(&answer.text(self.to))?,
         }
         Ok(ending(&limit_warnings(&loaded, &self.robot.joints_deg)))

@@ -7,9 +7,17 @@ mod pose;
 mod record;
 mod robot_args;
 
-use super::Ending;
+use super::{Ending, Verb, arguments};
 use crate::ground::problem::Outcome;
 use clap::{ArgMatches, Args, Subcommand};
+
+/// The verb.
+pub const VERB: Verb = Verb {
+    name: "simulate",
+    about: "Simulate the robot: pose, deflection, frequency response, motion",
+    arguments: arguments::<Simulate>,
+    run,
+};
 
 /// Simulate the robot: pose, deflection, frequency response, motion.
 #[derive(Debug, Args)]

@@ -3,8 +3,7 @@
 use super::record::Record;
 use super::robot_args::{RobotArgs, elastic_chain, ending, limit_warnings};
 use crate::cli::Ending;
-use crate::cli::output::{print, print_json, result};
-use crate::ground::files::{read_bytes, sha256};
+use crate::cli::output::{print, print_result};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::V3;
 use crate::ground::units::{DEGREE, Dimension};
@@ -73,14 +72,8 @@ impl Motion {
         match self.robot.json {
             true => {
                 let mut inputs = vec![loaded.input()];
-                for file in self.force.iter().chain(&self.path) {
-                    inputs.push((file.display().to_string(), sha256(&read_bytes(file)?)));
-                }
-                print_json(&result(
-                    "simulate motion",
-                    &inputs,
-                    json_body(&rows, &names),
-                ))?;
+                inputs.extend(force.iter().chain(&path).map(Record::input));
+                print_result("simulate motion", &inputs, json_body(&rows, &names))?;
             }
             false => print(&csv_text(&rows, &names))?,
         }

@@ -2,7 +2,7 @@
 
 use super::robot_args::{RobotArgs, ending, limit_warnings};
 use crate::cli::Ending;
-use crate::cli::output::{print, print_json, result};
+use crate::cli::output::{print, print_result};
 use crate::ground::problem::Outcome;
 use crate::motion::{self, Work};
 use crate::robot::check;
@@ -38,7 +38,7 @@ impl Pose {
             .map_err(|problem| problem.in_file(Path::new(&loaded.path)))?;
         let answer = compute(&loaded.robot, &q);
         match self.robot.json {
-            true => print_json(&result("simulate pose", &[loaded.input()], answer.json()))?,
+            true => print_result("simulate pose", &[loaded.input()], answer.json())?,
             false => print(&answer.text(&loaded.robot.name))?,
         }
         Ok(ending(&limit_warnings(&loaded, &self.robot.joints_deg)))

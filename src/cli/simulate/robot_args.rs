@@ -1,6 +1,7 @@
 //! The arguments that every simulation shares.
 
 use crate::cli::Ending;
+use crate::cli::output::tell;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::units::DEGREE;
 use crate::motion::{self, Chain};
@@ -71,7 +72,7 @@ pub fn limit_warnings(loaded: &Loaded, joints_deg: &[f64]) -> Vec<String> {
         })
     });
     let lines: Vec<String> = lines.collect();
-    lines.iter().for_each(|line| eprintln!("{line}"));
+    lines.iter().for_each(|line| tell(line));
     lines
 }
 

@@ -1,0 +1,114 @@
+//! Elementary operators that several laws share.
+
+use crate::ground::dual::Scalar;
+
+/// Smooth saturation x/(1+|x|^p)^(1/p): slope 1 at zero, ±1 far away; p → ∞ is the sharp clip.
+pub fn saturate<S: Scalar>(x: S, sharpness: f64) -> S {
+    let a = x.value().abs();
+    if a > 1e6 {
+        return S::constant(x.value().signum());
+    }
+    let root = (1.0 + a.powf(sharpness)).powf(1.0 / sharpness);
+    let value = x.value() / root;
+    let slope = 1.0 / (root * (1.0 + a.powf(sharpness)));
+    x.chain(value, slope)
+}
+
+/// Odd power sign(x)|x|^p with constant p.
+pub fn odd_power<S: Scalar>(x: S, exponent: S) -> S {
+    let a = x.abs();
+    if a.value() < 1e-12 {
+        return S::constant(0.0);
+    }
+    let power = (exponent * ln(a)).exp();
+    if x.value() < 0.0 { -power } else { power }
+}
+
+/// Natural logarithm.
+pub fn ln<S: Scalar>(x: S) -> S {
+    let v = x.value();
+    x.chain(v.ln(), 1.0 / v)
+}
+
+/// Stop operator (Jenkins element): follows the increments of the input, held within ±`threshold`.
+#[derive(Debug, Clone, Copy)]
+pub struct Stop<S> {
+    /// Present value.
+    pub value: S,
+}
+
+impl<S: Scalar> Stop<S> {
+    /// Virgin state.
+    pub fn new() -> Self {
+        Self {
+            value: S::constant(0.0),
+        }
+    }
+
+    /// Moves the input by `step`.
+    pub fn advance(&mut self, step: f64, threshold: S) -> S {
+        self.value = (self.value + step).min(threshold).max(-threshold);
+        self.value
+    }
+}
+
+/// Linear interpolation of a history with derivative, shifted in time by `delay`: value at
+/// t − delay, constant before the start and after the end.
+pub fn delayed<S: Scalar>(time: &[f64], values: &[S], delay: S, out: &mut [S]) {
+    let mut i = 0;
+    let last = time.len() - 1;
+    for (n, slot) in out.iter_mut().enumerate() {
+        let at = time[n] - delay.value();
+        while i < last && time[i + 1] < at {
+            i += 1;
+        }
+        while i > 0 && time[i] > at {
+            i -= 1;
+        }
+        *slot = sample(time, values, i, last, at, time[n], delay);
+    }
+}
+
+fn sample<S: Scalar>(
+    time: &[f64],
+    v: &[S],
+    i: usize,
+    last: usize,
+    at: f64,
+    now: f64,
+    delay: S,
+) -> S {
+    if at <= time[0] {
+        return v[0];
+    }
+    if i >= last {
+        return v[last];
+    }
+    let width = time[i + 1] - time[i];
+    if width <= 0.0 {
+        return v[i];
+    }
+    let share = (-delay + (now - time[i])) / width;
+    v[i] + (v[i + 1] - v[i]) * share
+}
+
+/// Weights of the centre of a least-squares parabola over five rows (Savitzky and Golay 1964).
+const PARABOLA: [f64; 5] = [
+    -3.0 / 35.0,
+    12.0 / 35.0,
+    17.0 / 35.0,
+    12.0 / 35.0,
+    -3.0 / 35.0,
+];
+
+/// A history smoothed by parabolas over five rows; its ends stay as they are.
+pub fn smoothed<S: Scalar>(values: &[S]) -> Vec<S> {
+    let mut out = values.to_vec();
+    for (slot, window) in out.iter_mut().skip(2).zip(values.windows(5)) {
+        *slot = window
+            .iter()
+            .zip(PARABOLA)
+            .fold(S::constant(0.0), |sum, (v, w)| sum + *v * w);
+    }
+    out
+}

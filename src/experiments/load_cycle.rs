@@ -1,0 +1,199 @@
+//! The load-cycle experiment: what a joint model says of one settled cycle, and its charts.
+
+use crate::effects::{Composite, Scene};
+use crate::measurement::load_cycle::{LoadCycle, Port};
+use crate::sheet::chart::{Axis, Chart, Panel, Series};
+use crate::sheet::number::prefix;
+
+/// What one settled cycle of a model shows at its ends and over its round.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settled {
+    /// Load range over deflection range, N·m/rad (N/m).
+    pub secant: f64,
+    /// Slope of load over deflection at the end of loading, both ends averaged.
+    pub tangent: f64,
+    /// Slope of load over deflection right after the reversals.
+    pub reversal: f64,
+    /// ∮ M dφ, J.
+    pub loss: f64,
+    /// Loss over 2π times the stored energy of the secant spring.
+    pub loss_factor: f64,
+}
+
+/// Rows of one simulated half cycle.
+const HALF: usize = 240;
+
+/// A settled cycle: load and deflection of the last of three triangle cycles between two loads.
+pub fn settled_cycle(
+    model: &Composite,
+    p: &[f64],
+    like: &Scene,
+    low: f64,
+    high: f64,
+) -> (Vec<f64>, Vec<f64>) {
+    let load = triangle(low, high, 3);
+    let dt = like.period / (2 * HALF) as f64;
+    let scene = Scene {
+        time: (0..load.len()).map(|i| i as f64 * dt).collect(),
+        duration: load.len() as f64 * dt,
+        load,
+        ..like.clone()
+    };
+    let deflection = model.predict(p, &scene);
+    let last = scene.load.len() - 2 * HALF - 1;
+    (scene.load[last..].to_vec(), deflection[last..].to_vec())
+}
+
+/// Load from zero to `high`, then `cycles` times to `low` and back.
+fn triangle(low: f64, high: f64, cycles: usize) -> Vec<f64> {
+    let leg =
+        |from: f64, to: f64| (1..=HALF).map(move |i| from + (to - from) * i as f64 / HALF as f64);
+    let mut load = vec![0.0];
+    load.extend(leg(0.0, high));
+    for _ in 0..cycles {
+        load.extend(leg(high, low));
+        load.extend(leg(low, high));
+    }
+    load
+}
+
+/// Reads secant, tangents and loss off a settled cycle.
+pub fn settle(load: &[f64], deflection: &[f64]) -> Settled {
+    let middle = load.len() / 2;
+    let slope = |a: usize, b: usize| (load[b] - load[a]) / (deflection[b] - deflection[a]);
+    let end = load.len() - 1;
+    let near = HALF / 20;
+    let secant = slope(0, middle);
+    let mean = |a: f64, b: f64| 2.0 / (1.0 / a + 1.0 / b);
+    let loss = enclosed(load, deflection);
+    let stored = 0.125 * (load[0] - load[middle]) * (deflection[0] - deflection[middle]);
+    Settled {
+        secant,
+        tangent: mean(slope(middle - near, middle), slope(end - near, end)),
+        reversal: mean(slope(0, near), slope(middle, middle + near)),
+        loss,
+        loss_factor: loss / (std::f64::consts::TAU * stored),
+    }
+}
+
+/// Work ∮ M dφ of a closed loop by the trapezoidal rule, J.
+pub fn enclosed(load: &[f64], deflection: &[f64]) -> f64 {
+    let n = load.len();
+    (0..n)
+        .map(|i| {
+            let j = (i + 1) % n;
+            0.5 * (load[i] + load[j]) * (deflection[j] - deflection[i])
+        })
+        .sum()
+}
+
+/// Straight-line stiffness as a textbook takes it: least squares of load over deflection with a
+/// free intercept.
+pub fn straight_line(load: &[f64], deflection: &[f64]) -> f64 {
+    let n = load.len() as f64;
+    let (ml, md) = (
+        load.iter().sum::<f64>() / n,
+        deflection.iter().sum::<f64>() / n,
+    );
+    let dd: f64 = deflection.iter().map(|d| (d - md).powi(2)).sum();
+    let ld: f64 = load
+        .iter()
+        .zip(deflection)
+        .map(|(l, d)| (l - ml) * (d - md))
+        .sum();
+    ld / dd
+}
+
+/// Curves of one measurement against a model, for charts.
+pub struct Curves<'a> {
+    /// The file.
+    pub file: &'a LoadCycle,
+    /// Time, s; load; reading; model — after reduction.
+    pub time: &'a [f64],
+    /// Load.
+    pub load: &'a [f64],
+    /// Reading.
+    pub reading: &'a [f64],
+    /// Model.
+    pub model: &'a [f64],
+    /// What the model is called in the legend.
+    pub name: &'a str,
+}
+
+impl Curves<'_> {
+    fn scales(&self) -> Scales {
+        let largest = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let residual = self.residual();
+        Scales {
+            load: prefix(largest(self.load), self.file.port.load_unit()),
+            deflection: prefix(largest(self.reading), self.file.port.deflection_unit()),
+            residual: prefix(largest(&residual), self.file.port.deflection_unit()),
+        }
+    }
+
+    fn residual(&self) -> Vec<f64> {
+        self.reading
+            .iter()
+            .zip(self.model)
+            .map(|(y, f)| y - f)
+            .collect()
+    }
+
+    /// Moment over angle with the model over it, residual over moment, residual over time.
+    pub fn chart(&self, stem: &str, what: &str) -> Chart {
+        let s = self.scales();
+        let residual = self.residual();
+        let port = self.file.port;
+        let load_axis = || Axis::new(port.load_name(), s.load.1.clone());
+        let residual_axis = || Axis::new("Residual", s.residual.1.clone());
+        let measured = pairs(self.reading, s.deflection.0, self.load, s.load.0);
+        let modelled = pairs(self.model, s.deflection.0, self.load, s.load.0);
+        let loops = Panel::new(
+            Axis::new(port.deflection_name(), s.deflection.1.clone()),
+            load_axis(),
+        )
+        .with(Series::points("measured", measured))
+        .with(Series::line(self.name, modelled).emphasised());
+        let over_load = Panel::new(load_axis(), residual_axis()).with(Series::points(
+            "measured − model",
+            pairs(self.load, s.load.0, &residual, s.residual.0),
+        ));
+        let over_time = Panel::new(Axis::new("Time", "s"), residual_axis()).with(Series::line(
+            "measured − model",
+            pairs(self.time, 1.0, &residual, s.residual.0),
+        ));
+        Chart::new(
+            stem,
+            format!("{}: {what}", self.file.site()),
+            self.caption(),
+        )
+        .synthetic(self.file.facts.synthetic)
+        .with(loops)
+        .with(over_load)
+        .with(over_time)
+    }
+
+    fn caption(&self) -> String {
+        let robot = self.file.facts.robot.as_deref().unwrap_or("unnamed robot");
+        format!(
+            "Load cycle {} of {robot}, {} rows.",
+            self.file.stem(),
+            self.file.load.len()
+        )
+    }
+}
+
+struct Scales {
+    load: (f64, String),
+    deflection: (f64, String),
+    residual: (f64, String),
+}
+
+fn pairs(x: &[f64], xs: f64, y: &[f64], ys: f64) -> Vec<[f64; 2]> {
+    x.iter().zip(y).map(|(a, b)| [a * xs, b * ys]).collect()
+}
+
+/// Energy in joule for rotation and translation alike.
+pub fn energy_unit(_port: Port) -> &'static str {
+    "J"
+}

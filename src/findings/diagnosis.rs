@@ -1,0 +1,589 @@
+//! The diagnosis of one load-cycle file: from the screen to the verdict.
+
+use super::adequacy::{self, Adequacy};
+use super::ambiguity::{Posterior, temper};
+use super::discrepancy::{Discrepancy, Structure};
+use super::gain::{Gain, gain, held_out};
+use super::refine::{Refined, refine, refine_from};
+use super::scales::{self, ScaleFinding};
+use super::search::search;
+use super::{lattice, next};
+use crate::effects::{Composite, EFFECTS, Effect, Family};
+use crate::experiments::load_cycle::{settle, settled_cycle};
+use crate::fit::candidates::Candidates;
+use crate::fit::least_squares::Problem;
+use crate::fit::normal::Normal;
+use crate::fit::observation::Observation;
+use crate::fit::screen::{Screen, screen};
+use crate::measurement::load_cycle::LoadCycle;
+
+/// The verdict on a simulation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// The simulation is right to within the noise.
+    Sufficient,
+    /// Causes found, nothing left.
+    Explained,
+    /// Causes found, structure remains.
+    PartlyExplained,
+    /// Structure that nobody in the library explains.
+    UnknownCause,
+    /// The data cannot separate the candidates.
+    CannotTell,
+}
+
+impl Verdict {
+    /// As in the JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sufficient => "sufficient",
+            Self::Explained => "explained",
+            Self::PartlyExplained => "partly-explained",
+            Self::UnknownCause => "unknown-cause",
+            Self::CannotTell => "cannot-tell",
+        }
+    }
+}
+
+/// A named cause.
+#[derive(Debug, Clone)]
+pub struct Cause {
+    /// Its name.
+    pub effect: &'static str,
+    /// Where.
+    pub site: String,
+    /// Probability that it is present.
+    pub probability: f64,
+    /// Runners-up with their probabilities.
+    pub alternatives: Vec<(&'static str, f64)>,
+    /// Its parameters: name, value SI, unit.
+    pub parameters: Vec<(&'static str, f64, &'static str)>,
+    /// What naming it gains.
+    pub gain: Gain,
+}
+
+/// Causes that these data cannot tell apart.
+#[derive(Debug, Clone)]
+pub struct Group {
+    /// The candidates, most probable first.
+    pub effects: Vec<&'static str>,
+    /// Their sites.
+    pub sites: Vec<String>,
+    /// What would tell.
+    pub would_tell: String,
+    /// What any of them gains.
+    pub gain: Gain,
+}
+
+/// One row of the candidates' table: causes, probability, nats of misfit explained.
+pub type Candidate = (Vec<&'static str>, f64, f64);
+
+/// What a diagnosis found.
+pub struct Diagnosis {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// How far the present simulation is off.
+    pub discrepancy: Discrepancy,
+    /// Named causes, in order of gain.
+    pub causes: Vec<Cause>,
+    /// Groups that cannot be separated.
+    pub groups: Vec<Group>,
+    /// Is anything left?
+    pub adequacy: Adequacy,
+    /// What is left.
+    pub unexplained: Structure,
+    /// The extended model.
+    pub model: Composite,
+    /// Its parameters, SI.
+    pub p: Vec<f64>,
+    /// The sets that were compared, most probable first.
+    pub candidates: Vec<Candidate>,
+    /// Reduced data.
+    pub data: Observation,
+    /// Reading that the present simulation predicts.
+    pub simulated: Vec<f64>,
+    /// Reading that the extended model predicts.
+    pub extended: Vec<f64>,
+    /// Unit of the deflection.
+    pub unit: &'static str,
+    /// Noise in words.
+    pub noise: String,
+}
+
+/// How to diagnose.
+#[derive(Clone)]
+pub struct Settings {
+    /// Effects to consider.
+    pub library: Vec<&'static dyn Effect>,
+    /// Rows beyond which neighbours are averaged.
+    pub rows: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            library: EFFECTS.to_vec(),
+            rows: 2000,
+        }
+    }
+}
+
+/// A stand-in with at least this share of the winner's probability cannot be ruled out.
+const AMBIGUOUS: f64 = 0.05;
+/// Structure counts as left when a test is below this p-value ...
+const SIGNIFICANT: f64 = 1e-4;
+/// ... and the unexplained share exceeds this.
+const MATTERS: f64 = 0.1;
+/// With more than this share unexplained the causes found are not the story.
+const NOT_THE_STORY: f64 = 0.35;
+/// Steps of a lattice above this many times the noise are coarse.
+const COARSE: f64 = 1.6;
+/// Sets refined beyond the single causes.
+const REFINED_PAIRS: usize = 14;
+
+/// Everything that is known about a file before causes are named.
+struct Case<'a> {
+    file: &'a LoadCycle,
+    data: Observation,
+    screen: Screen,
+    refined: Vec<Refined>,
+    posterior: Posterior,
+    base: f64,
+    plain: Refined,
+}
+
+/// Diagnoses one file.
+pub fn diagnose(file: &LoadCycle, settings: &Settings) -> Diagnosis {
+    let case = compare(file, settings);
+    let chosen = case.choose();
+    let mut named = case.name(&chosen);
+    let spring = chosen.optimum.p[0];
+    let scales = case.scales(&chosen);
+    named.extend(case.name_scales(&scales, &chosen));
+    named.extend(case.name_lattice());
+    case.conclude(chosen, named, !scales.is_empty(), spring)
+}
+
+fn compare<'a>(file: &'a LoadCycle, settings: &Settings) -> Case<'a> {
+    let data = Observation::of(file, settings.rows);
+    let candidates = Candidates::new(&settings.library, &data);
+    let screen = screen(&data, &candidates);
+    let normal = Normal::new(&candidates, &screen.colour);
+    let found = search(&candidates, &normal, REFINED_PAIRS);
+    let refined: Vec<Refined> = found
+        .iter()
+        .map(|f| refine(f, &candidates, &data, &screen.colour, normal.base, 12))
+        .collect();
+    let ceiling = 0.5 * (normal.base - screen.saturated).max(0.0);
+    let posterior = Posterior::new(&refined, data.rows(), temper(ceiling));
+    let start = [data.scene.load_scale / data.scene.deflection_scale];
+    let plain = refine_from(
+        Composite::new(&[]),
+        &start,
+        &data,
+        &screen.colour,
+        normal.base,
+        12,
+    );
+    Case {
+        file,
+        data,
+        screen,
+        refined,
+        posterior,
+        base: normal.base,
+        plain,
+    }
+}
+
+/// Causes and groups as they are named.
+#[derive(Default)]
+struct Named {
+    causes: Vec<Cause>,
+    groups: Vec<Group>,
+}
+
+impl Named {
+    fn extend(&mut self, other: Named) {
+        self.causes.extend(other.causes);
+        self.groups.extend(other.groups);
+    }
+}
+
+impl Case<'_> {
+    /// The most probable set whose every cause gains on unseen cycles.
+    fn choose(&self) -> Refined {
+        for (_, probability, index) in &self.posterior.sets {
+            let Some(set) = index.map(|i| &self.refined[i]) else {
+                return self.plain.clone();
+            };
+            let real = set
+                .causes
+                .iter()
+                .all(|cause| self.gain_of(set, cause).is_real());
+            if real || *probability < 1e-9 {
+                return if real {
+                    set.clone()
+                } else {
+                    self.plain.clone()
+                };
+            }
+        }
+        self.plain.clone()
+    }
+
+    /// Gain of one cause: the set without it against the set.
+    fn gain_of(&self, set: &Refined, cause: &str) -> Gain {
+        let without = self.without(set, cause);
+        let before = held_out(&without.0, &without.1, &self.data, &self.screen.colour);
+        let after = held_out(&set.model, &set.optimum.p, &self.data, &self.screen.colour);
+        gain(&before, &after, &self.data, &self.screen.colour)
+    }
+
+    /// The set less one cause: refined if it was compared, else as it stands.
+    fn without(&self, set: &Refined, cause: &str) -> (Composite, Vec<f64>) {
+        let rest: Vec<&'static str> = set.causes.iter().copied().filter(|c| *c != cause).collect();
+        let index = self
+            .posterior
+            .sets
+            .iter()
+            .find(|s| s.0 == rest)
+            .and_then(|s| s.2);
+        if let Some(known) = index.map(|i| &self.refined[i]) {
+            return (known.model.clone(), known.optimum.p.clone());
+        }
+        let mut p = Vec::new();
+        let mut effects = Vec::new();
+        let mut at = 0;
+        for effect in set.model.effects() {
+            let count = effect.card().parameters.len();
+            if effect.card().cause != cause {
+                effects.push(*effect);
+                p.extend(&set.optimum.p[at..at + count]);
+            }
+            at += count;
+        }
+        (Composite::new(&effects), p)
+    }
+
+    fn name(&self, chosen: &Refined) -> Named {
+        let mut named = Named::default();
+        for cause in &chosen.causes {
+            let stand_ins = self.posterior.stand_ins(&chosen.causes, cause, AMBIGUOUS);
+            let gain = self.gain_of(chosen, cause);
+            if stand_ins.is_empty() {
+                named.causes.push(Cause {
+                    effect: cause,
+                    site: self.site(chosen, cause),
+                    probability: self.posterior.inclusion(cause),
+                    alternatives: self.posterior.stand_ins(&chosen.causes, cause, 1e-4),
+                    parameters: self.parameters(chosen, cause),
+                    gain,
+                });
+            } else {
+                named
+                    .groups
+                    .push(self.group(chosen, cause, &stand_ins, gain));
+            }
+        }
+        named
+    }
+
+    fn group(
+        &self,
+        chosen: &Refined,
+        cause: &'static str,
+        stand_ins: &[(&'static str, f64)],
+        gain: Gain,
+    ) -> Group {
+        let mut effects = vec![cause];
+        effects.extend(stand_ins.iter().map(|s| s.0));
+        let rivals: Vec<(&Composite, &[f64])> = stand_ins
+            .iter()
+            .filter_map(|(other, _)| {
+                let mut set: Vec<_> = chosen
+                    .causes
+                    .iter()
+                    .copied()
+                    .filter(|c| *c != cause)
+                    .chain([*other])
+                    .collect();
+                set.sort_unstable();
+                let index = self.posterior.sets.iter().find(|s| s.0 == set)?.2?;
+                Some((
+                    &self.refined[index].model,
+                    &self.refined[index].optimum.p[..],
+                ))
+            })
+            .collect();
+        let noise = self.screen.colour.rms;
+        let proposal = next::propose(
+            (&chosen.model, &chosen.optimum.p),
+            &rivals,
+            &self.data,
+            noise,
+        );
+        let sites = effects.iter().map(|e| self.site(chosen, e)).collect();
+        let would_tell = format!(
+            "{} (separates them by {:.0} nats)",
+            proposal.about, proposal.separation
+        );
+        Group {
+            effects,
+            sites,
+            would_tell,
+            gain,
+        }
+    }
+
+    /// Measurement effects sit at the sensor, physics at the joint.
+    fn site(&self, chosen: &Refined, cause: &str) -> String {
+        let known = chosen
+            .model
+            .effects()
+            .iter()
+            .copied()
+            .chain(EFFECTS.iter().copied());
+        let family = known
+            .filter(|e| e.card().cause == cause)
+            .map(|e| e.card().family)
+            .next();
+        match family {
+            Some(Family::Measurement) => "sensor".into(),
+            _ => self.file.site(),
+        }
+    }
+
+    fn parameters(&self, chosen: &Refined, cause: &str) -> Vec<(&'static str, f64, &'static str)> {
+        let slots = chosen.model.slots();
+        let own = slots
+            .iter()
+            .zip(&chosen.optimum.p)
+            .filter(|(s, _)| s.effect.card().cause == cause);
+        own.map(|(s, v)| {
+            (
+                s.parameter.name,
+                *v,
+                crate::fit::solution::unit_of(s.parameter.scale, self.file.port),
+            )
+        })
+        .collect()
+    }
+
+    fn scales(&self, chosen: &Refined) -> Vec<ScaleFinding> {
+        let (low, high) = self
+            .data
+            .scene
+            .load
+            .iter()
+            .fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
+        let (load, deflection) = settled_cycle(
+            &chosen.model,
+            &chosen.optimum.p,
+            &self.data.scene,
+            low,
+            high,
+        );
+        let settled = settle(&load, &deflection);
+        let excess = scales::nominal_excess(self.file, chosen.optimum.p[0], &settled);
+        scales::judge(self.file, excess, self.relative_error(chosen)).findings
+    }
+
+    /// Relative standard error of the spring.
+    fn relative_error(&self, chosen: &Refined) -> f64 {
+        let normal = chosen.optimum.jacobian.tr_mul(&chosen.optimum.jacobian);
+        let inverse = normal
+            .try_inverse()
+            .map_or(0.0, |m| m[(0, 0)].max(0.0).sqrt());
+        (inverse * chosen.optimum.scale[0] / chosen.optimum.p[0])
+            .abs()
+            .min(0.5)
+    }
+
+    fn name_scales(&self, findings: &[ScaleFinding], chosen: &Refined) -> Named {
+        let mut named = Named::default();
+        for finding in findings {
+            let gain = self.scale_gain(finding.excess, chosen);
+            let (effect, site, probability) = finding.candidates[0].clone();
+            if finding.candidates.len() == 1 {
+                named.causes.push(Cause {
+                    effect,
+                    site,
+                    probability,
+                    alternatives: Vec::new(),
+                    parameters: vec![("excess", finding.excess, "1")],
+                    gain,
+                });
+            } else {
+                named.groups.push(Group {
+                    effects: finding.candidates.iter().map(|c| c.0).collect(),
+                    sites: finding.candidates.iter().map(|c| c.1.clone()).collect(),
+                    would_tell: self.scale_experiment(finding),
+                    gain,
+                });
+            }
+        }
+        named
+    }
+
+    /// What separates scale errors, with the separation it would give.
+    fn scale_experiment(&self, finding: &ScaleFinding) -> String {
+        let lever = self.file.facts.lever_rel_std.unwrap_or(0.003);
+        let sigma = finding.excess.abs() / (std::f64::consts::SQRT_2 * lever).max(1e-6);
+        match self.file.second.is_some() {
+            true => format!(
+                "repeat with the laser at another lever and set square to the motion: a wrong lever then reads differently by {sigma:.0} standard deviations, an inclined laser does not"
+            ),
+            false => format!(
+                "repeat with a second lever length (or a second laser): a sensor's error would then show by {sigma:.0} standard deviations"
+            ),
+        }
+    }
+
+    /// Gain of putting the scale right: the chosen model with its deflection stretched back.
+    fn scale_gain(&self, excess: f64, chosen: &Refined) -> Gain {
+        let after = held_out(
+            &chosen.model,
+            &chosen.optimum.p,
+            &self.data,
+            &self.screen.colour,
+        );
+        let wrong = excess / (1.0 + excess);
+        let before: Vec<f64> = after
+            .iter()
+            .zip(&self.data.reading)
+            .map(|(a, y)| a + wrong * (y - a))
+            .collect();
+        gain(&before, &after, &self.data, &self.screen.colour)
+    }
+
+    fn name_lattice(&self) -> Named {
+        let step =
+            lattice::step(&self.file.deflection).filter(|s| *s > COARSE * self.screen.colour.rms);
+        let causes = step.map(|step| {
+            let rms = self.screen.colour.rms.max(step / 12.0_f64.sqrt());
+            let finer = (rms * rms - step * step / 12.0)
+                .max(0.04 * rms * rms)
+                .sqrt();
+            let percent = 100.0 * (1.0 - finer / rms);
+            let gain = Gain {
+                before: rms,
+                after: finer,
+                reduction_percent: percent,
+                ci95_percent: [0.8 * percent, (1.2 * percent).min(100.0)],
+            };
+            Cause {
+                effect: "quantization",
+                site: "sensor".into(),
+                probability: 0.99,
+                alternatives: Vec::new(),
+                parameters: vec![("step", step, self.file.port.deflection_unit())],
+                gain,
+            }
+        });
+        Named {
+            causes: causes.into_iter().collect(),
+            groups: Vec::new(),
+        }
+    }
+
+    fn residual(&self, set: &Refined) -> Vec<f64> {
+        let ignored = vec![false; self.data.rows()];
+        let problem = Problem {
+            model: &set.model,
+            data: &self.data,
+            colour: &self.screen.colour,
+            ignored: &ignored,
+        };
+        problem.residual(&set.optimum.p)
+    }
+
+    fn conclude(self, chosen: Refined, mut named: Named, scaled: bool, spring: f64) -> Diagnosis {
+        let adequacy = adequacy::judge(
+            &self.residual(&chosen),
+            chosen.dimension + 1,
+            self.base,
+            &self.screen,
+            &self.data,
+        );
+        let left = adequacy.p_value < SIGNIFICANT && adequacy.unexplained > MATTERS;
+        named.causes.sort_by(|a, b| {
+            b.gain
+                .reduction_percent
+                .total_cmp(&a.gain.reduction_percent)
+        });
+        let verdict = verdict(&named, left, &adequacy);
+        if verdict == Verdict::UnknownCause {
+            // what the library could make of it is not the story: name nothing
+            named = Named::default();
+        }
+        let extended = chosen.model.predict(&chosen.optimum.p, &self.data.scene);
+        let stiffness = self.present_stiffness(scaled, spring);
+        let simulated: Vec<f64> = self.data.scene.load.iter().map(|m| m / stiffness).collect();
+        let difference = |f: &[f64]| {
+            self.data
+                .reading
+                .iter()
+                .zip(f)
+                .map(|(y, f)| y - f)
+                .collect::<Vec<f64>>()
+        };
+        let noise = self.screen.colour.rms;
+        let discrepancy = Discrepancy::of(&difference(&simulated), &self.data, noise);
+        let before = discrepancy.rms * discrepancy.rms;
+        let unexplained = Structure::of(
+            &difference(&extended),
+            &self.data,
+            before,
+            noise,
+            adequacy.test,
+        );
+        let candidates = self.table();
+        Diagnosis {
+            verdict,
+            discrepancy,
+            causes: named.causes,
+            groups: named.groups,
+            adequacy,
+            unexplained,
+            model: chosen.model,
+            p: chosen.optimum.p,
+            candidates,
+            simulated,
+            extended,
+            unit: self.file.port.deflection_unit(),
+            noise: self.screen.colour.describe(),
+            data: self.data,
+        }
+    }
+
+    /// The stiffness that the present simulation uses: the nominal one where its stated spread does
+    /// not cover the identified one; else the best straight spring within that spread.
+    fn present_stiffness(&self, scaled: bool, _spring: f64) -> f64 {
+        match self.file.facts.nominal_stiffness {
+            Some(nominal) if scaled => nominal,
+            _ => self.plain.optimum.p[0],
+        }
+    }
+
+    fn table(&self) -> Vec<Candidate> {
+        let nats = |index: &Option<usize>| index.map_or(0.0, |i| self.refined[i].nats);
+        self.posterior
+            .sets
+            .iter()
+            .take(10)
+            .map(|(c, p, i)| (c.clone(), *p, nats(i)))
+            .collect()
+    }
+}
+
+fn verdict(named: &Named, left: bool, adequacy: &Adequacy) -> Verdict {
+    match (named.causes.is_empty() && named.groups.is_empty(), left) {
+        (true, true) => Verdict::UnknownCause,
+        (true, false) => Verdict::Sufficient,
+        (false, true) if adequacy.unexplained > NOT_THE_STORY => Verdict::UnknownCause,
+        (false, true) => Verdict::PartlyExplained,
+        (false, false) if named.causes.is_empty() => Verdict::CannotTell,
+        (false, false) => Verdict::Explained,
+    }
+}

@@ -1,0 +1,105 @@
+//! What naming a cause gains, on cycles that were not fitted.
+
+use crate::effects::Composite;
+use crate::fit::least_squares::{Problem, Search, minimise};
+use crate::fit::observation::Observation;
+use crate::fit::parameter::Z95;
+use crate::signal::colour::Colour;
+
+/// Error on held-out cycles before and after, with the interval of its reduction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gain {
+    /// Rms error on held-out cycles without the cause.
+    pub before: f64,
+    /// With it.
+    pub after: f64,
+    /// 1 − after/before in percent.
+    pub reduction_percent: f64,
+    /// Its 95 % interval.
+    pub ci95_percent: [f64; 2],
+}
+
+impl Gain {
+    /// Whether the interval excludes no gain at all.
+    pub fn is_real(&self) -> bool {
+        self.ci95_percent[0] > 0.0
+    }
+}
+
+/// Most folds: beyond, neighbouring cycles are held out together.
+const FOLDS: usize = 4;
+
+/// Rows of each fold: whole cycles; halves where there is only one.
+pub fn folds(data: &Observation) -> Vec<Vec<bool>> {
+    let n = data.rows();
+    let cycles = data.cycles.count();
+    let part: Vec<usize> = match cycles {
+        0 | 1 => (0..n).map(|i| 2 * i / n.max(1)).collect(),
+        _ => data
+            .cycles
+            .of_row
+            .iter()
+            .map(|c| c * cycles.min(FOLDS) / cycles)
+            .collect(),
+    };
+    let count = part.iter().max().map_or(1, |m| m + 1);
+    (0..count)
+        .map(|fold| part.iter().map(|p| *p == fold).collect())
+        .collect()
+}
+
+/// Prediction error of a model on every row, each row predicted from the folds it is not in.
+pub fn held_out(model: &Composite, start: &[f64], data: &Observation, colour: &Colour) -> Vec<f64> {
+    let mut error = vec![0.0; data.rows()];
+    for fold in folds(data) {
+        let problem = Problem {
+            model,
+            data,
+            colour,
+            ignored: &fold,
+        };
+        let fit = minimise(
+            &problem,
+            start,
+            Search {
+                iterations: 6,
+                tolerance: 1e-4,
+            },
+        );
+        let predicted = model.predict(&fit.p, &data.scene);
+        for i in (0..error.len()).filter(|i| fold[*i]) {
+            error[i] = data.reading[i] - predicted[i];
+        }
+    }
+    error
+}
+
+/// Gain from errors before and after, row by row. The interval follows from the noise's own
+/// fluctuation: with errors a (after) and b = a + d, A = mean a², B = mean b², noise of spectrum s,
+/// var A = 2Σs²/n², var B = var A + 4ΣD²s/n², cov = var A, by the delta method on ½ ln(B/A).
+pub fn gain(before: &[f64], after: &[f64], data: &Observation, colour: &Colour) -> Gain {
+    let n = before.len() as f64;
+    let square = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>() / n;
+    let (b, a) = (square(before), square(after).max(f64::MIN_POSITIVE));
+    let mut lifted: Vec<f64> = before.iter().zip(after).map(|(x, y)| x - y).collect();
+    data.cosine.transform(&mut lifted);
+    // the colour's size is taken from the errors themselves: they are what fluctuates
+    let scale = a / (colour.sigma.iter().map(|s| s * s).sum::<f64>() / n);
+    let spectrum = colour.sigma.iter().map(|s| s * s * scale);
+    let (mut ss, mut ds) = (0.0, 0.0);
+    for (s, d) in spectrum.zip(&lifted) {
+        ss += s * s;
+        ds += d * d * s;
+    }
+    let (var_a, extra) = (2.0 * ss / (n * n), 4.0 * ds / (n * n));
+    let variance = 0.25 * (var_a / (a * a) + (var_a + extra) / (b * b) - 2.0 * var_a / (a * b));
+    let middle = 0.5 * (b / a).ln();
+    let half = Z95 * variance.max(0.0).sqrt();
+    let percent = |g: f64| 100.0 * (1.0 - (-g).exp());
+    Gain {
+        before: b.sqrt(),
+        after: a.sqrt(),
+        reduction_percent: percent(middle),
+        ci95_percent: [percent(middle - half), percent(middle + half)],
+    }
+}

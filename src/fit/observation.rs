@@ -1,0 +1,117 @@
+//! Observed deflections under a load history, ready for fitting: reduced, whitened, repaired.
+
+use crate::effects::Scene;
+use crate::measurement::cycles::Cycles;
+use crate::measurement::load_cycle::LoadCycle;
+use crate::signal::cosine::Cosine;
+use crate::signal::outliers;
+
+/// What is fitted: a scene, the readings, the cycles, and the planned transform.
+pub struct Observation {
+    /// Load history.
+    pub scene: Scene,
+    /// Readings, rad or m; wild ones replaced.
+    pub reading: Vec<f64>,
+    /// Cycles of the load.
+    pub cycles: Cycles,
+    /// Transform of the readings' length.
+    pub cosine: Cosine,
+    /// Rows of the file averaged into one.
+    pub block: usize,
+    /// Rows (after reduction) that were wild and were replaced.
+    pub wild: Vec<usize>,
+}
+
+/// Rows beyond which neighbours are averaged before fitting.
+pub const MOST_ROWS: usize = 6000;
+
+/// Distance beyond its neighbours, in robust standard deviations of their jumps, that makes a lone
+/// reading wild.
+const WILD: f64 = 3.5;
+
+impl Observation {
+    /// Prepares the first sensor of a file, averaged down to at most `most` rows.
+    pub fn of(file: &LoadCycle, most: usize) -> Self {
+        let block = file.load.len().div_ceil(most.max(4)).max(1);
+        Self::from_channels(
+            reduce(&file.time, block),
+            reduce(&file.load, block),
+            reduce(&file.deflection, block),
+            block,
+        )
+    }
+
+    /// Prepares channels that are at hand already.
+    pub fn from_channels(
+        time: Vec<f64>,
+        load: Vec<f64>,
+        mut reading: Vec<f64>,
+        block: usize,
+    ) -> Self {
+        let wild = repair(&load, &mut reading);
+        let cycles = Cycles::find(&load);
+        let stiffness = rough_stiffness(&load, &reading);
+        let scene = Scene::new(time, load, stiffness, cycles.count());
+        let cosine = Cosine::new(reading.len());
+        Self {
+            scene,
+            reading,
+            cycles,
+            cosine,
+            block,
+            wild,
+        }
+    }
+
+    /// Number of readings.
+    pub fn rows(&self) -> usize {
+        self.reading.len()
+    }
+}
+
+/// Means of neighbouring rows, `block` at a time.
+pub fn reduce(values: &[f64], block: usize) -> Vec<f64> {
+    if block <= 1 {
+        return values.to_vec();
+    }
+    values
+        .chunks(block)
+        .map(|c| c.iter().sum::<f64>() / c.len() as f64)
+        .collect()
+}
+
+/// Slope of load over deflection, robust against anything but a constant channel.
+pub fn rough_stiffness(load: &[f64], reading: &[f64]) -> f64 {
+    let n = load.len() as f64;
+    let (ml, mr) = (
+        load.iter().sum::<f64>() / n,
+        reading.iter().sum::<f64>() / n,
+    );
+    let (mut ll, mut lr) = (0.0, 0.0);
+    for (l, r) in load.iter().zip(reading) {
+        ll += (l - ml) * (l - ml);
+        lr += (l - ml) * (r - mr);
+    }
+    let slope = ll / lr;
+    if slope.is_finite() && slope != 0.0 {
+        slope.abs()
+    } else {
+        1.0
+    }
+}
+
+/// Replaces lone wild readings by their neighbours; returns where.
+fn repair(load: &[f64], reading: &mut [f64]) -> Vec<usize> {
+    let slope = 1.0 / rough_stiffness(load, reading);
+    let mut excess: Vec<f64> = reading
+        .iter()
+        .zip(load)
+        .map(|(r, l)| r - slope * l)
+        .collect();
+    let wild = outliers::isolated(&excess, WILD);
+    for i in &wild {
+        excess[*i] = outliers::neighbours(&excess, *i);
+        reading[*i] = excess[*i] + slope * load[*i];
+    }
+    wild
+}

@@ -1,0 +1,166 @@
+//! Noise first: project out a generous span of everything a load cycle could contain; what is left
+//! is noise, and its colour decides how far every later number can be trusted.
+
+use super::candidates::Candidates;
+use crate::fit::observation::Observation;
+use crate::signal::colour::Colour;
+use nalgebra::{DMatrix, DVector};
+
+/// What the screen found.
+pub struct Screen {
+    /// Noise of the readings.
+    pub colour: Colour,
+    /// Whitened sum of squares that the span could not explain.
+    pub saturated: f64,
+    /// Dimension of the span.
+    pub dimension: usize,
+    /// Readings that the span predicts (time domain is not needed: cosine coefficients, whitened).
+    pub fitted: Vec<f64>,
+}
+
+/// Curves of the dictionary that enter the span.
+const FROM_DICTIONARY: usize = 40;
+/// Powers of the load on each branch.
+const POWERS: usize = 7;
+/// Slow functions of time.
+const SLOW: usize = 6;
+
+/// Estimates the noise of an observation.
+pub fn screen(data: &Observation, candidates: &Candidates) -> Screen {
+    let span = span(data, candidates);
+    let n = data.rows();
+    let mut colour = Colour::white(n, 1.0);
+    let mut result = None;
+    for _pass in 0..3 {
+        let (basis, fitted, left) = project(&span, &candidates.reading, &colour);
+        let free: Vec<f64> = (0..n)
+            .map(|k| (1.0 - basis.row(k).norm_squared()).max(0.0))
+            .collect();
+        let coefficients: Vec<f64> = left.iter().zip(&colour.sigma).map(|(r, s)| r * s).collect();
+        colour = Colour::estimate(&coefficients, &free);
+        result = Some((basis.ncols(), fitted));
+    }
+    let (dimension, _) = result.unwrap_or_default();
+    let (_, fitted, left) = project(&span, &candidates.reading, &colour);
+    Screen {
+        colour,
+        saturated: left.norm_squared(),
+        dimension,
+        fitted: fitted.as_slice().to_vec(),
+    }
+}
+
+/// Orthonormal whitened basis of the span, the whitened reading inside it and outside it.
+fn project(
+    span: &DMatrix<f64>,
+    reading: &[f64],
+    colour: &Colour,
+) -> (DMatrix<f64>, DVector<f64>, DVector<f64>) {
+    let mut weighed = span.clone();
+    for (k, sigma) in colour.sigma.iter().enumerate() {
+        weighed.row_mut(k).scale_mut(1.0 / sigma);
+    }
+    for mut column in weighed.column_iter_mut() {
+        let norm = column.norm();
+        if norm > 0.0 {
+            column.scale_mut(1.0 / norm);
+        }
+    }
+    let basis = orthonormal(&weighed);
+    let y = DVector::from_iterator(
+        reading.len(),
+        reading.iter().zip(&colour.sigma).map(|(v, s)| v / s),
+    );
+    let inside = &basis * basis.tr_mul(&y);
+    let outside = &y - &inside;
+    (basis, inside, outside)
+}
+
+/// Orthonormal basis of the columns, directions below 1e-7 of the largest left out.
+fn orthonormal(columns: &DMatrix<f64>) -> DMatrix<f64> {
+    let eigen = columns.tr_mul(columns).symmetric_eigen();
+    let largest = eigen.eigenvalues.iter().fold(0.0_f64, |m, v| m.max(*v));
+    let kept: Vec<usize> = (0..eigen.eigenvalues.len())
+        .filter(|k| eigen.eigenvalues[*k] > 1e-7 * largest)
+        .collect();
+    let mut mix = eigen.eigenvectors.select_columns(&kept);
+    for (j, k) in kept.iter().enumerate() {
+        mix.column_mut(j)
+            .scale_mut(1.0 / eigen.eigenvalues[*k].sqrt());
+    }
+    columns * mix
+}
+
+fn span(data: &Observation, candidates: &Candidates) -> DMatrix<f64> {
+    let n = data.rows();
+    let mut columns: Vec<Vec<f64>> = branch_powers(data);
+    for pair in columns.chunks_mut(2) {
+        match pair {
+            [a, b] => data.cosine.transform_pair(a, b),
+            [a] => data.cosine.transform(a),
+            _ => {}
+        }
+    }
+    for k in 0..SLOW.min(n) {
+        let mut slow = vec![0.0; n];
+        slow[k] = 1.0;
+        columns.push(slow);
+    }
+    let stride = (candidates.atoms.len() as f64 / FROM_DICTIONARY as f64).max(1.0);
+    let mut at = 0.0;
+    while (at as usize) < candidates.atoms.len() {
+        columns.push(candidates.atoms[at as usize].column.clone());
+        at += stride;
+    }
+    DMatrix::from_fn(n, columns.len(), |i, j| columns[j][i])
+}
+
+/// Chebyshev polynomials of the load, over all rows, times the direction of loading, and times time.
+fn branch_powers(data: &Observation) -> Vec<Vec<f64>> {
+    let u: Vec<f64> = data
+        .scene
+        .load
+        .iter()
+        .map(|m| (m / data.scene.load_scale).clamp(-1.0, 1.0))
+        .collect();
+    let direction = directions(&u);
+    let span = data.scene.duration;
+    let start = data.scene.time[0];
+    let mut columns = Vec::new();
+    for power in 0..=POWERS {
+        let polynomial: Vec<f64> = u.iter().map(|x| (power as f64 * x.acos()).cos()).collect();
+        columns.push(
+            polynomial
+                .iter()
+                .zip(&direction)
+                .map(|(p, d)| p * d)
+                .collect(),
+        );
+        if power <= 3 {
+            let aged = polynomial
+                .iter()
+                .zip(&data.scene.time)
+                .map(|(p, t)| p * (t - start) / span);
+            columns.push(aged.collect());
+        }
+        columns.push(polynomial);
+    }
+    columns
+}
+
+/// +1 while the load rises, −1 while it falls, held at rest.
+pub fn directions(u: &[f64]) -> Vec<f64> {
+    let mut direction = 0.0;
+    let mut extreme = u.first().copied().unwrap_or(0.0);
+    u.iter()
+        .map(|x| {
+            if (x - extreme).abs() > 0.02 {
+                direction = (x - extreme).signum();
+                extreme = *x;
+            } else if (x - extreme) * direction > 0.0 {
+                extreme = *x;
+            }
+            direction
+        })
+        .collect()
+}

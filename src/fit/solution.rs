@@ -1,0 +1,224 @@
+//! A fitted model: parameters, covariance, noise, and what the data do not fix.
+
+use super::least_squares::{Optimum, Problem, Search, minimise};
+use super::observation::Observation;
+use super::parameter::{Identified, Status};
+use super::starts::starts;
+use crate::effects::{Composite, Scale};
+use crate::measurement::load_cycle::Port;
+use crate::signal::colour::Colour;
+use nalgebra::DMatrix;
+
+/// A fitted model.
+pub struct Solution {
+    /// The model.
+    pub model: Composite,
+    /// Parameters, SI.
+    pub p: Vec<f64>,
+    /// Their covariance, SI; infinite variance for what the data do not fix.
+    pub covariance: DMatrix<f64>,
+    /// What the data say of each.
+    pub status: Vec<Status>,
+    /// The noise they left.
+    pub colour: Colour,
+    /// Reading − model, every row.
+    pub residual: Vec<f64>,
+    /// Root mean square of the residual.
+    pub rms: f64,
+    /// Rows that counted.
+    pub rows: usize,
+}
+
+/// Relative standard error beyond which a parameter counts as not supported by the data.
+const UNSUPPORTED: f64 = 0.5;
+
+/// Fits a composite to an observation, noise colour included.
+pub fn fit(model: &Composite, data: &Observation) -> Solution {
+    fit_from(
+        model,
+        data,
+        &starts(model, data, 4),
+        &vec![false; data.rows()],
+    )
+}
+
+/// Fits from several starts, leaving out the ignored rows.
+pub fn fit_from(
+    model: &Composite,
+    data: &Observation,
+    starts: &[Vec<f64>],
+    ignored: &[bool],
+) -> Solution {
+    let mut colour = Colour::white(data.rows(), data.scene.deflection_scale * 1e-3);
+    let mut starts = starts.to_vec();
+    let mut optimum = None;
+    for _round in 0..3 {
+        let problem = Problem {
+            model,
+            data,
+            colour: &colour,
+            ignored,
+        };
+        let best = starts
+            .iter()
+            .map(|start| minimise(&problem, start, Search::default()))
+            .min_by(|a, b| a.chi2.total_cmp(&b.chi2));
+        let Some(best) = best else { break };
+        colour = noise_of(&problem, &best);
+        starts = vec![best.p.clone()];
+        optimum = Some(best);
+    }
+    let problem = Problem {
+        model,
+        data,
+        colour: &colour,
+        ignored,
+    };
+    let last = minimise(&problem, &starts[0], Search::default());
+    conclude(&problem, optimum.map_or(last.clone(), |_| last))
+}
+
+/// Noise from the residual of an optimum, with the freedom that the fit used up put back.
+pub fn noise_of(problem: &Problem, optimum: &Optimum) -> Colour {
+    let mut coefficients = problem.residual(&optimum.p);
+    for (c, s) in coefficients.iter_mut().zip(&problem.colour.sigma) {
+        *c *= s;
+    }
+    let left_out = problem.ignored.iter().filter(|i| **i).count() as f64;
+    let share = 1.0 - left_out / problem.ignored.len().max(1) as f64;
+    let freedom: Vec<f64> = leverage(&optimum.jacobian)
+        .iter()
+        .map(|h| (share - h).max(0.0))
+        .collect();
+    Colour::estimate(&coefficients, &freedom)
+}
+
+/// Diagonal of the projection onto the columns.
+fn leverage(jacobian: &DMatrix<f64>) -> Vec<f64> {
+    let q = jacobian.clone().qr().q();
+    (0..q.nrows())
+        .map(|i| q.row(i).norm_squared().min(1.0))
+        .collect()
+}
+
+fn conclude(problem: &Problem, optimum: Optimum) -> Solution {
+    let predicted = problem.model.predict(&optimum.p, &problem.data.scene);
+    let residual: Vec<f64> = problem
+        .data
+        .reading
+        .iter()
+        .zip(&predicted)
+        .map(|(y, f)| y - f)
+        .collect();
+    let counted: Vec<f64> = residual
+        .iter()
+        .zip(problem.ignored)
+        .filter(|(_, i)| !**i)
+        .map(|(r, _)| *r)
+        .collect();
+    let rms = (counted.iter().map(|r| r * r).sum::<f64>() / counted.len().max(1) as f64).sqrt();
+    let covariance = covariance(&optimum);
+    let status = judge(problem.model, &optimum, &covariance);
+    Solution {
+        model: problem.model.clone(),
+        status,
+        covariance,
+        colour: problem.colour.clone(),
+        rms,
+        rows: counted.len(),
+        residual,
+        p: optimum.p,
+    }
+}
+
+/// (JᵀJ)⁻¹ over the free parameters; directions the data do not see get infinite variance.
+fn covariance(optimum: &Optimum) -> DMatrix<f64> {
+    let n = optimum.p.len();
+    let free: Vec<usize> = (0..n).filter(|j| optimum.active[*j] == 0).collect();
+    let columns = optimum.jacobian.select_columns(&free);
+    let mut covariance = DMatrix::zeros(n, n);
+    let eigen = (columns.transpose() * &columns).symmetric_eigen();
+    let largest = eigen.eigenvalues.iter().fold(0.0_f64, |m, v| m.max(*v));
+    for (k, value) in eigen.eigenvalues.iter().enumerate() {
+        let vector = eigen.eigenvectors.column(k);
+        let variance = if *value > 1e-13 * largest {
+            1.0 / value
+        } else {
+            f64::INFINITY
+        };
+        for (a, i) in free.iter().enumerate() {
+            for (b, j) in free.iter().enumerate() {
+                let weight = vector[a] * vector[b];
+                if weight.abs() > 1e-9 || variance.is_finite() {
+                    covariance[(*i, *j)] +=
+                        weight * variance * optimum.scale[*i] * optimum.scale[*j];
+                }
+            }
+        }
+    }
+    covariance
+}
+
+fn judge(model: &Composite, optimum: &Optimum, covariance: &DMatrix<f64>) -> Vec<Status> {
+    let mut amplitude_lives = true;
+    let mut statuses = Vec::new();
+    for (j, slot) in model.slots().iter().enumerate() {
+        let std = covariance[(j, j)].sqrt();
+        let value = optimum.p[j];
+        if slot.amplitude {
+            amplitude_lives = optimum.active[j] == 0 && value.abs() > 2.0 * std;
+        }
+        let loose = match slot.amplitude {
+            true => {
+                !std.is_finite()
+                    || (slot.parameter.scale == Scale::Stiffness && std > UNSUPPORTED * value.abs())
+            }
+            false => !std.is_finite() || std > UNSUPPORTED * value.abs(),
+        };
+        statuses.push(match () {
+            () if optimum.active[j] != 0 && (slot.amplitude || amplitude_lives) => Status::AtBound,
+            () if loose || !amplitude_lives && !slot.amplitude => Status::NotIdentifiable,
+            () => Status::Identified,
+        });
+    }
+    statuses
+}
+
+impl Solution {
+    /// Standard error of parameter j, SI.
+    pub fn stderr(&self, j: usize) -> f64 {
+        self.covariance[(j, j)].sqrt()
+    }
+
+    /// The parameters as they are reported.
+    pub fn parameters(&self, site: &str, port: Port) -> Vec<Identified> {
+        let slots = self.model.slots();
+        let report = |(j, slot): (usize, &crate::effects::composite::Slot)| {
+            let unit = unit_of(slot.parameter.scale, port);
+            let value = Identified::new(
+                slot.parameter.name,
+                site,
+                self.p[j],
+                unit,
+                self.stderr(j),
+                slot.parameter.meaning,
+            );
+            match self.status[j] {
+                Status::Identified => value,
+                other => value.without_value(other),
+            }
+        };
+        slots.iter().enumerate().map(report).collect()
+    }
+}
+
+/// The unit of a scale at a port, as printed.
+pub fn unit_of(scale: Scale, port: Port) -> &'static str {
+    match scale {
+        Scale::Load => port.load_unit(),
+        Scale::Deflection => port.deflection_unit(),
+        Scale::Stiffness => port.stiffness_unit(),
+        Scale::Period | Scale::Duration => "s",
+        Scale::One => "1",
+    }
+}

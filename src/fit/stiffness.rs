@@ -1,0 +1,295 @@
+//! From one load-cycle file to its stiffness account.
+
+use super::bootstrap;
+use super::observation::{MOST_ROWS, Observation};
+use super::parameter::{Identified, Status, Z95};
+use super::solution::{Solution, fit};
+use crate::effects::Composite;
+use crate::experiments::load_cycle::{Settled, enclosed, settle, settled_cycle, straight_line};
+use crate::fit::candidates::Candidates;
+use crate::fit::screen::screen;
+use crate::fit::second::log_ratio;
+use crate::measurement::load_cycle::LoadCycle;
+
+/// What is identified when nothing else is asked for.
+pub const DEFAULT_EFFECTS: &[&str] = &["backlash", "hysteresis"];
+
+/// How to identify.
+pub struct Request {
+    /// The model.
+    pub model: Composite,
+    /// Number of bootstrap draws; 0: intervals by linearisation.
+    pub bootstrap: usize,
+    /// Seed of the bootstrap.
+    pub seed: u64,
+}
+
+/// The identified joint.
+pub struct Account {
+    /// Reduced data.
+    pub data: Observation,
+    /// The fit.
+    pub solution: Solution,
+    /// All parameters: fitted first, then what follows from them.
+    pub parameters: Vec<Identified>,
+    /// One settled cycle of the model at full load.
+    pub settled: Settled,
+    /// Loading and unloading branch of that cycle: load, deflection.
+    pub branches: (Vec<f64>, Vec<f64>),
+    /// Noise of the readings, independent of the model, in the deflection's unit.
+    pub noise_rms: f64,
+    /// Noise in words.
+    pub noise: String,
+    /// Straight-line stiffness.
+    pub straight: f64,
+    /// Logarithm of the second sensor's deflection over the first's; its standard error.
+    pub second: Option<(f64, f64)>,
+    /// What needs attention, one sentence each.
+    pub warnings: Vec<String>,
+}
+
+/// Share of the deflection that a straight line may miss before it counts as no description.
+const NOT_STRAIGHT: f64 = 0.08;
+
+/// Identifies one file.
+pub fn identify(file: &LoadCycle, request: &Request) -> Account {
+    let data = Observation::of(file, MOST_ROWS);
+    let mut solution = fit(&request.model, &data);
+    let candidates = Candidates::new(crate::effects::EFFECTS, &data);
+    let noise = screen(&data, &candidates).colour;
+    let (low, high) = range(&data.scene.load);
+    let branches = settled_cycle(&solution.model, &solution.p, &data.scene, low, high);
+    let settled = settle(&branches.0, &branches.1);
+    let site = file.site();
+    let mut parameters = solution.parameters(&site, file.port);
+    if request.bootstrap > 0 {
+        let intervals = bootstrap::intervals(&solution, &data, request.bootstrap, request.seed);
+        widen(&mut parameters, &intervals, &mut solution);
+    }
+    rename(&mut parameters);
+    parameters.extend(derived(&solution, &data, file, (low, high)));
+    let straight = straight_line(&file.load, &file.deflection);
+    let second = log_ratio(file);
+    let mut account = Account {
+        noise_rms: noise.rms,
+        noise: noise.describe(),
+        data,
+        solution,
+        parameters,
+        settled,
+        branches,
+        straight,
+        second,
+        warnings: Vec::new(),
+    };
+    account.warnings = warnings(&account, file);
+    account
+}
+
+fn range(load: &[f64]) -> (f64, f64) {
+    load.iter()
+        .fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)))
+}
+
+fn widen(parameters: &mut [Identified], intervals: &[[f64; 2]], solution: &mut Solution) {
+    for (j, (parameter, interval)) in parameters.iter_mut().zip(intervals).enumerate() {
+        if parameter.status == Status::Identified {
+            let stderr = (interval[1] - interval[0]) / (2.0 * Z95);
+            parameter.ci95 = Some(*interval);
+            parameter.stderr = Some(stderr);
+            solution.covariance[(j, j)] = stderr * stderr;
+        }
+    }
+}
+
+/// The field's name for the gap of a joint is its backlash.
+fn rename(parameters: &mut [Identified]) {
+    for parameter in parameters.iter_mut().filter(|p| p.name == "gap") {
+        parameter.name = "backlash".into();
+    }
+}
+
+/// A quantity that follows from a settled cycle.
+struct Derived {
+    name: &'static str,
+    unit: fn(&LoadCycle) -> &'static str,
+    meaning: &'static str,
+    read: fn(&Settled) -> f64,
+}
+
+const DERIVED: &[Derived] = &[
+    Derived {
+        name: "hysteresis_loss",
+        unit: |_| "J",
+        meaning: "work lost in one settled cycle at full load",
+        read: |s| s.loss,
+    },
+    Derived {
+        name: "loss_factor",
+        unit: |_| "1",
+        meaning: "loss per cycle over 2π times the energy stored at full load",
+        read: |s| s.loss_factor,
+    },
+    Derived {
+        name: "secant_stiffness",
+        unit: |f| f.port.stiffness_unit(),
+        meaning: "load range over deflection range of a settled cycle at full load, lost motion included",
+        read: |s| s.secant,
+    },
+    Derived {
+        name: "tangent_stiffness",
+        unit: |f| f.port.stiffness_unit(),
+        meaning: "slope at the end of loading, at full load",
+        read: |s| s.tangent,
+    },
+    Derived {
+        name: "reversal_stiffness",
+        unit: |f| f.port.stiffness_unit(),
+        meaning: "slope right after the load turns",
+        read: |s| s.reversal,
+    },
+];
+
+fn derived(
+    solution: &Solution,
+    data: &Observation,
+    file: &LoadCycle,
+    range: (f64, f64),
+) -> Vec<Identified> {
+    let at = |p: &[f64]| {
+        let (load, deflection) = settled_cycle(&solution.model, p, &data.scene, range.0, range.1);
+        settle(&load, &deflection)
+    };
+    let here = at(&solution.p);
+    let spring_known = solution.status[0] == Status::Identified;
+    let moved = shifted(solution, &at);
+    let site = file.site();
+    DERIVED
+        .iter()
+        .map(|d| {
+            let value = (d.read)(&here);
+            let slopes: Vec<f64> = moved
+                .iter()
+                .map(|m| {
+                    m.as_ref()
+                        .map_or(0.0, |(u, l, h)| ((d.read)(u) - (d.read)(l)) / h)
+                })
+                .collect();
+            let stderr = propagated(solution, &slopes);
+            let parameter =
+                Identified::new(d.name, &site, value, (d.unit)(file), stderr, d.meaning);
+            let known = spring_known && stderr.is_finite() && value.is_finite();
+            if known {
+                parameter
+            } else {
+                parameter.without_value(Status::NotIdentifiable)
+            }
+        })
+        .collect()
+}
+
+/// The settled cycle with each identified parameter moved a little up and down.
+fn shifted(
+    solution: &Solution,
+    at: &dyn Fn(&[f64]) -> Settled,
+) -> Vec<Option<(Settled, Settled, f64)>> {
+    (0..solution.p.len())
+        .map(|j| {
+            let std = solution.stderr(j);
+            let step = (0.1 * std)
+                .min(1e-3 * solution.p[j].abs())
+                .max(1e-9 * solution.p[j].abs());
+            if !std.is_finite() || std == 0.0 || step == 0.0 {
+                return None;
+            }
+            let (mut up, mut down) = (solution.p.clone(), solution.p.clone());
+            up[j] += step;
+            down[j] -= step;
+            Some((at(&up), at(&down), 2.0 * step))
+        })
+        .collect()
+}
+
+fn propagated(solution: &Solution, slopes: &[f64]) -> f64 {
+    let mut variance = 0.0;
+    for (i, a) in slopes.iter().enumerate() {
+        for (j, b) in slopes.iter().enumerate() {
+            if *a != 0.0 && *b != 0.0 {
+                variance += a * solution.covariance[(i, j)] * b;
+            }
+        }
+    }
+    variance.max(0.0).sqrt()
+}
+
+fn warnings(account: &Account, file: &LoadCycle) -> Vec<String> {
+    let mut said = Vec::new();
+    let scale = account.data.scene.deflection_scale;
+    let line: f64 = {
+        let k = account.straight;
+        let (ml, md) = (mean(&file.load), mean(&file.deflection));
+        let square = |(l, d): (&f64, &f64)| (d - md - (l - ml) / k).powi(2);
+        (file
+            .load
+            .iter()
+            .zip(&file.deflection)
+            .map(square)
+            .sum::<f64>()
+            / file.load.len() as f64)
+            .sqrt()
+    };
+    if line > NOT_STRAIGHT * scale && line > 3.0 * account.noise_rms {
+        said.push(format!(
+            "one linear stiffness does not describe this curve: a straight line misses it by {:.0} % of its deflection",
+            100.0 * line / scale
+        ));
+    }
+    if account.solution.rms > 1.5 * account.noise_rms {
+        said.push(format!(
+            "the model misses the readings by {:.1} times their noise: `ident diagnose {}` names the cause",
+            account.solution.rms / account.noise_rms,
+            file.path.display()
+        ));
+    }
+    if let Some((excess, stderr)) = account.second {
+        let stated = file.facts.lever_rel_std.unwrap_or(0.003) * std::f64::consts::SQRT_2;
+        if excess.abs() > 3.0 * (stated * stated + stderr * stderr).sqrt() {
+            said.push(format!(
+                "the two sensors disagree by {:+.1} %: a lever or an inclined laser is wrong (`ident diagnose`)",
+                100.0 * excess
+            ));
+        }
+    }
+    if !account.data.wild.is_empty() {
+        said.push(format!(
+            "{} lone wild readings were replaced by their neighbours",
+            account.data.wild.len()
+        ));
+    }
+    if file.left_out > 0 {
+        said.push(format!(
+            "{} of {} rows left out for an empty cell",
+            file.left_out, file.rows
+        ));
+    }
+    if account.solution.status[0] != Status::Identified {
+        said.push("these data do not support a stiffness".into());
+    }
+    said
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
+}
+
+/// Measured loss of each cycle by numerical integration, J.
+pub fn measured_losses(account: &Account) -> Vec<f64> {
+    let data = &account.data;
+    let starts = &data.cycles.starts;
+    let ends = starts.iter().skip(1).copied().chain([data.rows()]);
+    starts
+        .iter()
+        .zip(ends)
+        .map(|(a, b)| enclosed(&data.scene.load[*a..b], &data.reading[*a..b]))
+        .collect()
+}

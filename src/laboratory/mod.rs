@@ -1,0 +1,8 @@
+//! Floor 7: the virtual laboratory. Campaigns with known truth, hidden effects, blind sets.
+
+pub mod blind;
+pub mod hide;
+pub mod noise;
+pub mod recording;
+pub mod schedule;
+pub mod truth;

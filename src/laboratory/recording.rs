@@ -1,0 +1,35 @@
+//! A simulated load-cycle file as text: front matter, header, rows.
+
+use std::fmt::Write;
+
+/// What a simulated sensor wrote.
+pub struct Recording {
+    /// Front matter, TOML lines without the `#`.
+    pub facts: Vec<String>,
+    /// Column names with units.
+    pub columns: Vec<&'static str>,
+    /// Decimals of each column.
+    pub decimals: Vec<usize>,
+    /// Values in the columns' units, one vector per column.
+    pub values: Vec<Vec<f64>>,
+}
+
+impl Recording {
+    /// The file's text.
+    pub fn text(&self) -> String {
+        let mut text = String::new();
+        for fact in &self.facts {
+            let _ = writeln!(text, "# {fact}");
+        }
+        let _ = writeln!(text, "{}", self.columns.join(","));
+        let rows = self.values.first().map_or(0, Vec::len);
+        for row in 0..rows {
+            for (column, values) in self.values.iter().enumerate() {
+                let comma = if column == 0 { "" } else { "," };
+                let _ = write!(text, "{comma}{:.*}", self.decimals[column], values[row]);
+            }
+            text.push('\n');
+        }
+        text
+    }
+}

@@ -1,0 +1,140 @@
+//! Front matter: the leading `#` lines of a measurement file, one TOML document.
+
+use crate::ground::problem::{Outcome, Problem};
+use toml::{Table, Value};
+
+/// The facts a file carries about itself.
+#[derive(Debug, Clone, Default)]
+pub struct Front {
+    /// The parsed TOML document.
+    pub facts: Table,
+    text: String,
+}
+
+impl Front {
+    /// Parses the text behind the `#` signs; line n of `text` is line n of the file.
+    pub fn parse(text: String) -> Outcome<Self> {
+        match text.parse::<Table>() {
+            Ok(facts) => Ok(Self { facts, text }),
+            Err(error) => Err(Self::broken(&text, &error)),
+        }
+    }
+
+    fn broken(text: &str, error: &toml::de::Error) -> Problem {
+        let start = error.span().map_or(0, |span| span.start.min(text.len()));
+        let line = text.as_bytes()[..start]
+            .iter()
+            .filter(|b| **b == b'\n')
+            .count()
+            + 1;
+        Problem::new(
+            format!("front matter is not TOML: {}", error.message().trim()),
+            "write each fact as `# key = value`, text in double quotes",
+        )
+        .at_line(line)
+    }
+
+    /// 1-based line of the file on which `key` is set.
+    pub fn line_of(&self, key: &str) -> Option<usize> {
+        let starts = |line: &str| {
+            let rest = line.trim_start().strip_prefix(key)?;
+            rest.trim_start().starts_with('=').then_some(())
+        };
+        self.text
+            .lines()
+            .position(|l| starts(l).is_some())
+            .map(|i| i + 1)
+    }
+
+    /// A problem with `key`, placed on its line.
+    pub fn problem(
+        &self,
+        key: &str,
+        what: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Problem {
+        let problem = Problem::new(what, remedy).in_column(key);
+        match self.line_of(key) {
+            Some(line) => problem.at_line(line),
+            None => problem,
+        }
+    }
+
+    /// A finite number, if given.
+    pub fn number(&self, key: &str) -> Outcome<Option<f64>> {
+        let value = match self.facts.get(key) {
+            None => return Ok(None),
+            Some(Value::Float(x)) => *x,
+            Some(Value::Integer(i)) => *i as f64,
+            Some(other) => {
+                let what = format!("is {} instead of a number", other.type_str());
+                return Err(self.problem(key, what, format!("write `# {key} = 1.5`")));
+            }
+        };
+        if value.is_finite() {
+            return Ok(Some(value));
+        }
+        Err(self.problem(
+            key,
+            "is not finite",
+            "give a finite number or leave the fact out",
+        ))
+    }
+
+    /// A number above zero, if given.
+    pub fn positive(&self, key: &str) -> Outcome<Option<f64>> {
+        match self.number(key)? {
+            Some(x) if x <= 0.0 => Err(self.problem(
+                key,
+                format!("is {x}, which is not above zero"),
+                "give the positive value, or leave the fact out if it does not apply",
+            )),
+            other => Ok(other),
+        }
+    }
+
+    /// A number at or above zero, if given.
+    pub fn not_negative(&self, key: &str) -> Outcome<Option<f64>> {
+        match self.number(key)? {
+            Some(x) if x < 0.0 => {
+                Err(self.problem(key, format!("is {x}, below zero"), "give zero or more"))
+            }
+            other => Ok(other),
+        }
+    }
+
+    /// A text, if given.
+    pub fn text(&self, key: &str) -> Outcome<Option<&str>> {
+        match self.facts.get(key) {
+            None => Ok(None),
+            Some(Value::String(text)) => Ok(Some(text)),
+            Some(other) => Err(self.problem(
+                key,
+                format!("is {} instead of a text", other.type_str()),
+                format!("write `# {key} = \"...\"`"),
+            )),
+        }
+    }
+
+    /// True when the file says of itself that nobody measured it.
+    pub fn synthetic(&self) -> bool {
+        matches!(self.facts.get("synthetic"), Some(Value::Boolean(true)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn broken_toml_names_its_line() {
+        let problem = Front::parse("kind = \"load-cycle\"\njoint = = 6\n".into()).unwrap_err();
+        assert_eq!(problem.line, Some(2));
+    }
+
+    #[test]
+    fn facts_know_their_line() {
+        let front = Front::parse("kind = \"x\"\n\nload_lever_m = -1\n".into()).unwrap();
+        assert_eq!(front.positive("load_lever_m").unwrap_err().line, Some(3));
+    }
+}

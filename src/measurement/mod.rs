@@ -1,0 +1,8 @@
+//! Floor 1: what a laboratory wrote down. Reads tables with front matter into SI columns, then the
+//! experiment kinds of `measurements/README.md`, refusing with file, line and remedy.
+
+pub mod cycles;
+pub mod front;
+pub mod load_cycle;
+pub mod table;
+pub mod workspace;

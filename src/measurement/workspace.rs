@@ -1,0 +1,101 @@
+//! A workspace on disk: `measurements/<campaign>/`, `fits/<campaign>/`, `reports/<campaign>/`.
+
+use crate::ground::problem::{Outcome, Problem};
+use std::path::{Path, PathBuf};
+
+/// Where a measurement belongs, and where its results go.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// Folder that holds `measurements/`, `fits/`, `reports/`.
+    pub root: PathBuf,
+    /// Name of the campaign; empty for a file outside `measurements/`.
+    pub campaign: String,
+}
+
+impl Place {
+    /// The place of a measurement file: its campaign if it lies under `measurements/`, else the
+    /// folder `ident` runs in.
+    pub fn of(file: &Path) -> Self {
+        Self::in_campaign(file).unwrap_or(Self {
+            root: PathBuf::new(),
+            campaign: String::new(),
+        })
+    }
+
+    fn in_campaign(file: &Path) -> Option<Self> {
+        let folder = file.parent()?;
+        let measurements = folder.parent()?;
+        (measurements.file_name()? == "measurements").then_some(())?;
+        Some(Self {
+            root: measurements.parent()?.to_path_buf(),
+            campaign: folder.file_name()?.to_string_lossy().to_string(),
+        })
+    }
+
+    /// Folder of the fits.
+    pub fn fits(&self) -> PathBuf {
+        self.root.join("fits").join(&self.campaign)
+    }
+
+    /// Folder of the reports.
+    pub fn reports(&self) -> PathBuf {
+        self.root.join("reports").join(&self.campaign)
+    }
+}
+
+/// The file meant by `name`: the path itself, or, when it is not there, the only file of that name
+/// under `measurements/`. The second value tells what was found for a name that is not a path.
+pub fn resolve(name: &Path) -> Outcome<(PathBuf, Option<String>)> {
+    if name.exists() || name.components().count() > 1 {
+        return Ok((name.to_path_buf(), None));
+    }
+    let mut found = files_named(name);
+    found.sort();
+    match found.len() {
+        0 => Ok((name.to_path_buf(), None)),
+        1 => {
+            let said = format!(
+                "{} is not here; taking {}",
+                name.display(),
+                found[0].display()
+            );
+            Ok((found.remove(0), Some(said)))
+        }
+        _ => Err(Problem::new(
+            format!("the name stands for {} files", found.len()),
+            format!("give the path of one: {}", list(&found)),
+        )
+        .in_file(name)),
+    }
+}
+
+fn files_named(name: &Path) -> Vec<PathBuf> {
+    let campaigns = std::fs::read_dir("measurements")
+        .into_iter()
+        .flatten()
+        .flatten();
+    campaigns
+        .map(|c| c.path().join(name))
+        .filter(|p| p.is_file())
+        .collect()
+}
+
+fn list(paths: &[PathBuf]) -> String {
+    paths
+        .iter()
+        .map(|p| p.display().to_string())
+        .collect::<Vec<_>>()
+        .join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_campaign_file_knows_its_places() {
+        let place = Place::of(Path::new("w/measurements/kr210/axis6.csv"));
+        assert_eq!(place.fits(), Path::new("w/fits/kr210"));
+        assert_eq!(Place::of(Path::new("axis6.csv")).fits(), Path::new("fits/"));
+    }
+}

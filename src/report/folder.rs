@@ -1,0 +1,43 @@
+//! A page on disk: `index.html` and beside it every figure as its own file.
+
+use super::{html, svg};
+use crate::ground::files;
+use crate::ground::problem::Outcome;
+use crate::sheet::page::Page;
+use std::path::{Path, PathBuf};
+
+/// Writes a page into a folder, each file in one step, `index.html` last: what it links to is there.
+/// Everything is inked before anything is written. Returns the files in the order of writing.
+pub fn write(folder: &Path, page: &Page) -> Outcome<Vec<PathBuf>> {
+    let index = ("index.html".to_string(), html::ink(page)?);
+    let figure = |(stem, chart): (String, &_)| Ok((format!("{stem}.svg"), svg::ink(chart)?));
+    let figures = page.figures().into_iter().map(figure);
+    let mut contents = figures.collect::<Outcome<Vec<(String, String)>>>()?;
+    contents.push(index);
+    let mut written = Vec::new();
+    for (name, content) in contents {
+        let path = folder.join(name);
+        files::replace(&path, content.as_bytes())?;
+        written.push(path);
+    }
+    Ok(written)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sheet::chart::Chart;
+    use crate::sheet::page::Block;
+
+    #[test]
+    fn figures_stand_beside_the_index() {
+        let folder = tempfile::tempdir().unwrap();
+        let chart = || Block::Chart(Chart::new("loop", "Loop", "See."));
+        let page = Page::new("t", "s").with(chart()).with(chart());
+        let written = write(&folder.path().join("r"), &page).unwrap();
+        let names: Vec<_> = written.iter().filter_map(|path| path.file_name()).collect();
+        assert_eq!(names, ["loop.svg", "loop-2.svg", "index.html"]);
+        let index = std::fs::read_to_string(&written[2]).unwrap();
+        assert!(index.contains("href=\"loop-2.svg\""));
+    }
+}

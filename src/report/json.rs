@@ -1,0 +1,24 @@
+//! The JSON of `formats.md`: one document, common head, numbers or null.
+
+use serde_json::{Map, Value, json};
+use std::path::Path;
+
+/// The common head of every result.
+pub fn head(verb: &str, inputs: &[(&Path, &str)]) -> Map<String, Value> {
+    let mut map = Map::new();
+    map.insert("schema".into(), json!("ident/1"));
+    map.insert("verb".into(), json!(verb));
+    let list: Vec<Value> = inputs
+        .iter()
+        .map(|(path, hash)| json!({"path": path.display().to_string(), "sha256": hash}))
+        .collect();
+    map.insert("inputs".into(), Value::Array(list));
+    map
+}
+
+/// A document as it is printed: indented, with a newline at the end.
+pub fn print(map: Map<String, Value>) -> String {
+    let mut text = serde_json::to_string_pretty(&Value::Object(map)).unwrap_or_default();
+    text.push('\n');
+    text
+}

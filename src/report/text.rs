@@ -1,0 +1,191 @@
+//! Sheets as text for a terminal of 100 columns.
+
+use super::wrap::wrap_columns;
+use crate::sheet::chart::Chart;
+use crate::sheet::page::{Block, Page};
+use crate::sheet::table::Table;
+
+/// Columns of a terminal line.
+const COLUMNS: usize = 100;
+/// Between two columns of a table.
+const GAP: usize = 2;
+/// No column is made narrower than this to fit a line.
+const NARROWEST: usize = 12;
+
+/// A table with aligned columns; cells that are too long for a line are broken.
+///
+/// ```
+/// use ident::report::text;
+/// use ident::sheet::table::Table;
+/// let table = Table::new("Stiffness", ["joint", "N·m/rad"]).numeric([1]).with(["A1", "5.6e6"]);
+/// assert_eq!(text::table(&table), "Stiffness\n\njoint  N·m/rad\n-----  -------\nA1       5.6e6\n");
+/// ```
+pub fn table(table: &Table) -> String {
+    let widths = widths(table);
+    let mut out = String::new();
+    if !table.title.is_empty() {
+        paragraph(&table.title, &mut out);
+        out.push('\n');
+    }
+    if !table.header.is_empty() {
+        row(&table.header, &widths, table, &mut out);
+        let rules: Vec<String> = widths.iter().map(|w| "-".repeat(*w)).collect();
+        row(&rules, &widths, table, &mut out);
+    }
+    for cells in &table.rows {
+        row(cells, &widths, table, &mut out);
+    }
+    for note in &table.notes {
+        paragraph(note, &mut out);
+    }
+    out
+}
+
+/// A whole page. Figures are named, not drawn; what is folded away in HTML is shown.
+pub fn page(page: &Page) -> String {
+    let mut out = String::new();
+    underlined(&page.title, '=', &mut out);
+    paragraph(&page.subtitle, &mut out);
+    if page.synthetic {
+        out.push_str("Synthetic data: nobody measured this.\n");
+    }
+    let figures: Vec<String> = page.figures().into_iter().map(|(stem, _)| stem).collect();
+    blocks(&page.blocks, &mut figures.iter(), &mut out);
+    out
+}
+
+fn blocks(blocks: &[Block], figures: &mut std::slice::Iter<String>, out: &mut String) {
+    for block in blocks {
+        out.push('\n');
+        match block {
+            Block::Heading(text) => underlined(text, '-', out),
+            Block::Verdict { tone, sentence } => {
+                paragraph(&format!("{}: {sentence}", tone.word()), out);
+            }
+            Block::Text(text) => paragraph(text, out),
+            Block::Table(inner) => out.push_str(&table(inner)),
+            Block::Chart(chart) => figure(chart, figures.next(), out),
+            Block::Details {
+                summary,
+                blocks: inner,
+            } => {
+                paragraph(summary, out);
+                self::blocks(inner, figures, out);
+            }
+        }
+    }
+}
+
+fn figure(chart: &Chart, stem: Option<&String>, out: &mut String) {
+    let file = stem.map_or(chart.name.as_str(), String::as_str);
+    let label = if chart.synthetic {
+        " (synthetic data)"
+    } else {
+        ""
+    };
+    paragraph(&format!("Figure {file}.svg: {}{label}", chart.title), out);
+    paragraph(&chart.caption, out);
+}
+
+fn underlined(text: &str, rule: char, out: &mut String) {
+    paragraph(text, out);
+    let longest = wrap_columns(text, COLUMNS)
+        .iter()
+        .map(|line| length(line))
+        .max();
+    out.extend(std::iter::repeat_n(rule, longest.unwrap_or(0).min(COLUMNS)));
+    out.push('\n');
+}
+
+fn paragraph(text: &str, out: &mut String) {
+    for line in wrap_columns(text, COLUMNS) {
+        out.push_str(&line);
+        out.push('\n');
+    }
+}
+
+fn length(text: &str) -> usize {
+    text.chars().count()
+}
+
+/// Width of each column: its longest cell, the widest columns narrowed until a row fits a line.
+fn widths(table: &Table) -> Vec<usize> {
+    let rows = || table.rows.iter().chain([&table.header]);
+    let longest = |k: usize| {
+        rows()
+            .filter_map(|row| row.get(k))
+            .map(|cell| length(cell))
+            .max()
+    };
+    let mut widths: Vec<usize> = (0..table.columns())
+        .map(|k| longest(k).unwrap_or(0))
+        .collect();
+    let room = COLUMNS.saturating_sub(GAP * widths.len().saturating_sub(1));
+    while widths.iter().sum::<usize>() > room {
+        match widths.iter_mut().max() {
+            Some(widest) if *widest > NARROWEST => *widest -= 1,
+            _ => break,
+        }
+    }
+    widths
+}
+
+fn row(cells: &[String], widths: &[usize], table: &Table, out: &mut String) {
+    let cell = |k: usize| wrap_columns(cells.get(k).map_or("", String::as_str), widths[k]);
+    let columns: Vec<Vec<String>> = (0..widths.len()).map(cell).collect();
+    let lines = columns.iter().map(Vec::len).max().unwrap_or(0);
+    for i in 0..lines {
+        let part = |k: usize| columns[k].get(i).map_or("", String::as_str);
+        let parts = (0..widths.len()).map(|k| padded(part(k), widths[k], table.is_right(k)));
+        let line = parts.collect::<Vec<_>>().join(&" ".repeat(GAP));
+        out.push_str(line.trim_end());
+        out.push('\n');
+    }
+}
+
+fn padded(text: &str, width: usize, right: bool) -> String {
+    if right {
+        format!("{text:>width$}")
+    } else {
+        format!("{text:<width$}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sheet::page::Tone;
+
+    #[test]
+    fn long_cells_are_broken_within_the_line() {
+        let long = "a rather long sentence about what was found ".repeat(5);
+        let made = Table::new("", ["cause", "why"]).with(["backlash", long.as_str()]);
+        let text = table(&made);
+        assert!(text.lines().all(|line| length(line) <= COLUMNS), "{text}");
+        assert!(text.lines().nth(3).unwrap().starts_with("          "));
+    }
+
+    #[test]
+    fn ragged_and_empty_tables_do_no_harm() {
+        assert_eq!(table(&Table::default()), "");
+        let ragged = Table::new("", ["a"])
+            .with(["1", "2"])
+            .with([""; 0])
+            .noted("n");
+        assert_eq!(table(&ragged), "a\n-  -\n1  2\nn\n");
+    }
+
+    #[test]
+    fn a_page_reads_from_top_to_bottom() {
+        let made = Page::new("Axis 6", "from axis6.csv")
+            .with(Block::heading("What is wrong"))
+            .with(Block::verdict(Tone::Attention, "The gear has play."))
+            .with(Block::details(
+                "More",
+                vec![Block::Chart(Chart::new("loop", "Loop", "See."))],
+            ));
+        let expected = "Axis 6\n======\nfrom axis6.csv\n\nWhat is wrong\n-------------\n\n\
+                        Attention: The gear has play.\n\nMore\n\nFigure loop.svg: Loop\nSee.\n";
+        assert_eq!(page(&made), expected);
+    }
+}

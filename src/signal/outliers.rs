@@ -1,0 +1,72 @@
+//! Single wild readings: found against their neighbours, replaced and counted.
+
+/// Robust standard deviation: 1.4826 · median |x − median|.
+pub fn robust_std(values: &[f64]) -> f64 {
+    if values.is_empty() {
+        return 0.0;
+    }
+    let middle = median(values);
+    let distances: Vec<f64> = values.iter().map(|v| (v - middle).abs()).collect();
+    1.4826 * median(&distances)
+}
+
+/// Median; 0 for no values.
+pub fn median(values: &[f64]) -> f64 {
+    if values.is_empty() {
+        return 0.0;
+    }
+    let mut sorted = values.to_vec();
+    let middle = sorted.len() / 2;
+    *sorted.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// Rows that stand alone: outside the range of their four neighbours by more than `limit` robust
+/// standard deviations of the jumps between neighbours. A step or a knee stays inside that range.
+pub fn isolated(values: &[f64], limit: f64) -> Vec<usize> {
+    let n = values.len();
+    if n < 8 {
+        return Vec::new();
+    }
+    let jumps: Vec<f64> = values.windows(2).map(|w| w[1] - w[0]).collect();
+    let spread = robust_std(&jumps);
+    if spread <= 0.0 {
+        return Vec::new();
+    }
+    (2..n - 2)
+        .filter(|i| beyond(values, *i) > limit * spread)
+        .collect()
+}
+
+/// How far a value lies outside the range of its four neighbours.
+fn beyond(values: &[f64], i: usize) -> f64 {
+    let near = [values[i - 2], values[i - 1], values[i + 1], values[i + 2]];
+    let (low, high) = near
+        .iter()
+        .fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
+    (values[i] - high).max(low - values[i]) - (high - low)
+}
+
+/// Median of the four nearest neighbours.
+pub fn neighbours(values: &[f64], i: usize) -> f64 {
+    let n = values.len();
+    let mut near: Vec<f64> = [i.wrapping_sub(2), i.wrapping_sub(1), i + 1, i + 2]
+        .into_iter()
+        .filter(|j| *j < n)
+        .map(|j| values[j])
+        .collect();
+    near.sort_by(f64::total_cmp);
+    0.5 * (near[(near.len() - 1) / 2] + near[near.len() / 2])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spike_is_isolated_a_step_is_not() {
+        let mut values: Vec<f64> = (0..200).map(|i| f64::from(i * 7919 % 13) * 0.01).collect();
+        values[50] += 3.0;
+        values[120..].iter_mut().for_each(|v| *v += 3.0);
+        assert_eq!(isolated(&values, 6.0), vec![50]);
+    }
+}
