@@ -84,7 +84,10 @@ fn frf(c: &mut Criterion) {
         .iter()
         .map(|f| C64::new(0.0, TAU * f))
         .collect();
-    for (label, robot) in [("proportional damping", robot()), ("any damping", coupled)] {
+    for (label, robot) in [
+        ("damping as built in", robot()),
+        ("strongly coupled damping", coupled),
+    ] {
         let chain = motion::elastic(&robot);
         let (mut work, mut space) = (Work::new(&chain), FrfWork::default());
         let q = chain.spread(&POSE);

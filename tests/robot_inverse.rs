@@ -120,8 +120,11 @@ fn a_wrist_that_is_not_spherical_is_solved_numerically() {
     }
 }
 
-/// Parameters a1, a2, b, c1 .. c4 (m), offsets (rad) and signs of the oracle's robots.
-const OPW: [(&str, [f64; 7], [f64; 6], [f64; 6]); 2] = [
+/// Name, a1, a2, b, c1 .. c4 (m), offsets (rad) and signs.
+type Opw = (&'static str, [f64; 7], [f64; 6], [f64; 6]);
+
+/// The oracle's robots.
+const OPW: [Opw; 2] = [
     (
         "Irb2400_10",
         [0.1, -0.135, 0.0, 0.615, 0.705, 0.755, 0.085],
