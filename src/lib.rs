@@ -9,6 +9,8 @@ pub mod fit;
 pub mod ground;
 pub mod laboratory;
 pub mod measurement;
+pub mod motion;
 pub mod report;
+pub mod robot;
 pub mod sheet;
 pub mod signal;

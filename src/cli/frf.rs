@@ -24,7 +24,7 @@ pub const VERB: Verb = Verb {
     name: "frf",
     about: "Frequency response functions from hammer tests: hits judged, H1, H2, Hv, coherence",
     arguments: arguments::<FrfArgs>,
-    run: run,
+    run,
 };
 
 /// Arguments of `ident frf`.

@@ -8,6 +8,8 @@ pub mod json;
 mod lab;
 mod output;
 mod progress;
+mod robot;
+mod simulate;
 mod stiffness;
 
 use crate::ground::problem::{Outcome, Problem};
@@ -41,6 +43,8 @@ pub const VERBS: &[Verb] = &[
     stiffness::VERB,
     diagnose::VERB,
     frf::VERB,
+    robot::VERB,
+    simulate::VERB,
     effects::VERB,
     lab::VERB,
 ];

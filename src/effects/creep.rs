@@ -35,14 +35,16 @@ impl Law for Creep {
     fn respond<S: Scalar>(p: &[S], scene: &Scene, _elastic: &[S], out: &mut [S]) {
         let (delayed, constant) = (p[0], p[1]);
         let mut x = S::constant(0.0);
-        for i in 0..out.len() {
-            if i > 0 {
-                let dt = scene.time[i] - scene.time[i - 1];
-                let mean = 0.5 * (scene.load[i] + scene.load[i - 1]) / scene.load_scale;
-                let keep = (S::constant(-dt) / constant).exp();
+        let mut before = None;
+        for (y, (time, load)) in out.iter_mut().zip(scene.time.iter().zip(&scene.load)) {
+            if let Some((last_time, last_load)) = before {
+                let mean = 0.5 * (load + last_load) / scene.load_scale;
+                let step: f64 = time - last_time;
+                let keep = (S::constant(-step) / constant).exp();
                 x = x * keep + (-keep + 1.0) * mean;
             }
-            out[i] += delayed * x;
+            before = Some((time, load));
+            *y += delayed * x;
         }
     }
 }

@@ -1,8 +1,11 @@
 //! Floor 0: what knows no robots and no measurements. Units, problems with a remedy, scalars that
-//! carry derivatives, seeded random numbers.
+//! carry derivatives, 6-D spatial algebra, seeded random numbers.
 
+pub mod cholesky;
 pub mod dual;
 pub mod files;
 pub mod problem;
 pub mod random;
+pub mod spatial;
+pub mod trig;
 pub mod units;

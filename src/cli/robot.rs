@@ -1,0 +1,202 @@
+//! `ident robot show | check | convert`: look at a robot file, doubt it, rewrite it.
+
+use super::output::{print, print_result};
+use super::{Ending, Verb, arguments};
+use crate::ground::files::replace;
+use crate::ground::problem::Outcome;
+use crate::ground::units::DEGREE;
+use crate::robot::check::{self, Remark};
+use crate::robot::load::load;
+use crate::robot::{Robot, Spring, write};
+use clap::{ArgMatches, Args, Subcommand};
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// The verb.
+pub const VERB: Verb = Verb {
+    name: "robot",
+    about: "Show, check and convert robot files",
+    arguments: arguments::<RobotVerb>,
+    run,
+};
+
+/// Show, check and convert robot files.
+#[derive(Debug, Args)]
+pub struct RobotVerb {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Debug, Subcommand)]
+enum What {
+    /// Joints, springs, bodies and where every number comes from
+    Show(File),
+    /// Look for impossible bodies, mixed-up units, mirrored signs
+    Check(File),
+    /// Write the robot as TOML
+    Convert(Convert),
+}
+
+#[derive(Debug, Args)]
+struct File {
+    /// Built-in name (kr210, kr300) or a robot file, TOML or URDF
+    robot: String,
+    /// Print one JSON document instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Args)]
+struct Convert {
+    /// Built-in name (kr210, kr300) or a robot file, TOML or URDF
+    robot: String,
+    /// File to write; without it the TOML goes to standard output
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// Runs `ident robot`.
+///
+/// # Errors
+/// A robot that cannot be read, a file that cannot be written.
+pub fn run(matches: &ArgMatches) -> Outcome<Ending> {
+    match super::parsed::<RobotVerb>(matches).what {
+        What::Show(file) => show(&file),
+        What::Check(file) => check_file(&file),
+        What::Convert(convert) => convert.run(),
+    }
+}
+
+impl Convert {
+    fn run(&self) -> Outcome<Ending> {
+        let text = write::write(&load(&self.robot, None)?.robot);
+        match &self.output {
+            Some(path) => replace(path, text.as_bytes())?,
+            None => print(&text)?,
+        }
+        Ok(Ending::Done)
+    }
+}
+
+fn show(file: &File) -> Outcome<Ending> {
+    let loaded = load(&file.robot, None)?;
+    match file.json {
+        true => print_result("robot show", &[loaded.input()], show_json(&loaded.robot))?,
+        false => print(&show_text(&loaded.robot))?,
+    }
+    Ok(Ending::Done)
+}
+
+fn show_json(robot: &Robot) -> Value {
+    let spring = |(site, spring): (String, &Spring)| {
+        json!({
+            "site": site,
+            "stiffness": {"value": spring.stiffness, "unit": "N·m/rad", "ci95": spring.ci95.stiffness},
+            "damping": {"value": spring.damping, "unit": "N·m·s/rad", "ci95": spring.ci95.damping},
+            "backlash": {"value": spring.gap(), "unit": "rad", "ci95": spring.ci95.backlash},
+            "source": spring.source,
+        })
+    };
+    let joints = robot.joints.iter().map(|joint| {
+        json!({
+            "name": joint.name,
+            "axis": joint.axis,
+            "point_m": joint.point,
+            "limits_deg": joint.limits.map(|limit| limit / DEGREE),
+            "mass_kg": joint.link.map(|body| body.mass),
+            "com_m": joint.link.map(|body| body.com),
+            "inertia_kgm2": joint.link.map(|body| body.inertia),
+        })
+    });
+    json!({
+        "name": robot.name,
+        "source": robot.source,
+        "notes": robot.notes,
+        "joints": joints.collect::<Vec<_>>(),
+        "springs": robot.springs().map(spring).collect::<Vec<_>>(),
+        "tool": {"flange_m": robot.tool.flange, "tcp_m": robot.tool.tcp, "rotation": robot.tool.rotation},
+    })
+}
+
+fn show_text(robot: &Robot) -> String {
+    let mut out = format!(
+        "{}: {} joints\nsource: {}\n",
+        robot.name,
+        robot.dof(),
+        robot.source
+    );
+    robot.notes.iter().for_each(|note| {
+        let _ = writeln!(out, "  {note}");
+    });
+    let _ = writeln!(
+        out,
+        "\n{:<8}{:>10} .. {:<8}{:>22}{:>12}",
+        "joint", "lowest", "highest deg", "point m", "link kg"
+    );
+    for joint in &robot.joints {
+        let [low, high] = joint.limits.map(|limit| limit / DEGREE);
+        let [x, y, z] = joint.point;
+        let mass = joint
+            .link
+            .map_or("unknown".into(), |body| format!("{:.2}", body.mass));
+        let _ = writeln!(
+            out,
+            "{:<8}{low:>10.1} .. {high:<8.1}{:>25}{mass:>12}",
+            joint.name,
+            format!("({x:.3}, {y:.3}, {z:.3})")
+        );
+    }
+    let _ = writeln!(
+        out,
+        "\n{:<16}{:>16}{:>18}{:>14}  source",
+        "spring", "N·m/rad", "N·m·s/rad", "gap rad"
+    );
+    for (site, spring) in robot.springs() {
+        let source = spring.source.as_deref().unwrap_or("");
+        let _ = writeln!(
+            out,
+            "{site:<16}{:>16.5e}{:>18.4e}{:>14.3e}  {source}",
+            spring.stiffness,
+            spring.damping,
+            spring.gap()
+        );
+    }
+    let [x, y, z] = robot.tool.tcp;
+    let _ = writeln!(
+        out,
+        "\ntool centre point at zero: ({x:.4}, {y:.4}, {z:.4}) m"
+    );
+    out
+}
+
+fn check_file(file: &File) -> Outcome<Ending> {
+    let loaded = load(&file.robot, None)?;
+    check::dynamics(&loaded.robot).map_err(|problem| problem.in_file(Path::new(&loaded.path)))?;
+    let remarks = check::remarks(&loaded.robot);
+    match file.json {
+        true => print_result("robot check", &[loaded.input()], check_json(&remarks))?,
+        false => print(&check_text(&loaded.robot, &remarks))?,
+    }
+    Ok(if remarks.is_empty() {
+        Ending::Done
+    } else {
+        Ending::Attention
+    })
+}
+
+fn check_json(remarks: &[Remark]) -> Value {
+    let remark = |remark: &Remark| json!({"site": remark.site, "text": remark.text});
+    json!({"remarks": remarks.iter().map(remark).collect::<Vec<_>>()})
+}
+
+fn check_text(robot: &Robot, remarks: &[Remark]) -> String {
+    let mut out = format!(
+        "{}: every body is possible, every link has mass.\n",
+        robot.name
+    );
+    remarks.iter().for_each(|remark| {
+        let _ = writeln!(out, "{}: {}", remark.site, remark.text);
+    });
+    out
+}

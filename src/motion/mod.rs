@@ -1,0 +1,24 @@
+//! Floor 4: how a robot moves and bends. Free functions over an immutable [`Chain`] and a reusable
+//! [`Work`]; no allocation in the inner loop; every law over any scalar, so derivatives are free.
+
+pub mod build;
+pub mod chain;
+pub mod dynamics;
+pub mod forward;
+pub mod frf;
+pub mod inverse;
+pub mod kinematics;
+pub mod linear;
+pub mod modes;
+pub mod numeric;
+pub mod statics;
+pub mod swing;
+pub mod work;
+
+pub use build::{elastic, rigid};
+pub use chain::{Chain, Hinge};
+pub use dynamics::{crba, gravity_torque, rnea};
+pub use forward::{aba, forward_dynamics};
+pub use kinematics::{forward_kinematics, jacobian, tcp};
+pub use linear::{Linear, linearise};
+pub use work::Work;

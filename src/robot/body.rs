@@ -1,0 +1,147 @@
+//! A rigid body and whether it can exist.
+
+use crate::ground::spatial::{M3, Pose, V3, add, rotate, rotate_tensor, scale, sub};
+use nalgebra::Matrix3;
+
+/// A rigid body in base-frame axes, placed where it is with every joint at zero.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Body {
+    /// Mass, kg.
+    pub mass: f64,
+    /// Centre of mass, m, base frame.
+    pub com: V3,
+    /// Inertia about the centre of mass, kg·m², base axes: xx yy zz xy xz yz.
+    pub inertia: [f64; 6],
+}
+
+impl Body {
+    /// No body at all: the neutral element of [`Body::with`].
+    pub const NOTHING: Self = Self {
+        mass: 0.0,
+        com: [0.0; 3],
+        inertia: [0.0; 6],
+    };
+
+    /// The same body carried from a link frame into the frame that `pose` is given in.
+    #[must_use]
+    pub fn placed(&self, pose: &Pose) -> Self {
+        Self {
+            mass: self.mass,
+            com: add(pose.point, rotate(&pose.rotation, self.com)),
+            inertia: rotate_tensor(&pose.rotation, &self.inertia),
+        }
+    }
+
+    /// Both bodies as one rigid body (parallel-axis theorem).
+    #[must_use]
+    pub fn with(&self, other: &Self) -> Self {
+        let mass = self.mass + other.mass;
+        if mass == 0.0 {
+            return *self;
+        }
+        let weighted = add(scale(self.mass, self.com), scale(other.mass, other.com));
+        let com = scale(1.0 / mass, weighted);
+        let (a, b) = (self.shifted(com), other.shifted(com));
+        Self {
+            mass,
+            com,
+            inertia: std::array::from_fn(|i| a[i] + b[i]),
+        }
+    }
+
+    /// Inertia about `point` instead of the centre of mass.
+    fn shifted(&self, point: V3) -> [f64; 6] {
+        let [x, y, z] = sub(self.com, point);
+        let m = self.mass;
+        let steiner = [
+            y * y + z * z,
+            x * x + z * z,
+            x * x + y * y,
+            -x * y,
+            -x * z,
+            -y * z,
+        ];
+        std::array::from_fn(|i| self.inertia[i] + m * steiner[i])
+    }
+
+    /// Principal moments of inertia, ascending, kg·m².
+    pub fn principal_moments(&self) -> V3 {
+        let [xx, yy, zz, xy, xz, yz] = self.inertia;
+        let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+        let mut moments: V3 = tensor.symmetric_eigenvalues().into();
+        moments.sort_by(f64::total_cmp);
+        moments
+    }
+
+    /// Why no real body has these numbers, if so: mass, positive definiteness and the triangle
+    /// inequality (Traversaro et al. 2016, eq. 5): each principal moment at most the sum of the others.
+    pub fn fault(&self) -> Option<String> {
+        let numbers = [&[self.mass][..], &self.com, &self.inertia].concat();
+        if numbers.iter().any(|x| !x.is_finite()) {
+            return Some("has a mass, centre or inertia that is not finite".into());
+        }
+        if self.mass == 0.0 {
+            return Some("has no mass".into());
+        }
+        if self.mass < 0.0 {
+            return Some(format!("has the negative mass {} kg", self.mass));
+        }
+        let [small, middle, large] = self.principal_moments();
+        if small <= 0.0 {
+            return Some(format!(
+                "has an inertia that is not positive definite (smallest principal moment {small:.3e} kg·m²)"
+            ));
+        }
+        (large > (small + middle) * (1.0 + 1e-9)).then(|| {
+            format!("has an inertia that violates the triangle inequality ({large:.4} > {small:.4} + {middle:.4} kg·m²)")
+        })
+    }
+}
+
+/// Rows of a symmetric tensor xx yy zz xy xz yz.
+pub fn tensor_rows(t: &[f64; 6]) -> M3 {
+    [[t[0], t[3], t[4]], [t[3], t[1], t[5]], [t[4], t[5], t[2]]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_points_make_a_dumbbell() {
+        let point = |x: f64| Body {
+            mass: 1.0,
+            com: [x, 0.0, 0.0],
+            inertia: [0.0; 6],
+        };
+        let both = point(1.0).with(&point(-1.0));
+        assert_eq!(
+            both,
+            Body {
+                mass: 2.0,
+                com: [0.0; 3],
+                inertia: [0.0, 2.0, 2.0, 0.0, 0.0, 0.0]
+            }
+        );
+        assert_eq!(Body::NOTHING.with(&point(2.0)), point(2.0));
+    }
+
+    #[test]
+    fn faults_are_told_apart() {
+        let body = |mass, inertia| Body {
+            mass,
+            com: [0.0; 3],
+            inertia,
+        };
+        let says = |b: Body, word: &str| b.fault().is_some_and(|f| f.contains(word));
+        assert!(says(body(0.0, [0.0; 6]), "no mass"));
+        assert!(says(body(-1.0, [1.0; 6]), "negative mass"));
+        assert!(says(
+            body(1.0, [1.0, 1.0, 1.0, 2.0, 0.0, 0.0]),
+            "positive definite"
+        ));
+        assert!(says(body(1.0, [1.0, 1.0, 3.0, 0.0, 0.0, 0.0]), "triangle"));
+        assert!(says(body(f64::NAN, [1.0; 6]), "finite"));
+        assert_eq!(body(1.0, [1.0, 1.0, 1.9, 0.0, 0.0, 0.0]).fault(), None);
+    }
+}

@@ -1,0 +1,175 @@
+//! Writing robot files: the same TOML that [`super::file`] reads, every number with its unit, its
+//! source and, where known, its interval. Deterministic: the shortest text that reads back exactly.
+
+use super::body::Body;
+use super::model::{ElasticAxis, Joint, Robot, Tool};
+use super::spring::Spring;
+use crate::ground::spatial::IDENTITY;
+use crate::ground::units::DEGREE;
+use std::fmt::Write;
+
+/// The robot as TOML text; [`super::file::read`] gives the same robot back (angles to rounding).
+pub fn write(robot: &Robot) -> String {
+    let mut out = String::new();
+    let _ = writeln!(
+        out,
+        "# Geometry in the base frame with every joint at zero; units stand in the names."
+    );
+    let _ = writeln!(out, "name = {}", text(&robot.name));
+    let _ = writeln!(out, "source = {}", text(&robot.source));
+    if !robot.notes.is_empty() {
+        let notes: Vec<String> = robot
+            .notes
+            .iter()
+            .map(|note| format!("    {},\n", text(note)))
+            .collect();
+        let _ = writeln!(out, "notes = [\n{}]", notes.concat());
+    }
+    robot
+        .joints
+        .iter()
+        .for_each(|joint| joint_table(&mut out, joint));
+    tool_table(&mut out, &robot.tool);
+    robot
+        .elastic
+        .iter()
+        .for_each(|axis| elastic_table(&mut out, axis));
+    out
+}
+
+fn joint_table(out: &mut String, joint: &Joint) {
+    let _ = writeln!(out, "\n[[joints]]\nname = {}", text(&joint.name));
+    let _ = writeln!(out, "axis = {}", list(&joint.axis));
+    let _ = writeln!(out, "point_m = {}", list(&joint.point));
+    let _ = writeln!(out, "limits_deg = {}", list(&joint.limits.map(degrees)));
+    if let Some(speed) = joint.max_speed {
+        let _ = writeln!(out, "max_speed_deg_s = {}", number(degrees(speed)));
+    }
+    for (key, spring) in [("drive", &joint.drive), ("tilt", &joint.tilt)] {
+        if let Some(spring) = spring {
+            let _ = writeln!(out, "{key} = {{ {} }}", entries(spring).join(", "));
+        }
+    }
+    if let Some(body) = &joint.link {
+        let _ = writeln!(out, "link = {}", inline_body(body));
+    }
+    source_line(out, joint.source.as_deref());
+}
+
+fn tool_table(out: &mut String, tool: &Tool) {
+    let _ = writeln!(
+        out,
+        "\n[tool]\nflange_m = {}\ntcp_m = {}",
+        list(&tool.flange),
+        list(&tool.tcp)
+    );
+    if tool.rotation != IDENTITY {
+        let rows = tool.rotation.map(|row| list(&row)).join(", ");
+        let _ = writeln!(out, "rotation = [{rows}]");
+    }
+    if let Some(body) = &tool.body {
+        let _ = writeln!(out, "body = {}", inline_body(body));
+    }
+    source_line(out, tool.source.as_deref());
+}
+
+fn elastic_table(out: &mut String, axis: &ElasticAxis) {
+    let _ = writeln!(
+        out,
+        "\n[[elastic]]\nname = {}\nafter = {}",
+        text(&axis.name),
+        axis.after
+    );
+    let _ = writeln!(
+        out,
+        "axis = {}\npoint_m = {}",
+        list(&axis.axis),
+        list(&axis.point)
+    );
+    entries(&axis.spring).iter().for_each(|entry| {
+        let _ = writeln!(out, "{entry}");
+    });
+}
+
+fn source_line(out: &mut String, source: Option<&str>) {
+    if let Some(source) = source {
+        let _ = writeln!(out, "source = {}", text(source));
+    }
+}
+
+fn entries(spring: &Spring) -> Vec<String> {
+    let mut out = vec![
+        format!("stiffness_Nm_rad = {}", number(spring.stiffness)),
+        format!("damping_Nms_rad = {}", number(spring.damping)),
+    ];
+    match spring.backlash.as_slice() {
+        [] => {}
+        [gap] => out.push(format!("backlash_rad = {}", number(*gap))),
+        gaps => out.push(format!("backlash_rad = {}", list(gaps))),
+    }
+    let intervals = [
+        ("stiffness_ci95_Nm_rad", spring.ci95.stiffness),
+        ("damping_ci95_Nms_rad", spring.ci95.damping),
+        ("backlash_ci95_rad", spring.ci95.backlash),
+    ];
+    out.extend(
+        intervals
+            .iter()
+            .filter_map(|(key, ci)| Some(format!("{key} = {}", list(&(*ci)?)))),
+    );
+    out.extend(
+        spring
+            .source
+            .iter()
+            .map(|source| format!("source = {}", text(source))),
+    );
+    out
+}
+
+fn inline_body(body: &Body) -> String {
+    format!(
+        "{{ mass_kg = {}, com_m = {}, inertia_kgm2 = {} }}",
+        number(body.mass),
+        list(&body.com),
+        list(&body.inertia)
+    )
+}
+
+fn list(values: &[f64]) -> String {
+    let numbers: Vec<String> = values.iter().map(|x| number(*x)).collect();
+    format!("[{}]", numbers.join(", "))
+}
+
+fn number(x: f64) -> String {
+    format!("{x:?}")
+}
+
+/// Degrees without the dust of the conversion: 185.0, not 185.00000000000003.
+fn degrees(radians: f64) -> f64 {
+    let raw = radians / DEGREE;
+    let short = (raw * 1e9).round() / 1e9;
+    if (short - raw).abs() <= 1e-13 * raw.abs().max(1.0) {
+        short
+    } else {
+        raw
+    }
+}
+
+fn text(value: &str) -> String {
+    toml::Value::String(value.to_string()).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::{builtin, file};
+
+    #[test]
+    fn what_is_written_reads_back() {
+        for (_, source) in builtin::BUILTINS {
+            let robot = file::read(source).unwrap();
+            let again = file::read(&write(&robot)).unwrap();
+            assert_eq!(again, robot);
+        }
+    }
+}
