@@ -198,6 +198,7 @@ fn curves<'a>(result: &'a Diagnosed, model: &'a [f64], name: &'a str) -> Curves<
         reading: &result.found.data.reading,
         model,
         name,
+        imposed: false,
     }
 }
 

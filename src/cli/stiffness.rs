@@ -6,7 +6,7 @@ use super::{Ending, Verb, arguments, parsed};
 use crate::effects::Composite;
 use crate::experiments::load_cycle::Curves;
 use crate::fit::parameter::{Identified, Status};
-use crate::fit::stiffness::{Account, DEFAULT_EFFECTS, Request, identify, measured_losses};
+use crate::fit::stiffness::{Account, DEFAULT_EFFECTS, Request, identify};
 use crate::fit::store::{SCHEMA, StoredFit, stored_effects, stored_scale};
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
@@ -154,7 +154,7 @@ fn one(path: PathBuf, request: &Request) -> Outcome<Result> {
 
 /// 1 when something needs attention: no stiffness, or a straight line that misleads.
 fn ending(results: &[Result]) -> Ending {
-    let supported = |r: &Result| r.account.solution.status[0] == Status::Identified;
+    let supported = |r: &Result| r.account.parameters[0].status == Status::Identified;
     match results.iter().all(supported) {
         true => Ending::Done,
         false => Ending::Attention,
@@ -180,15 +180,21 @@ fn ink(result: &Result) -> Outcome<Vec<(PathBuf, String)>> {
         result.place.fits().join(format!("{stem}.toml")),
         stored(result).text()?,
     )];
-    if result.account.solution.status[0] == Status::Identified {
+    if result.account.parameters[0].status == Status::Identified {
         let model: Vec<f64> = fitted(&result.account);
+        let data = &result.account.data;
+        let (load, reading) = match result.account.imposed {
+            false => (&data.scene.load, &data.reading),
+            true => (&data.reading, &data.scene.load),
+        };
         let curves = Curves {
             file: &result.file,
             time: &result.account.data.scene.time,
-            load: &result.account.data.scene.load,
-            reading: &result.account.data.reading,
+            load,
+            reading,
             model: &model,
             name: "fitted model",
+            imposed: result.account.imposed,
         };
         let chart = curves.chart(&format!("{stem}-stiffness"), "load cycles and fitted model");
         out.push((
@@ -261,19 +267,40 @@ fn result_json(result: &Result) -> Value {
             "unit": result.file.port.stiffness_unit(),
             "differs_percent": straight_difference(account),
         },
-        "measured_loss_per_cycle_J": measured_losses(account),
+        "measured_loss_per_cycle_J": account.losses,
+        "imposed": if account.imposed { "displacement" } else { "load" },
+        "branches": branches(account),
         "second_sensor_excess": account.second.map(|s| json!({"value": s.0, "stderr": s.1})),
         "fit": {
             "rms": account.solution.rms,
             "noise_rms": account.noise_rms,
             "noise": account.noise,
-            "unit": result.file.port.deflection_unit(),
+            "unit": if account.imposed { result.file.port.load_unit() } else { result.file.port.deflection_unit() },
             "rows": result.file.load.len(),
             "rows_left_out": result.file.left_out,
             "rows_replaced": account.data.wild.len(),
         },
         "warnings": account.warnings,
     })
+}
+
+/// Points of each branch of a settled cycle in the JSON.
+const BRANCH_POINTS: usize = 24;
+
+/// Unloading and loading branch of one settled cycle at full load: [load, deflection].
+fn branches(account: &Account) -> Value {
+    let Some((load, deflection)) = &account.branches else {
+        return Value::Null;
+    };
+    let middle = load.len() / 2;
+    let branch = |from: usize, to: usize| {
+        let step = ((to - from) / BRANCH_POINTS).max(1);
+        (from..=to)
+            .step_by(step)
+            .map(|i| [load[i], deflection[i]])
+            .collect::<Vec<_>>()
+    };
+    json!({"unloading": branch(0, middle), "loading": branch(middle, load.len() - 1)})
 }
 
 fn finite(value: f64) -> Option<f64> {

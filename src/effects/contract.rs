@@ -94,6 +94,8 @@ pub enum Role {
     Scale,
     /// Seen in the raw values, not in the curve.
     Lattice,
+    /// Answers to an imposed displacement with a force: for tests that move instead of press.
+    Imposed,
     /// Part of every model.
     Base,
 }

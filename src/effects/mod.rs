@@ -11,6 +11,7 @@ mod shapes;
 mod asymmetry;
 mod backlash;
 mod bouc_wen;
+mod clearance_slider;
 mod cosine_error;
 mod coulomb_friction;
 mod creep;
@@ -54,7 +55,20 @@ pub const EFFECTS: &[&dyn Effect] = &[
     &thermal_drift::ThermalDrift,
     &sensor_offset::SensorOffset,
     &quantization::Quantization,
+    CLEARANCE_SLIDER,
 ];
+
+/// The law of a test under imposed displacement: force over displacement, ports swapped.
+pub const CLEARANCE_SLIDER: &dyn Effect = &clearance_slider::ClearanceSlider;
+
+/// The effects of `library` that change the curve of a pressed joint.
+pub fn shapes(library: &[&'static dyn Effect]) -> Vec<&'static dyn Effect> {
+    library
+        .iter()
+        .copied()
+        .filter(|e| e.role() == contract::Role::Shape)
+        .collect()
+}
 
 /// The effect with this name.
 pub fn named(name: &str) -> Option<&'static dyn Effect> {

@@ -1,7 +1,7 @@
 //! The load-cycle experiment: what a joint model says of one settled cycle, and its charts.
 
 use crate::effects::{Composite, Scene};
-use crate::measurement::load_cycle::{LoadCycle, Port};
+use crate::measurement::load_cycle::LoadCycle;
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
 use crate::sheet::number::prefix;
 
@@ -118,6 +118,8 @@ pub struct Curves<'a> {
     pub model: &'a [f64],
     /// What the model is called in the legend.
     pub name: &'a str,
+    /// Whether the deflection was imposed: `model` is then a load, over the deflection.
+    pub imposed: bool,
 }
 
 impl Curves<'_> {
@@ -127,16 +129,29 @@ impl Curves<'_> {
         Scales {
             load: prefix(largest(self.load), self.file.port.load_unit()),
             deflection: prefix(largest(self.reading), self.file.port.deflection_unit()),
-            residual: prefix(largest(&residual), self.file.port.deflection_unit()),
+            residual: prefix(largest(&residual), self.residual_unit()),
         }
     }
 
     fn residual(&self) -> Vec<f64> {
-        self.reading
+        let measured = if self.imposed {
+            self.load
+        } else {
+            self.reading
+        };
+        measured
             .iter()
             .zip(self.model)
             .map(|(y, f)| y - f)
             .collect()
+    }
+
+    fn residual_unit(&self) -> &'static str {
+        if self.imposed {
+            self.file.port.load_unit()
+        } else {
+            self.file.port.deflection_unit()
+        }
     }
 
     /// Moment over angle with the model over it, residual over moment, residual over time.
@@ -147,7 +162,10 @@ impl Curves<'_> {
         let load_axis = || Axis::new(port.load_name(), s.load.1.clone());
         let residual_axis = || Axis::new("Residual", s.residual.1.clone());
         let measured = pairs(self.reading, s.deflection.0, self.load, s.load.0);
-        let modelled = pairs(self.model, s.deflection.0, self.load, s.load.0);
+        let modelled = match self.imposed {
+            false => pairs(self.model, s.deflection.0, self.load, s.load.0),
+            true => pairs(self.reading, s.deflection.0, self.model, s.load.0),
+        };
         let loops = Panel::new(
             Axis::new(port.deflection_name(), s.deflection.1.clone()),
             load_axis(),
@@ -191,9 +209,4 @@ struct Scales {
 
 fn pairs(x: &[f64], xs: f64, y: &[f64], ys: f64) -> Vec<[f64; 2]> {
     x.iter().zip(y).map(|(a, b)| [a * xs, b * ys]).collect()
-}
-
-/// Energy in joule for rotation and translation alike.
-pub fn energy_unit(_port: Port) -> &'static str {
-    "J"
 }

@@ -8,7 +8,7 @@ use super::refine::{Refined, refine, refine_from};
 use super::scales::{self, ScaleFinding};
 use super::search::search;
 use super::{lattice, next};
-use crate::effects::{Composite, EFFECTS, Effect, Family};
+use crate::effects::{Composite, EFFECTS, Effect, Family, shapes};
 use crate::experiments::load_cycle::{settle, settled_cycle};
 use crate::fit::candidates::Candidates;
 use crate::fit::least_squares::Problem;
@@ -173,7 +173,7 @@ pub fn diagnose(file: &LoadCycle, settings: &Settings) -> Diagnosis {
 
 fn compare<'a>(file: &'a LoadCycle, settings: &Settings) -> Case<'a> {
     let data = Observation::of(file, settings.rows);
-    let candidates = Candidates::new(&settings.library, &data);
+    let candidates = Candidates::new(&shapes(&settings.library), &data);
     let screen = screen(&data, &candidates);
     let normal = Normal::new(&candidates, &screen.colour);
     let found = search(&candidates, &normal, REFINED_PAIRS);

@@ -28,13 +28,22 @@ fn lattice_of(gaps: &[f64], first: f64) -> Option<f64> {
         .filter(|g| (g / first - 1.0).abs() < 0.15)
         .collect();
     let step = near.iter().sum::<f64>() / near.len().max(1) as f64;
-    let multiple = |g: &&f64| {
-        let k = (**g / step).round();
-        k >= 1.0 && (**g - k * step).abs() < (0.05 + 0.01 * k) * step
-    };
-    let share = gaps.iter().filter(multiple).count() as f64 / gaps.len().max(1) as f64;
-    (gaps.len() >= 10 && share > 0.95).then_some(step)
+    // only short distances can tell a multiple from chance
+    let short: Vec<f64> = gaps
+        .iter()
+        .map(|g| g / step)
+        .filter(|k| *k < LONGEST)
+        .collect();
+    let multiples = short
+        .iter()
+        .filter(|k| k.round() >= 1.0 && (*k - k.round()).abs() < 0.1)
+        .count();
+    let enough = short.len() >= 10 && 2 * short.len() > gaps.len();
+    (enough && multiples as f64 > 0.95 * short.len() as f64).then_some(step)
 }
+
+/// Steps beyond which a distance says nothing about the lattice.
+const LONGEST: f64 = 8.5;
 
 #[cfg(test)]
 mod tests {

@@ -36,7 +36,7 @@ impl Candidates {
         let library: Vec<_> = library
             .iter()
             .copied()
-            .filter(|e| e.role() == Role::Shape)
+            .filter(|e| matches!(e.role(), Role::Shape | Role::Imposed))
             .collect();
         let stiffness = data.scene.load_scale / data.scene.deflection_scale;
         let mut atoms = Vec::new();

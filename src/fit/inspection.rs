@@ -158,7 +158,7 @@ fn odd(file: &LoadCycle, data: &Observation, found: &Inspection, jitter: f64) ->
 }
 
 fn sensor_noise(data: &Observation) -> f64 {
-    let candidates = Candidates::new(crate::effects::EFFECTS, data);
+    let candidates = Candidates::new(&crate::effects::shapes(crate::effects::EFFECTS), data);
     screen(data, &candidates).colour.rms
 }
 

@@ -7,6 +7,7 @@ pub mod frf_match;
 pub mod frf_measured;
 pub mod frf_model;
 pub mod frf_tuning;
+pub mod imposed;
 pub mod inspection;
 pub mod least_squares;
 pub mod normal;

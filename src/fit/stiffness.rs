@@ -1,10 +1,11 @@
 //! From one load-cycle file to its stiffness account.
 
 use super::bootstrap;
+use super::imposed::{self, fit_imposed, is_imposed};
 use super::observation::{MOST_ROWS, Observation};
 use super::parameter::{Identified, Status, Z95};
 use super::solution::{Solution, fit};
-use crate::effects::Composite;
+use crate::effects::{Composite, EFFECTS, shapes};
 use crate::experiments::load_cycle::{Settled, enclosed, settle, settled_cycle, straight_line};
 use crate::fit::candidates::Candidates;
 use crate::fit::screen::screen;
@@ -32,10 +33,13 @@ pub struct Account {
     pub solution: Solution,
     /// All parameters: fitted first, then what follows from them.
     pub parameters: Vec<Identified>,
-    /// One settled cycle of the model at full load.
-    pub settled: Settled,
-    /// Loading and unloading branch of that cycle: load, deflection.
-    pub branches: (Vec<f64>, Vec<f64>),
+    /// One settled cycle of the model at full load: load and deflection. `None` for a test under
+    /// imposed displacement.
+    pub branches: Option<(Vec<f64>, Vec<f64>)>,
+    /// Whether the displacement was imposed: `data` then holds it as the load, and predicts force.
+    pub imposed: bool,
+    /// Measured loss of each cycle by numerical integration, J.
+    pub losses: Vec<f64>,
     /// Noise of the readings, independent of the model, in the deflection's unit.
     pub noise_rms: f64,
     /// Noise in words.
@@ -51,15 +55,42 @@ pub struct Account {
 /// Share of the deflection that a straight line may miss before it counts as no description.
 const NOT_STRAIGHT: f64 = 0.08;
 
-/// Identifies one file.
+/// Identifies one file: a joint that was pressed, or one that was moved.
 pub fn identify(file: &LoadCycle, request: &Request) -> Account {
+    let mut account = match is_imposed(file) {
+        true => moved(file),
+        false => pressed(file, request),
+    };
+    account.warnings = warnings(&account, file);
+    account
+}
+
+/// The account of a test under imposed displacement.
+fn moved(file: &LoadCycle) -> Account {
+    let fitted = fit_imposed(file);
+    Account {
+        parameters: fitted.parameters(file),
+        branches: None,
+        imposed: true,
+        losses: imposed::losses(&fitted.data).iter().map(|l| l.0).collect(),
+        noise_rms: crate::signal::smooth::noise(&file.load),
+        noise: "from fourth differences".into(),
+        straight: straight_line(&file.load, &file.deflection),
+        second: None,
+        warnings: Vec::new(),
+        data: fitted.data,
+        solution: fitted.solution,
+    }
+}
+
+/// The account of a test under imposed load.
+fn pressed(file: &LoadCycle, request: &Request) -> Account {
     let data = Observation::of(file, MOST_ROWS);
     let mut solution = fit(&request.model, &data);
-    let candidates = Candidates::new(crate::effects::EFFECTS, &data);
+    let candidates = Candidates::new(&shapes(EFFECTS), &data);
     let noise = screen(&data, &candidates).colour;
     let (low, high) = range(&data.scene.load);
     let branches = settled_cycle(&solution.model, &solution.p, &data.scene, low, high);
-    let settled = settle(&branches.0, &branches.1);
     let site = file.site();
     let mut parameters = solution.parameters(&site, file.port);
     if request.bootstrap > 0 {
@@ -70,20 +101,19 @@ pub fn identify(file: &LoadCycle, request: &Request) -> Account {
     parameters.extend(derived(&solution, &data, file, (low, high)));
     let straight = straight_line(&file.load, &file.deflection);
     let second = log_ratio(file);
-    let mut account = Account {
+    Account {
         noise_rms: noise.rms,
         noise: noise.describe(),
+        losses: measured_losses(&data),
         data,
         solution,
         parameters,
-        settled,
-        branches,
+        branches: Some(branches),
+        imposed: false,
         straight,
         second,
         warnings: Vec::new(),
-    };
-    account.warnings = warnings(&account, file);
-    account
+    }
 }
 
 fn range(load: &[f64]) -> (f64, f64) {
@@ -224,6 +254,14 @@ fn propagated(solution: &Solution, slopes: &[f64]) -> f64 {
 
 fn warnings(account: &Account, file: &LoadCycle) -> Vec<String> {
     let mut said = Vec::new();
+    if account.imposed {
+        said.push(
+            "the displacement was imposed and the force saturates: fitted as clearance, stuck spring and dry slider; \
+             one linear stiffness does not describe this curve"
+                .into(),
+        );
+        return said;
+    }
     let scale = account.data.scene.deflection_scale;
     let line: f64 = {
         let k = account.straight;
@@ -272,7 +310,7 @@ fn warnings(account: &Account, file: &LoadCycle) -> Vec<String> {
             file.left_out, file.rows
         ));
     }
-    if account.solution.status[0] != Status::Identified {
+    if account.parameters[0].status != Status::Identified {
         said.push("these data do not support a stiffness".into());
     }
     said
@@ -283,8 +321,7 @@ fn mean(values: &[f64]) -> f64 {
 }
 
 /// Measured loss of each cycle by numerical integration, J.
-pub fn measured_losses(account: &Account) -> Vec<f64> {
-    let data = &account.data;
+fn measured_losses(data: &Observation) -> Vec<f64> {
     let starts = &data.cycles.starts;
     let ends = starts.iter().skip(1).copied().chain([data.rows()]);
     starts

@@ -67,7 +67,7 @@ pub fn hide(
 /// Noise of a file's first sensor, rad or m.
 pub fn noise_of(file: &LoadCycle) -> f64 {
     let data = Observation::of(file, 2000);
-    let candidates = Candidates::new(crate::effects::EFFECTS, &data);
+    let candidates = Candidates::new(&crate::effects::shapes(crate::effects::EFFECTS), &data);
     screen(&data, &candidates).colour.rms
 }
 

@@ -1,0 +1,161 @@
+//! Tests that move instead of press: force over an imposed displacement.
+//!
+//! A friction damper slips at constant force, so its displacement is no function of its load
+//! history. The ports are swapped: the observation's "load" is the displacement, its reading the
+//! force, and the law a clearance in series with a stuck spring and a dry slider.
+
+use super::observation::{MOST_ROWS, Observation};
+use super::parameter::{Identified, Status};
+use super::solution::{Solution, fit};
+use crate::effects::{CLEARANCE_SLIDER, Composite, named};
+use crate::experiments::load_cycle::enclosed;
+use crate::measurement::load_cycle::LoadCycle;
+
+/// Share of the deflection's variance that a straight line must explain for a test to count as
+/// pressed; below, the load hardly sets the deflection.
+const PRESSED: f64 = 0.75;
+
+/// Whether the displacement was imposed: the load saturates while the deflection goes on.
+pub fn is_imposed(file: &LoadCycle) -> bool {
+    let n = file.load.len() as f64;
+    let mean = |v: &[f64]| v.iter().sum::<f64>() / n;
+    let (ml, md) = (mean(&file.load), mean(&file.deflection));
+    let (mut ll, mut dd, mut ld) = (0.0, 0.0, 0.0);
+    for (l, d) in file.load.iter().zip(&file.deflection) {
+        ll += (l - ml).powi(2);
+        dd += (d - md).powi(2);
+        ld += (l - ml) * (d - md);
+    }
+    ll > 0.0
+        && dd > 0.0
+        && ld * ld < PRESSED * ll * dd
+        && enclosed(&file.load, &file.deflection) > 0.0
+}
+
+/// The fit of a test under imposed displacement.
+pub struct Imposed {
+    /// Displacement as the scene's load, force as the reading.
+    pub data: Observation,
+    /// Clearance, stuck spring and slider.
+    pub solution: Solution,
+}
+
+/// Displacement and force of a file, ports swapped.
+pub fn observe(file: &LoadCycle, most: usize) -> Observation {
+    let swapped = LoadCycle {
+        load: file.deflection.clone(),
+        deflection: file.load.clone(),
+        ..file.clone()
+    };
+    Observation::of(&swapped, most)
+}
+
+/// Fits clearance, stuck spring and slider.
+pub fn fit_imposed(file: &LoadCycle) -> Imposed {
+    let data = observe(file, MOST_ROWS);
+    let offset = named("sensor_offset").into_iter();
+    let effects: Vec<_> = std::iter::once(CLEARANCE_SLIDER).chain(offset).collect();
+    let solution = fit(&Composite::new(&effects), &data);
+    Imposed { data, solution }
+}
+
+/// Loss of each full cycle by numerical integration, J, with the cycle's displacement range.
+pub fn losses(data: &Observation) -> Vec<(f64, f64)> {
+    let starts = &data.cycles.starts;
+    let pairs = starts.windows(2).map(|w| (w[0], w[1]));
+    pairs
+        .map(|(a, b)| {
+            let (x, force) = (&data.scene.load[a..b], &data.reading[a..b]);
+            let (low, high) = x
+                .iter()
+                .fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
+            (enclosed(force, x), high - low)
+        })
+        .collect()
+}
+
+impl Imposed {
+    /// What was identified: stuck stiffness, clearance, friction, loss at the largest amplitude.
+    pub fn parameters(&self, file: &LoadCycle) -> Vec<Identified> {
+        let site = file.site();
+        let at = |name: &str| {
+            self.solution
+                .model
+                .slots()
+                .iter()
+                .position(|s| s.parameter.name == name)
+        };
+        let value = |name: &str| {
+            at(name).map_or((f64::NAN, f64::NAN), |j| {
+                (self.solution.p[j], self.solution.stderr(j))
+            })
+        };
+        let ((force, force_error), (stick, stick_error), (gap, gap_error)) =
+            (value("friction"), value("stick"), value("gap"));
+        let stuck = force / stick;
+        let relative = ((force_error / force).powi(2) + (stick_error / stick).powi(2)).sqrt();
+        let port = file.port;
+        let mut list = vec![
+            known(
+                "stiffness",
+                &site,
+                stuck,
+                port.stiffness_unit(),
+                stuck * relative,
+                "slope of the stuck branch, from contact to slip",
+            ),
+            known(
+                "backlash",
+                &site,
+                gap,
+                port.deflection_unit(),
+                gap_error,
+                "clearance crossed without force after each reversal",
+            ),
+            known(
+                "friction",
+                &site,
+                force,
+                port.load_unit(),
+                force_error,
+                "force at which the contact slips",
+            ),
+        ];
+        list.push(self.loss(&site));
+        list
+    }
+
+    /// Mean measured loss of the cycles of the largest amplitude.
+    fn loss(&self, site: &str) -> Identified {
+        let all = losses(&self.data);
+        let largest = all.iter().fold(0.0_f64, |m, l| m.max(l.1));
+        let full: Vec<f64> = all
+            .iter()
+            .filter(|l| l.1 > 0.95 * largest)
+            .map(|l| l.0)
+            .collect();
+        let n = full.len() as f64;
+        let mean = full.iter().sum::<f64>() / n;
+        let spread =
+            (full.iter().map(|l| (l - mean).powi(2)).sum::<f64>() / (n - 1.0).max(1.0) / n).sqrt();
+        let meaning = "work lost per cycle at the largest amplitude, integrated from the readings";
+        known(
+            "hysteresis_loss",
+            site,
+            mean,
+            "J",
+            if n > 1.0 { spread } else { 0.05 * mean },
+            meaning,
+        )
+    }
+}
+
+fn known(name: &str, site: &str, value: f64, unit: &str, stderr: f64, meaning: &str) -> Identified {
+    let parameter = Identified::new(name, site, value, unit, stderr, meaning);
+    let supported = value.is_finite() && stderr.is_finite() && stderr < 0.5 * value.abs();
+    if supported {
+        parameter
+    } else {
+        parameter.without_value(Status::NotIdentifiable)
+    }
+}
