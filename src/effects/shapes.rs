@@ -45,9 +45,17 @@ impl<S: Scalar> Stop<S> {
         }
     }
 
-    /// Moves the input by `step`.
+    /// Moves the input by `step`. Duals are long: none is copied that stays.
+    #[inline]
     pub fn advance(&mut self, step: f64, threshold: S) -> S {
-        self.value = (self.value + step).min(threshold).max(-threshold);
+        let (moved, limit) = (self.value.value() + step, threshold.value());
+        if moved > limit {
+            self.value = threshold;
+        } else if moved < -limit {
+            self.value = -threshold;
+        } else if step != 0.0 {
+            self.value = self.value + step;
+        }
         self.value
     }
 }
