@@ -334,7 +334,7 @@ fn check_parameter(card: &Card, parameter: &Parameter) {
 
 #[test]
 fn every_card_is_complete() {
-    for effect in EFFECTS.iter().copied() {
+    for effect in EFFECTS.iter() {
         let card = effect.card();
         assert!(is_name(card.name) && is_name(card.cause), "{}", card.name);
         for (what, text) in [
