@@ -191,6 +191,12 @@ fn broken_facts_are_refused() {
             "finite",
         ),
         refused(
+            "denormal lever",
+            with_fact("sensor_lever_m", "1e-320"),
+            line_of("sensor_lever_m"),
+            "nobody measures",
+        ),
+        refused(
             "lever with a decimal comma",
             with_fact("sensor_lever_m", "0,4"),
             line_of("sensor_lever_m"),

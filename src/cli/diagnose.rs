@@ -191,14 +191,19 @@ fn page(result: &Diagnosed) -> Page {
 }
 
 fn curves<'a>(result: &'a Diagnosed, model: &'a [f64], name: &'a str) -> Curves<'a> {
+    let data = &result.found.data;
+    let (load, reading) = match result.found.imposed {
+        false => (&data.scene.load, &data.reading),
+        true => (&data.reading, &data.scene.load),
+    };
     Curves {
         file: &result.file,
-        time: &result.found.data.scene.time,
-        load: &result.found.data.scene.load,
-        reading: &result.found.data.reading,
+        time: &data.scene.time,
+        load,
+        reading,
         model,
         name,
-        imposed: false,
+        imposed: result.found.imposed,
     }
 }
 
@@ -245,7 +250,14 @@ fn remaining(result: &Diagnosed) -> Chart {
         .fold(0.0_f64, |m, p| m.max(p[1].abs()));
     let load = result.found.data.scene.load_scale;
     let (ys, yu) = prefix(largest, result.found.unit);
-    let (xs, xu) = prefix(load, result.file.port.load_unit());
+    let (name, unit) = match result.found.imposed {
+        false => (result.file.port.load_name(), result.file.port.load_unit()),
+        true => (
+            result.file.port.deflection_name(),
+            result.file.port.deflection_unit(),
+        ),
+    };
+    let (xs, xu) = prefix(load, unit);
     let scaled = |points: &[[f64; 2]], xs: f64| {
         points
             .iter()
@@ -260,7 +272,7 @@ fn remaining(result: &Diagnosed) -> Chart {
     )
     .synthetic(result.file.facts.synthetic)
     .with(
-        Panel::new(Axis::new(result.file.port.load_name(), xu), axis())
+        Panel::new(Axis::new(name, xu), axis())
             .with(Series::line("mean residual", scaled(&shape.shape, xs))),
     )
     .with(

@@ -45,7 +45,7 @@ impl Law for ClearanceSlider {
 
     fn respond<S: Scalar>(p: &[S], scene: &Scene, _elastic: &[S], out: &mut [S]) {
         let (friction, half, stick) = (p[0], p[1] * 0.5, p[2]);
-        let mut stop = Stop::<S>::new();
+        let mut stop = Stop::turned(&scene.load, stick + half);
         let mut before = scene.load.first().copied().unwrap_or(0.0);
         for (force, x) in out.iter_mut().zip(&scene.load) {
             let e = stop.advance(x - before, stick + half);

@@ -43,22 +43,44 @@ impl Law for CubicStiffness {
     }
 }
 
+/// Slope below which a softening joint does not fall: beyond its limit load it goes on with it.
+const LEAST_SLOPE: f64 = 0.05;
+
 /// Root v of v + h·sgn(v)|v|^p = u by Newton; the derivative by the implicit function theorem.
+/// Where softening would take the slope below [`LEAST_SLOPE`] the law goes on straight.
 fn solve<S: Scalar>(u: S, h: S, exponent: S) -> S {
-    let (target, hv, p) = (u.value(), h.value(), exponent.value());
-    let mut v = target;
-    for _ in 0..30 {
-        let power = v.abs().powf(p - 1.0);
-        let f = v + hv * v * power - target;
-        let slope = (1.0 + hv * p * power).max(0.05);
-        let step = f / slope;
-        v -= step;
+    let (target, hv, p) = (u.value().abs(), h.value(), exponent.value());
+    let limit = match hv < 0.0 {
+        true => ((LEAST_SLOPE - 1.0) / (hv * p)).powf(1.0 / (p - 1.0)),
+        false => f64::INFINITY,
+    };
+    let bent = |v: f64| v + hv * v.powf(p);
+    if limit.is_finite() && target > bent(limit) {
+        let straight = limit + (target - bent(limit)) / LEAST_SLOPE;
+        let slope = LEAST_SLOPE;
+        let root = S::constant(straight * u.value().signum());
+        let reach = S::constant(limit * u.value().signum());
+        let residual = h * odd_power(reach, exponent) - u;
+        return root - (residual - residual.value()) / slope;
+    }
+    let v = newton(target, hv, p, limit) * u.value().signum();
+    let slope = 1.0 + hv * p * v.abs().powf(p - 1.0);
+    let root = S::constant(v);
+    let residual = root + h * odd_power(root, exponent) - u;
+    root - (residual - residual.value()) / slope
+}
+
+/// Non-negative root of v + h v^p = target below `limit`, where the left side rises.
+fn newton(target: f64, h: f64, p: f64, limit: f64) -> f64 {
+    let mut v = target.min(limit);
+    for _ in 0..60 {
+        let power = v.powf(p - 1.0);
+        let slope = (1.0 + h * p * power).max(LEAST_SLOPE);
+        let step = (v + h * v * power - target) / slope;
+        v = (v - step).clamp(0.0, limit);
         if step.abs() < 1e-14 {
             break;
         }
     }
-    let slope = (1.0 + hv * p * v.abs().powf(p - 1.0)).max(0.05);
-    let root = S::constant(v);
-    let residual = root + h * odd_power(root, exponent) - u;
-    root - (residual - residual.value()) / slope
+    v
 }

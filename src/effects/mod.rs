@@ -16,6 +16,7 @@ mod cosine_error;
 mod coulomb_friction;
 mod creep;
 mod cubic_stiffness;
+mod dry_slider;
 mod hysteresis;
 mod lever_arm;
 mod loosening;
@@ -55,11 +56,15 @@ pub const EFFECTS: &[&dyn Effect] = &[
     &thermal_drift::ThermalDrift,
     &sensor_offset::SensorOffset,
     &quantization::Quantization,
+    DRY_SLIDER,
     CLEARANCE_SLIDER,
 ];
 
 /// The law of a test under imposed displacement: force over displacement, ports swapped.
 pub const CLEARANCE_SLIDER: &dyn Effect = &clearance_slider::ClearanceSlider;
+
+/// The same without a clearance.
+pub const DRY_SLIDER: &dyn Effect = &dry_slider::DrySlider;
 
 /// The effects of `library` that change the curve of a pressed joint.
 pub fn shapes(library: &[&'static dyn Effect]) -> Vec<&'static dyn Effect> {

@@ -45,9 +45,29 @@ impl<S: Scalar> Stop<S> {
         }
     }
 
-    /// Moves the input by `step`.
+    /// Slipping state just after the input turned: full in the direction before its first motion.
+    pub fn turned(input: &[f64], threshold: S) -> Self {
+        let first = input
+            .windows(2)
+            .map(|w| w[1] - w[0])
+            .find(|d| *d != 0.0)
+            .unwrap_or(0.0);
+        Self {
+            value: threshold * -first.signum(),
+        }
+    }
+
+    /// Moves the input by `step`. Duals are long: none is copied that stays.
+    #[inline]
     pub fn advance(&mut self, step: f64, threshold: S) -> S {
-        self.value = (self.value + step).min(threshold).max(-threshold);
+        let (moved, limit) = (self.value.value() + step, threshold.value());
+        if moved > limit {
+            self.value = threshold;
+        } else if moved < -limit {
+            self.value = -threshold;
+        } else if step != 0.0 {
+            self.value = self.value + step;
+        }
         self.value
     }
 }

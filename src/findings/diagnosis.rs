@@ -4,6 +4,7 @@ use super::adequacy::{self, Adequacy};
 use super::ambiguity::{Posterior, temper};
 use super::discrepancy::{Discrepancy, Structure};
 use super::gain::{Gain, Split, gain, held_out};
+use super::imposed::diagnose_imposed;
 use super::refine::{Refined, refine, refine_from};
 use super::scales::{self, ScaleFinding};
 use super::search::search;
@@ -11,6 +12,7 @@ use super::{lattice, next};
 use crate::effects::{Composite, EFFECTS, Effect, Family, shapes};
 use crate::experiments::load_cycle::{settle, settled_cycle};
 use crate::fit::candidates::Candidates;
+use crate::fit::imposed::is_imposed;
 use crate::fit::least_squares::Problem;
 use crate::fit::normal::Normal;
 use crate::fit::observation::Observation;
@@ -108,6 +110,8 @@ pub struct Diagnosis {
     pub unit: &'static str,
     /// Noise in words.
     pub noise: String,
+    /// Whether the displacement was imposed: `data` then holds it as the load, and predicts force.
+    pub imposed: bool,
 }
 
 /// How to diagnose.
@@ -161,6 +165,9 @@ struct Case<'a> {
 
 /// Diagnoses one file.
 pub fn diagnose(file: &LoadCycle, settings: &Settings) -> Diagnosis {
+    if is_imposed(file) {
+        return diagnose_imposed(file);
+    }
     let case = compare(file, settings);
     let chosen = case.choose();
     let mut named = case.name(&chosen);
@@ -610,6 +617,7 @@ impl Case<'_> {
             extended,
             unit: self.file.port.deflection_unit(),
             noise: self.screen.colour.describe(),
+            imposed: false,
             data: self.data,
         }
     }

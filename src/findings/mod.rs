@@ -10,6 +10,7 @@ pub mod ambiguity;
 pub mod diagnosis;
 pub mod discrepancy;
 pub mod gain;
+pub mod imposed;
 pub mod lattice;
 pub mod look_alikes;
 pub mod next;

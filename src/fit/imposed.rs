@@ -4,12 +4,16 @@
 //! history. The ports are swapped: the observation's "load" is the displacement, its reading the
 //! force, and the law a clearance in series with a stuck spring and a dry slider.
 
-use super::observation::{MOST_ROWS, Observation};
+use super::least_squares::{Problem, Search, minimise};
+use super::observation::{MOST_ROWS, Observation, reduce};
 use super::parameter::{Identified, Status};
-use super::solution::{Solution, fit};
-use crate::effects::{CLEARANCE_SLIDER, Composite, named};
+use super::solution::{Solution, conclude_with, noise_of};
+use super::starts::starts;
+use crate::effects::{CLEARANCE_SLIDER, Composite, Effect, named};
 use crate::experiments::load_cycle::enclosed;
+use crate::measurement::cycles::Cycles;
 use crate::measurement::load_cycle::LoadCycle;
+use crate::signal::colour::Colour;
 
 /// Share of the deflection's variance that a straight line must explain for a test to count as
 /// pressed; below, the load hardly sets the deflection.
@@ -42,22 +46,60 @@ pub struct Imposed {
 
 /// Displacement and force of a file, ports swapped.
 pub fn observe(file: &LoadCycle, most: usize) -> Observation {
-    let swapped = LoadCycle {
-        load: file.deflection.clone(),
-        deflection: file.load.clone(),
-        ..file.clone()
-    };
-    Observation::of(&swapped, most)
+    // the slider's state is known only where the motion has turned under slip
+    let from = Cycles::find(&file.deflection)
+        .turning
+        .first()
+        .copied()
+        .unwrap_or(0);
+    let block = (file.load.len() - from).div_ceil(most).max(1);
+    let part = |v: &[f64]| reduce(&v[from..], block);
+    Observation::from_channels(
+        part(&file.time),
+        part(&file.deflection),
+        part(&file.load),
+        block,
+    )
 }
 
 /// Fits clearance, stuck spring and slider.
 pub fn fit_imposed(file: &LoadCycle) -> Imposed {
     let data = observe(file, MOST_ROWS);
-    let offset = named("sensor_offset").into_iter();
-    let effects: Vec<_> = std::iter::once(CLEARANCE_SLIDER).chain(offset).collect();
-    let solution = fit(&Composite::new(&effects), &data);
+    let solution = solve(&[CLEARANCE_SLIDER], &data);
     Imposed { data, solution }
 }
+
+/// Fits laws of imposed displacement beside an offset of the force.
+///
+/// The laws' own error is far above the noise: plain least squares from every curve finds the
+/// optimum, then the residual's colour widens the intervals about it.
+pub fn solve(effects: &[&'static dyn Effect], data: &Observation) -> Solution {
+    let all: Vec<&'static dyn Effect> = effects
+        .iter()
+        .copied()
+        .chain(named("sensor_offset"))
+        .collect();
+    let model = Composite::new(&all);
+    let ignored = vec![false; data.rows()];
+    let white = Colour::white(data.rows(), data.scene.deflection_scale * 0.1);
+    let problem = Problem {
+        model: &model,
+        data,
+        colour: &white,
+        ignored: &ignored,
+    };
+    let fits = starts(&model, data, STARTS)
+        .into_iter()
+        .map(|s| minimise(&problem, &s, Search::default()));
+    let best = fits.min_by(|a, b| a.chi2.total_cmp(&b.chi2));
+    let start = best.map_or_else(|| model.start(&data.scene), |b| b.p);
+    let optimum = minimise(&problem, &start, Search::default());
+    let colour = noise_of(&problem, &optimum);
+    conclude_with(&problem, optimum, colour)
+}
+
+/// Starting points of the search.
+const STARTS: usize = 12;
 
 /// Loss of each full cycle by numerical integration, J, with the cycle's displacement range.
 pub fn losses(data: &Observation) -> Vec<(f64, f64)> {

@@ -102,6 +102,27 @@ fn leverage(jacobian: &DMatrix<f64>) -> Vec<f64> {
         .collect()
 }
 
+/// A solution found by plain least squares, its covariance widened for noise of another colour:
+/// (JᵀJ)⁻¹ JᵀSJ (JᵀJ)⁻¹ (White 1980), S the noise variance over the one assumed.
+pub fn conclude_with(problem: &Problem, optimum: Optimum, colour: Colour) -> Solution {
+    let narrow = covariance(&optimum);
+    let mut weighed = optimum.jacobian.clone();
+    for (k, (actual, assumed)) in colour.sigma.iter().zip(&problem.colour.sigma).enumerate() {
+        weighed.row_mut(k).scale_mut(actual / assumed);
+    }
+    for (j, scale) in optimum.scale.iter().enumerate() {
+        weighed.column_mut(j).scale_mut(1.0 / scale);
+    }
+    let covariance = &narrow * weighed.tr_mul(&weighed) * &narrow;
+    let status = judge(problem.model, &optimum, &covariance);
+    Solution {
+        covariance,
+        status,
+        colour,
+        ..conclude(problem, optimum)
+    }
+}
+
 fn conclude(problem: &Problem, optimum: Optimum) -> Solution {
     let predicted = problem.model.predict(&optimum.p, &problem.data.scene);
     let residual: Vec<f64> = problem

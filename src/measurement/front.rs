@@ -11,6 +11,10 @@ pub struct Front {
     text: String,
 }
 
+/// Magnitudes of facts: beyond them products with measured values leave the numbers.
+const SMALLEST: f64 = 1e-30;
+const LARGEST: f64 = 1e30;
+
 impl Front {
     /// Parses the text behind the `#` signs; line n of `text` is line n of the file.
     pub fn parse(text: String) -> Outcome<Self> {
@@ -71,14 +75,15 @@ impl Front {
                 return Err(self.problem(key, what, format!("write `# {key} = 1.5`")));
             }
         };
-        if value.is_finite() {
-            return Ok(Some(value));
+        if !value.is_finite() {
+            let remedy = "give a finite number or leave the fact out";
+            return Err(self.problem(key, "is not finite", remedy));
         }
-        Err(self.problem(
-            key,
-            "is not finite",
-            "give a finite number or leave the fact out",
-        ))
+        if value != 0.0 && !(SMALLEST..=LARGEST).contains(&value.abs()) {
+            let what = format!("is {value:e}, which nobody measures");
+            return Err(self.problem(key, what, "check the exponent and the unit of the key"));
+        }
+        Ok(Some(value))
     }
 
     /// A number above zero, if given.

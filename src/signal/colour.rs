@@ -100,8 +100,10 @@ fn candidates(n: usize) -> Vec<Candidate> {
         shape: [0.0; 2],
         relative: vec![1.0; n],
     }];
-    for correlation in [0.15, 0.3, 0.45, 0.6, 0.7, 0.8, 0.87, 0.92, 0.96, 0.985] {
-        for floor in [0.0, 0.03, 0.15, 0.5] {
+    for correlation in [
+        0.12, 0.22, 0.32, 0.42, 0.52, 0.6, 0.68, 0.76, 0.83, 0.89, 0.93, 0.96, 0.985,
+    ] {
+        for floor in [0.0, 0.08, 0.4] {
             // a white floor as high as this share of the whole variance
             let level = floor / (1.0 - correlation * correlation);
             all.push(Candidate {
