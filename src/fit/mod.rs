@@ -1,7 +1,11 @@
 //! Floor 6: from measurements to parameters with their uncertainty.
 
+pub mod axis_tests;
 pub mod bootstrap;
 pub mod candidates;
+pub mod compliance;
+pub mod convex;
+pub mod force_steps;
 pub mod frf_identifiability;
 pub mod frf_match;
 pub mod frf_measured;
@@ -14,7 +18,9 @@ pub mod observation;
 pub mod parameter;
 pub mod screen;
 pub mod second;
+pub mod separability;
 pub mod solution;
 pub mod starts;
 pub mod stiffness;
 pub mod store;
+pub mod weighing;
