@@ -11,6 +11,7 @@ mod progress;
 mod robot;
 mod simulate;
 mod stiffness;
+mod validate;
 
 use crate::ground::problem::{Outcome, Problem};
 use clap::{ArgMatches, Args, Command, FromArgMatches};
@@ -43,6 +44,7 @@ pub const VERBS: &[Verb] = &[
     stiffness::VERB,
     diagnose::VERB,
     frf::VERB,
+    validate::VERB,
     robot::VERB,
     simulate::VERB,
     effects::VERB,
