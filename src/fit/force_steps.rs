@@ -51,7 +51,7 @@ pub struct Stiffness {
 }
 
 /// Readings further from the line than this many robust standard deviations are wild.
-const WILD: f64 = 5.0;
+const WILD: f64 = 6.0;
 /// Above this relative standard deviation a slope is no measurement.
 const UNSUPPORTED: f64 = 0.5;
 

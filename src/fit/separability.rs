@@ -88,7 +88,7 @@ pub fn groups(response: &Response, weighing: &Weighing) -> Vec<Group> {
     let cosines = cosines(&weighing.design(response, &axes));
     let mut found: Vec<Group> = Vec::new();
     for (limit, kind) in [(EXACT, Kind::Exact), (NEAR, Kind::Near)] {
-        for members in connected(&cosines, limit) {
+        for members in bundles(&cosines, limit) {
             let group = alike(&axes, &members, &cosines, kind);
             if group.sites.len() > 1 && found.iter().all(|known| known.sites != group.sites) {
                 found.push(group);
@@ -125,23 +125,26 @@ fn cosines(design: &DMatrix<f64>) -> DMatrix<f64> {
     })
 }
 
-/// Groups of axes connected by cosines above `limit`.
-fn connected(cosines: &DMatrix<f64>, limit: f64) -> Vec<Vec<usize>> {
+/// Groups of axes of which every two have a cosine above `limit`, the closest joined first.
+fn bundles(cosines: &DMatrix<f64>, limit: f64) -> Vec<Vec<usize>> {
     let n = cosines.nrows();
-    let mut label: Vec<usize> = (0..n).collect();
-    for i in 0..n {
-        for j in 0..i {
-            if cosines[(i, j)] > limit && label[i] != label[j] {
-                let (from, to) = (label[i], label[j]);
-                label
-                    .iter_mut()
-                    .filter(|l| **l == from)
-                    .for_each(|l| *l = to);
-            }
+    let mut groups: Vec<Vec<usize>> = (0..n).map(|i| vec![i]).collect();
+    let mut pairs: Vec<(usize, usize)> = (0..n).flat_map(|i| (0..i).map(move |j| (i, j))).collect();
+    pairs.retain(|pair| cosines[*pair] > limit);
+    pairs.sort_by(|a, b| cosines[*b].total_cmp(&cosines[*a]).then(a.cmp(b)));
+    for (i, j) in pairs {
+        let at = |k: usize| groups.iter().position(|g| g.contains(&k)).unwrap_or(k);
+        let (a, b) = (at(i), at(j));
+        let all = groups[a]
+            .iter()
+            .all(|x| groups[b].iter().all(|y| cosines[(*x, *y)] > limit));
+        if a != b && all {
+            let moved = std::mem::take(&mut groups[a]);
+            groups[b].extend(moved);
         }
     }
-    let group = |k: usize| (0..n).filter(|i| label[*i] == k).collect::<Vec<_>>();
-    (0..n).map(group).filter(|g| g.len() > 1).collect()
+    groups.retain(|g| g.len() > 1);
+    groups
 }
 
 fn alike(axes: &[Site], members: &[usize], cosines: &DMatrix<f64>, kind: Kind) -> Group {

@@ -73,6 +73,31 @@ pub fn campaign(root: &Path, named: Option<&str>) -> Outcome<PathBuf> {
     })
 }
 
+/// The identified robot of a campaign below `root`: the one named, else the only one there is.
+///
+/// # Errors
+/// None, or several to choose from.
+pub fn identified_robot(root: &Path, named: Option<&str>) -> Outcome<PathBuf> {
+    let mut all = folders(&root.join("fits"));
+    all.retain(|folder| named.is_none_or(|name| folder.ends_with(name)));
+    let mut found: Vec<PathBuf> = all
+        .into_iter()
+        .map(|folder| folder.join("robot.toml"))
+        .collect();
+    found.retain(|path| path.is_file());
+    match found.len() {
+        1 => Ok(found.remove(0)),
+        0 => Err(Problem::new(
+            "no robot is given, and no identified one (fits/<campaign>/robot.toml) lies here",
+            "add --robot with a built-in name (kr210, kr300) or a robot file, or let `ident validate` identify one",
+        )),
+        n => Err(Problem::new(
+            format!("no robot is given, and {n} identified ones lie here"),
+            format!("add --campaign, or --robot with one of: {}", list(&found)),
+        )),
+    }
+}
+
 fn folders(under: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(under).into_iter().flatten().flatten();
     let mut found: Vec<PathBuf> = entries.map(|e| e.path()).filter(|p| p.is_dir()).collect();
