@@ -6,15 +6,6 @@ use super::parameter::{Identified, Status};
 use crate::robot::spring::Spring;
 use crate::robot::{Robot, write};
 
-/// What a workspace test found, with its provenance.
-#[derive(Debug, Clone, Copy)]
-pub struct PointsFound<'a> {
-    /// The measurement and the start of its hash.
-    pub provenance: &'a str,
-    /// Stiffness of every site.
-    pub parameters: &'a [Identified],
-}
-
 /// The robot with the stiffness and backlash of every axis test.
 #[must_use]
 pub fn with_axis_tests(robot: &Robot, tests: &[AxisTest]) -> Robot {
@@ -46,12 +37,13 @@ fn take_axis_test(spring: &mut Spring, test: &AxisTest) {
     ));
 }
 
-/// The robot with every stiffness that the workspace points identified.
+/// The robot with every stiffness that the points of a workspace test identified. `provenance`: the
+/// measurement and the start of its hash.
 #[must_use]
-pub fn with_points(robot: &Robot, found: PointsFound) -> Robot {
+pub fn with_points(robot: &Robot, parameters: &[Identified], provenance: &str) -> Robot {
     let mut robot = robot.clone();
     for (site, spring) in robot.springs_mut() {
-        let own = found.parameters.iter().find(|p| p.site == site);
+        let own = parameters.iter().find(|p| p.site == site);
         let own = own.filter(|p| p.status == Status::Identified);
         if let Some((value, ci95)) = own.and_then(|p| Some((p.value?, p.ci95?))) {
             let before = spring
@@ -61,8 +53,7 @@ pub fn with_points(robot: &Robot, found: PointsFound) -> Robot {
             spring.stiffness = value;
             spring.ci95.stiffness = Some(ci95);
             spring.source = Some(format!(
-                "stiffness: ident validate, {}, starting from what follows; {before}",
-                found.provenance
+                "stiffness: ident validate, {provenance}, starting from what follows; {before}"
             ));
         }
     }

@@ -89,11 +89,15 @@ pub fn map(validated: &Validated) -> Chart {
     let view = |name: &str, across: usize, up: usize| {
         let axis = |k: usize| Axis::new(DIRECTIONS[k], "m");
         let flat = |p: &V3| [p[across], p[up]];
-        let mut panel = Panel::new(axis(across), axis(up)).noted(name);
-        for (i, line) in lines.iter().enumerate() {
-            let name = if i == 0 { "links" } else { "" };
-            panel = panel.with(Series::line(name, line.iter().map(flat).collect()));
-        }
+        // a point that is not finite lifts the pen between two postures
+        let apart = |line: &Vec<V3>| {
+            line.iter()
+                .map(flat)
+                .chain([[f64::NAN; 2]])
+                .collect::<Vec<_>>()
+        };
+        let links = Series::line("links", lines.iter().flat_map(apart).collect());
+        let panel = Panel::new(axis(across), axis(up)).noted(name).with(links);
         let tips = lines.iter().filter_map(|line| line.last()).map(flat);
         panel.with(Series::points("points", tips.collect()).emphasised())
     };

@@ -8,7 +8,7 @@ mod tables;
 use super::output::{print, tell};
 use super::{Ending, Verb, arguments, parsed};
 use crate::fit::axis_tests::{self, AxisTest};
-use crate::fit::identified_robot::{PointsFound, text, with_axis_tests, with_points};
+use crate::fit::identified_robot::{text, with_axis_tests, with_points};
 use crate::fit::validation::{Validation, needs_attention, validate};
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
@@ -91,6 +91,38 @@ fn measurement(arguments: &Arguments) -> Outcome<PathBuf> {
     }
 }
 
+/// Writes the identified robot of a campaign after its axis tests changed: with what the points of
+/// its workspace say, if it has such a test for this robot.
+///
+/// # Errors
+/// A fit that cannot be read, a file that cannot be written.
+pub fn collect(place: &Place, base: &Loaded, synthetic: bool) -> Outcome<()> {
+    let folder = place.root.join("measurements").join(&place.campaign);
+    let points = only_of_kind(&folder, "workspace").and_then(|path| WorkspaceTest::read(&path));
+    let tests = axis_tests::read(&place.fits())?;
+    let robot = with_axis_tests(&base.robot, &tests);
+    let usable = points.ok().filter(|test| {
+        let same = load(&test.facts.robot, Some(&test.path)).is_ok_and(|l| l.sha256 == base.sha256);
+        same && fits(&robot, test).is_ok()
+    });
+    let found = match usable {
+        Some(test) => {
+            let found = validate(&test, &robot, &tests)?;
+            with_points(&robot, &found.refit.parameters(), &provenance(&test))
+        }
+        None => robot,
+    };
+    let path = place.fits().join("robot.toml");
+    files::replace(&path, text(&found, &base.path, synthetic).as_bytes())
+}
+
+/// The measurement and the start of its hash.
+fn provenance(test: &WorkspaceTest) -> String {
+    let name = test.path.file_name().unwrap_or_default().to_string_lossy();
+    let short: String = test.sha256.chars().take(12).collect();
+    format!("{name} {short}")
+}
+
 fn examine(arguments: &Arguments, path: &Path) -> Outcome<Validated> {
     let test = WorkspaceTest::read(path)?;
     let place = Place::of(path);
@@ -149,25 +181,14 @@ impl Validated {
         self.place.fits().join("robot.toml")
     }
 
-    fn provenance(&self) -> String {
-        let name = self
-            .test
-            .path
-            .file_name()
-            .unwrap_or_default()
-            .to_string_lossy();
-        let short: String = self.test.sha256.chars().take(12).collect();
-        format!("{name} {short}")
-    }
-
     /// The robot with everything found.
     fn identified(&self) -> Robot {
-        let parameters = self.found.refit.parameters();
-        let found = PointsFound {
-            provenance: &self.provenance(),
-            parameters: &parameters,
-        };
-        with_points(&with_axis_tests(&self.robot, &self.tests), found)
+        let known = with_axis_tests(&self.base.robot, &self.tests);
+        with_points(
+            &known,
+            &self.found.refit.parameters(),
+            &provenance(&self.test),
+        )
     }
 }
 

@@ -1,6 +1,6 @@
 //! The report page of `ident validate`.
 
-use super::{Validated, figures, tables};
+use super::{Validated, figures, provenance, tables};
 use crate::sheet::page::{Block, Page, Tone};
 
 /// The page.
@@ -31,7 +31,7 @@ pub fn page(validated: &Validated) -> Page {
 fn subtitle(validated: &Validated) -> String {
     format!(
         "{} with the robot {}, {} axis tests",
-        validated.provenance(),
+        provenance(&validated.test),
         validated.base.path,
         validated.tests.len()
     )
