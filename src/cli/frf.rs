@@ -1,7 +1,7 @@
 //! `ident frf`: frequency response functions of any structure from hammer tests.
 
-use super::{Ending, json};
-use super::{Verb, arguments};
+use super::output::print;
+use super::{Ending, Verb, arguments};
 use crate::experiments::hammer_frf::{self, HammerFrf, InputFrf, Settings};
 use crate::experiments::hammer_functions::universal_file;
 use crate::experiments::hammer_modes::modes;
@@ -10,13 +10,14 @@ use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::hammer::{self, HammerRecord};
 use crate::measurement::{hammer_uff, uff};
+use crate::report::json;
 use crate::signal::coherence::random_error;
 use crate::signal::frf::Estimator;
 use crate::signal::jackknife;
 use crate::signal::modes::Mode;
 use clap::{ArgMatches, Args, ValueEnum};
 use rustfft::num_complex::Complex64;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 
 /// The verb.
@@ -93,10 +94,10 @@ pub fn run(matches: &ArgMatches) -> Outcome<Ending> {
     }
     let modes = args.modes.then(|| modes(&frf, args.band_hz));
     if args.json {
-        json::print(&document(&args, &frf, modes.as_deref())?)?;
+        print(&json::compact(document(&args, &frf, modes.as_deref())?))?;
     } else {
         let account = account(&frf, args.estimator.estimator());
-        super::print(&(account + &modes_account(modes.as_deref())))?;
+        print(&(account + &modes_account(modes.as_deref())))?;
     }
     Ok(ending(&frf))
 }
@@ -143,8 +144,13 @@ fn ending(frf: &HammerFrf) -> Ending {
     }
 }
 
-fn document(args: &FrfArgs, frf: &HammerFrf, modes: Option<&[Mode]>) -> Outcome<Value> {
-    let mut document = json::head("frf", &[&args.file])?;
+fn document(
+    args: &FrfArgs,
+    frf: &HammerFrf,
+    modes: Option<&[Mode]>,
+) -> Outcome<Map<String, Value>> {
+    let sha256 = files::sha256(&files::read_bytes(&args.file)?);
+    let mut document = json::head("frf", &[(&args.file, &sha256)]);
     document.insert("resolution_Hz".into(), json::number(1.0 / frf.length_s));
     document.insert("exponential_rate_1_s".into(), json::number(frf.rate));
     document.insert("remarks".into(), json!(frf.remarks));
@@ -155,7 +161,7 @@ fn document(args: &FrfArgs, frf: &HammerFrf, modes: Option<&[Mode]>) -> Outcome<
     if let Some(modes) = modes {
         document.insert("modes".into(), modes.iter().map(mode).collect());
     }
-    Ok(Value::Object(document))
+    Ok(document)
 }
 
 fn hit(hit: &ScreenedHit) -> Value {

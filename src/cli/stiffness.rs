@@ -2,6 +2,7 @@
 
 use super::output::{print, tell};
 use super::progress::Progress;
+use super::validate;
 use super::{Ending, Verb, arguments, parsed};
 use crate::effects::Composite;
 use crate::experiments::load_cycle::Curves;
@@ -13,6 +14,7 @@ use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::load_cycle::{Axis, LoadCycle};
 use crate::measurement::workspace::{Place, resolve};
 use crate::report::{json, svg, text};
+use crate::robot::load::load;
 use crate::sheet::number::{engineering, significant};
 use crate::sheet::table::Table;
 use clap::{ArgMatches, Args};
@@ -171,7 +173,24 @@ fn write(results: &[Result]) -> Outcome<()> {
         .iter()
         .map(|(path, content)| (path.as_path(), content.as_bytes()))
         .collect();
-    files::replace_all(&inked)
+    files::replace_all(&inked)?;
+    let mut places: Vec<&Result> = results.iter().collect();
+    places.dedup_by(|a, b| a.place == b.place);
+    places.into_iter().try_for_each(collect)
+}
+
+/// Brings the identified robot of the campaign up to date. A campaign whose robot is not known
+/// here has none.
+fn collect(result: &Result) -> Outcome<()> {
+    let Some(name) = result.file.facts.robot.as_deref() else {
+        return Ok(());
+    };
+    match load(name, Some(&result.file.path)) {
+        Ok(base) if !result.place.campaign.is_empty() => {
+            validate::collect(&result.place, &base, result.file.facts.synthetic)
+        }
+        _ => Ok(()),
+    }
 }
 
 fn ink(result: &Result) -> Outcome<Vec<(PathBuf, String)>> {

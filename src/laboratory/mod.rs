@@ -6,3 +6,4 @@ pub mod noise;
 pub mod recording;
 pub mod schedule;
 pub mod truth;
+pub mod workspace;

@@ -3,6 +3,7 @@
 use super::noise::autoregressive;
 use super::recording::Recording;
 use super::schedule;
+use super::workspace::WorkspaceTruth;
 use crate::effects::{Composite, Scene};
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
@@ -24,6 +25,8 @@ pub struct Truth {
     /// The axis tests.
     #[serde(default)]
     pub load_cycle: Vec<LoadCycleTruth>,
+    /// The force steps at points of the workspace.
+    pub workspace: Option<WorkspaceTruth>,
 }
 
 /// One axis test.
@@ -89,6 +92,8 @@ fn three() -> usize {
 
 /// Stated spread of the levers.
 const LEVER_REL_STD: f64 = 0.002;
+/// Stands apart from the numbers of the axis tests.
+const WORKSPACE_SEED: u64 = 900_001;
 /// Noise of the load cell over the largest force.
 const LOAD_CELL: f64 = 5e-5;
 
@@ -117,15 +122,22 @@ impl Truth {
     /// Makes every file: path relative to the campaign, and text.
     pub fn record(&self) -> Outcome<Vec<(PathBuf, String)>> {
         let load_cycles = self.load_cycle.iter().enumerate();
-        load_cycles
+        let mut files = load_cycles
             .map(|(i, test)| {
-                let seed = self.seed.wrapping_mul(1_000_003).wrapping_add(i as u64);
-                Ok((
-                    PathBuf::from(&test.file),
-                    test.record(&self.robot, &self.source, seed)?.text(),
-                ))
+                let text = test.record(&self.robot, &self.source, self.seed_of(i as u64))?;
+                Ok((PathBuf::from(&test.file), text.text()))
             })
-            .collect()
+            .collect::<Outcome<Vec<_>>>()?;
+        if let Some(test) = &self.workspace {
+            let text = test.record(&self.robot, &self.source, self.seed_of(WORKSPACE_SEED))?;
+            files.push((PathBuf::from(&test.file), text));
+        }
+        Ok(files)
+    }
+
+    /// Every file has its own noise, so that adding one leaves the others as they were.
+    fn seed_of(&self, file: u64) -> u64 {
+        self.seed.wrapping_mul(1_000_003).wrapping_add(file)
     }
 }
 

@@ -121,6 +121,28 @@ impl Front {
         }
     }
 
+    /// Refuses a file of another kind than `wanted`, or of none.
+    ///
+    /// # Errors
+    /// Names the kind found.
+    pub fn expect_kind(&self, wanted: &str) -> Outcome<()> {
+        match self.text("kind")? {
+            Some(kind) if kind == wanted => Ok(()),
+            Some(other) => Err(self.problem(
+                "kind",
+                format!("is `{other}`, not `{wanted}`"),
+                format!(
+                    "give this verb a {wanted} file; `ident inspect FILE` shows what a file is"
+                ),
+            )),
+            None => Err(Problem::new(
+                "the front matter does not say its kind",
+                format!("start the file with the line `# kind = \"{wanted}\"`"),
+            )
+            .at_line(1)),
+        }
+    }
+
     /// True when the file says of itself that nobody measured it.
     pub fn synthetic(&self) -> bool {
         matches!(self.facts.get("synthetic"), Some(Value::Boolean(true)))

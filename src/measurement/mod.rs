@@ -10,3 +10,4 @@ pub mod load_cycle;
 pub mod table;
 pub mod uff;
 pub mod workspace;
+pub mod workspace_test;

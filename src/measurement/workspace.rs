@@ -43,6 +43,95 @@ impl Place {
     }
 }
 
+/// The folder of the measurements of a campaign below `root`: the one named, else the only one.
+///
+/// # Errors
+/// No such campaign, none at all, or several to choose from.
+pub fn campaign(root: &Path, named: Option<&str>) -> Outcome<PathBuf> {
+    let all = folders(&root.join("measurements"));
+    let names: Vec<String> = all
+        .iter()
+        .filter_map(|p| Some(p.file_name()?.to_string_lossy().into()))
+        .collect();
+    let found = match named {
+        Some(name) => names.iter().position(|n| n == name),
+        None => (all.len() == 1).then_some(0),
+    };
+    found.map(|i| all[i].clone()).ok_or_else(|| {
+        let what = match (named, names.is_empty()) {
+            (_, true) => "no campaign lies under measurements/ here".to_string(),
+            (Some(name), _) => format!("no campaign `{name}` lies under measurements/"),
+            (None, _) => format!("{} campaigns lie under measurements/", names.len()),
+        };
+        let remedy = match names.is_empty() {
+            true => {
+                "run it where measurements/<campaign>/ is, or give the measurement file".to_string()
+            }
+            false => format!("add --campaign with one of: {}", names.join(", ")),
+        };
+        Problem::new(what, remedy)
+    })
+}
+
+/// The identified robot of a campaign below `root`: the one named, else the only one there is.
+///
+/// # Errors
+/// None, or several to choose from.
+pub fn identified_robot(root: &Path, named: Option<&str>) -> Outcome<PathBuf> {
+    let mut all = folders(&root.join("fits"));
+    all.retain(|folder| named.is_none_or(|name| folder.ends_with(name)));
+    let mut found: Vec<PathBuf> = all
+        .into_iter()
+        .map(|folder| folder.join("robot.toml"))
+        .collect();
+    found.retain(|path| path.is_file());
+    match found.len() {
+        1 => Ok(found.remove(0)),
+        0 => Err(Problem::new(
+            "no robot is given, and no identified one (fits/<campaign>/robot.toml) lies here",
+            "add --robot with a built-in name (kr210, kr300) or a robot file, or let `ident validate` identify one",
+        )),
+        n => Err(Problem::new(
+            format!("no robot is given, and {n} identified ones lie here"),
+            format!("add --campaign, or --robot with one of: {}", list(&found)),
+        )),
+    }
+}
+
+fn folders(under: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(under).into_iter().flatten().flatten();
+    let mut found: Vec<PathBuf> = entries.map(|e| e.path()).filter(|p| p.is_dir()).collect();
+    found.sort();
+    found
+}
+
+/// The only measurement of a kind in the folder of a campaign.
+///
+/// # Errors
+/// None, or several: then one must be given.
+pub fn only_of_kind(folder: &Path, kind: &str) -> Outcome<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let paths = entries.map(|e| e.path());
+    let mut found: Vec<PathBuf> = paths
+        .filter(|p| p.extension().is_some_and(|e| e == "csv"))
+        .filter(|p| super::table::kind_of(p).as_deref() == Some(kind))
+        .collect();
+    found.sort();
+    match found.len() {
+        1 => Ok(found.remove(0)),
+        0 => Err(Problem::new(
+            format!("holds no measurement of kind `{kind}`"),
+            format!("put one there (`# kind = \"{kind}\"` in its front matter), or give the file"),
+        )
+        .in_file(folder)),
+        n => Err(Problem::new(
+            format!("holds {n} measurements of kind `{kind}`"),
+            format!("give one of them: {}", list(&found)),
+        )
+        .in_file(folder)),
+    }
+}
+
 /// The file meant by `name`: the path itself, or, when it is not there, the only file of that name
 /// under `measurements/`. The second value tells what was found for a name that is not a path.
 pub fn resolve(name: &Path) -> Outcome<(PathBuf, Option<String>)> {

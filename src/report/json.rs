@@ -22,3 +22,18 @@ pub fn print(map: Map<String, Value>) -> String {
     text.push('\n');
     text
 }
+
+/// A document on one line, for those that hold long series.
+pub fn compact(map: Map<String, Value>) -> String {
+    format!("{}\n", Value::Object(map))
+}
+
+/// A number, or null where it is not one.
+pub fn number(value: f64) -> Value {
+    serde_json::Number::from_f64(value).map_or(Value::Null, Value::Number)
+}
+
+/// A list of numbers, null where they are not.
+pub fn numbers(values: &[f64]) -> Value {
+    values.iter().map(|v| number(*v)).collect()
+}
