@@ -4,7 +4,6 @@ mod diagnose;
 mod effects;
 mod frf;
 mod inspect;
-pub mod json;
 mod lab;
 mod output;
 mod progress;
@@ -12,9 +11,8 @@ mod robot;
 mod simulate;
 mod stiffness;
 
-use crate::ground::problem::{Outcome, Problem};
+use crate::ground::problem::Outcome;
 use clap::{ArgMatches, Args, Command, FromArgMatches};
-use std::io::Write;
 
 /// How a verb ended; the number is the exit status of `formats.md`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,17 +55,6 @@ pub fn arguments<A: Args>(command: Command) -> Command {
 /// Reads a derived `Args` type back. The matches were made by the same type.
 pub fn parsed<A: FromArgMatches>(matches: &ArgMatches) -> A {
     A::from_arg_matches(matches).unwrap_or_else(|error| error.exit())
-}
-
-/// Prints to standard output. A closed pipe is not an error.
-pub fn print(text: &str) -> Outcome<()> {
-    match std::io::stdout().write_all(text.as_bytes()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Problem::new(
-            format!("standard output cannot be written ({error})"),
-            "check where the output is sent",
-        )),
-        _ => Ok(()),
-    }
 }
 
 /// The whole command line.
