@@ -1,4 +1,4 @@
-//! A simulated load-cycle file as text: front matter, header, rows.
+//! A simulated measurement file as text: front matter, header, rows.
 
 use std::fmt::Write;
 
@@ -8,9 +8,11 @@ pub struct Recording {
     pub facts: Vec<String>,
     /// Column names with units.
     pub columns: Vec<&'static str>,
-    /// Decimals of each column.
+    /// Words of the first column, one per row; empty: all columns are numbers.
+    pub words: Vec<&'static str>,
+    /// Decimals of each column of numbers.
     pub decimals: Vec<usize>,
-    /// Values in the columns' units, one vector per column.
+    /// Values in the columns' units, one vector per column of numbers.
     pub values: Vec<Vec<f64>>,
 }
 
@@ -24,8 +26,14 @@ impl Recording {
         let _ = writeln!(text, "{}", self.columns.join(","));
         let rows = self.values.first().map_or(0, Vec::len);
         for row in 0..rows {
+            let word = self.words.get(row).copied().unwrap_or("");
+            text.push_str(word);
             for (column, values) in self.values.iter().enumerate() {
-                let comma = if column == 0 { "" } else { "," };
+                let comma = if column == 0 && word.is_empty() {
+                    ""
+                } else {
+                    ","
+                };
                 let _ = write!(text, "{comma}{:.*}", self.decimals[column], values[row]);
             }
             text.push('\n');

@@ -1,5 +1,6 @@
 //! The readable truth of a synthetic campaign, and the files it makes.
 
+use super::hammer_truth::HammerTruth;
 use super::noise::autoregressive;
 use super::recording::Recording;
 use super::schedule;
@@ -24,6 +25,8 @@ pub struct Truth {
     /// The axis tests.
     #[serde(default)]
     pub load_cycle: Vec<LoadCycleTruth>,
+    /// The hammer tests.
+    pub hammer: Option<HammerTruth>,
 }
 
 /// One axis test.
@@ -92,6 +95,10 @@ const LEVER_REL_STD: f64 = 0.002;
 /// Noise of the load cell over the largest force.
 const LOAD_CELL: f64 = 5e-5;
 
+/// Number of the hammer tests among the seeds, far from the load cycles: one more of those changes
+/// no hammer file. Files of one campaign are struck by the same blows.
+const HAMMER: usize = 500_000;
+
 impl Truth {
     /// Reads a truth file.
     pub fn read(path: &Path) -> Outcome<Self> {
@@ -116,16 +123,27 @@ impl Truth {
 
     /// Makes every file: path relative to the campaign, and text.
     pub fn record(&self) -> Outcome<Vec<(PathBuf, String)>> {
-        let load_cycles = self.load_cycle.iter().enumerate();
-        load_cycles
-            .map(|(i, test)| {
-                let seed = self.seed.wrapping_mul(1_000_003).wrapping_add(i as u64);
-                Ok((
-                    PathBuf::from(&test.file),
-                    test.record(&self.robot, &self.source, seed)?.text(),
-                ))
-            })
-            .collect()
+        let load_cycles = self.load_cycle.iter().enumerate().map(|(i, test)| {
+            let record = test.record(&self.robot, &self.source, self.seed_of(i))?;
+            Ok((PathBuf::from(&test.file), record.text()))
+        });
+        let mut files = load_cycles.collect::<Outcome<Vec<_>>>()?;
+        if let Some(hammer) = &self.hammer {
+            let (robot, tests) = (
+                (self.robot.as_str(), self.source.as_str()),
+                &self.load_cycle,
+            );
+            for file in &hammer.file {
+                let record = hammer.record(file, robot, tests, self.seed_of(HAMMER))?;
+                files.push((PathBuf::from(&file.name), record.text()));
+            }
+        }
+        Ok(files)
+    }
+
+    /// Seed of the noise of file `i`.
+    fn seed_of(&self, i: usize) -> u64 {
+        self.seed.wrapping_mul(1_000_003).wrapping_add(i as u64)
     }
 }
 
@@ -189,6 +207,7 @@ impl LoadCycleTruth {
         Ok(Recording {
             facts: self.facts(robot, source),
             columns,
+            words: Vec::new(),
             decimals,
             values,
         })

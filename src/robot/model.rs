@@ -133,4 +133,16 @@ impl Robot {
                 .map(|axis| (axis.name.clone(), &axis.spring)),
         )
     }
+
+    /// The same springs, to be changed; a joint's drive before its tilt.
+    pub fn springs_mut(&mut self) -> impl Iterator<Item = (String, &mut Spring)> {
+        let joints = self.joints.iter_mut().flat_map(|joint| {
+            let (drive, tilt) = (joint.name.clone(), joint.tilt_site());
+            let drive = joint.drive.as_mut().map(|spring| (drive, spring));
+            let tilt = joint.tilt.as_mut().map(|spring| (tilt, spring));
+            drive.into_iter().chain(tilt)
+        });
+        let elastic = self.elastic.iter_mut();
+        joints.chain(elastic.map(|axis| (axis.name.clone(), &mut axis.spring)))
+    }
 }
