@@ -8,6 +8,7 @@ use super::frf_model::{Kind, Measured, Pose};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::random::Random;
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 
 /// One parameter.
@@ -87,9 +88,13 @@ pub fn tune(task: &Tuning) -> Outcome<Tuned> {
     check(task)?;
     let kinds: Vec<Kind> = task.parameters.iter().map(|p| p.kind).collect();
     let mut random = Random::new(11);
-    let runs: Vec<(Vec<f64>, f64)> = (0..task.starts.max(1))
-        .filter_map(|i| descend(task, &kinds, start(task, i, &mut random)))
+    let starts: Vec<Vec<f64>> = (0..task.starts.max(1))
+        .map(|i| start(task, i, &mut random))
         .collect();
+    let descents = starts
+        .into_par_iter()
+        .map(|start| descend(task, &kinds, start));
+    let runs: Vec<(Vec<f64>, f64)> = descents.collect::<Vec<_>>().into_iter().flatten().collect();
     let best = runs.iter().min_by(|a, b| a.1.total_cmp(&b.1));
     let (theta, cost) = best.ok_or_else(singular)?;
     let agreeing = runs
@@ -214,9 +219,15 @@ pub(super) fn linearise(task: &Tuning, kinds: &[Kind], theta: &[f64]) -> Option<
         slope: DVector::zeros(n),
         cost: 0.0,
     };
-    for (pose, pair) in pairs(task) {
-        let (frf, slopes) = pose.sensitivities(kinds, &values, pair)?;
-        sum.add(&channel(pair, &frf, &slopes, &values, task.residuals));
+    for pose in &task.poses {
+        let entries = pose.entries();
+        for pairs in pose.measured.chunk_by(Measured::on_lines_of) {
+            let responses = pose.responses(kinds, &values, &pairs[0])?;
+            for pair in pairs {
+                let (frf, slopes) = pose.sensitivities_of(&responses, kinds, &entries, pair);
+                sum.add(&channel(pair, &frf, &slopes, &values, task.residuals));
+            }
+        }
     }
     for (i, parameter) in task.parameters.iter().enumerate() {
         if let Some(deviation) = parameter.prior_ln_std {

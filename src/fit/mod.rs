@@ -2,10 +2,12 @@
 
 pub mod bootstrap;
 pub mod candidates;
+pub mod damping;
 pub mod frf_identifiability;
 pub mod frf_match;
 pub mod frf_measured;
 pub mod frf_model;
+pub mod frf_robot;
 pub mod frf_tuning;
 pub mod inspection;
 pub mod least_squares;
