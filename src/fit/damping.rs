@@ -75,7 +75,8 @@ pub struct Account {
     pub robot: Robot,
 }
 
-const AXES: [&str; 3] = ["x", "y", "z"];
+/// Names of the rows of the Jacobian.
+pub const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Judges the hits of a record, estimates its FRFs, looks for its modes.
 ///

@@ -2,6 +2,7 @@
 
 use super::frf_model::{Kind, Pose};
 use super::frf_tuning::Parameter;
+use super::parameter::{Identified, Status};
 use crate::ground::problem::Outcome;
 use crate::motion::linear::{Linear, gravity_stiffness};
 use crate::motion::swing::State;
@@ -185,5 +186,43 @@ pub fn with_values(robot: &Robot, parameters: &[Parameter], values: &[f64]) -> R
             }
         }
     }
+    robot
+}
+
+/// The robot with identified dampings, for simulation: each with its interval and where it comes
+/// from. A damping that the data do not fix alone takes the value of the joint fit, which meets the
+/// FRF together with the others, and says so.
+#[must_use]
+pub fn damped(
+    robot: &Robot,
+    parameters: &[Parameter],
+    values: &[f64],
+    said: &[Identified],
+    origin: &str,
+) -> Robot {
+    let mut robot = with_values(robot, parameters, values);
+    for (parameter, said) in parameters.iter().zip(said) {
+        let own = robot
+            .springs_mut()
+            .find(|(site, _)| *site == parameter.site);
+        let (Some((_, spring)), Kind::Damping) = (own, parameter.kind) else {
+            continue;
+        };
+        spring.ci95.damping = said.ci95;
+        let known = match said.status {
+            Status::Identified => format!("damping identified from {origin}"),
+            _ => format!("damping not fixed alone by {origin}: value of the joint fit"),
+        };
+        let before = spring.source.as_deref().unwrap_or("");
+        let kept: Vec<&str> = before
+            .split("; ")
+            .filter(|part| !part.is_empty() && !part.starts_with("damping"))
+            .collect();
+        spring.source = Some([kept, vec![&known]].concat().join("; "));
+    }
+    robot.notes.retain(|note| !note.starts_with("Damping "));
+    robot.notes.push(format!(
+        "Damping identified by `ident damping` from {origin}."
+    ));
     robot
 }

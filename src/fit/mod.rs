@@ -3,6 +3,7 @@
 pub mod bootstrap;
 pub mod candidates;
 pub mod damping;
+pub mod damping_store;
 pub mod frf_identifiability;
 pub mod frf_match;
 pub mod frf_measured;

@@ -18,8 +18,10 @@ pub fn text(damped: &Damped, written: &[PathBuf]) -> String {
         fixed_combinations(damped),
         matches(damped),
     ] {
-        out.push_str(&table(&part));
-        out.push('\n');
+        if !part.header.is_empty() {
+            out.push_str(&table(&part));
+            out.push('\n');
+        }
     }
     let pages = written
         .iter()
@@ -111,6 +113,10 @@ fn cells(parameter: &Identified) -> (String, String) {
 /// What the data fix of those constants that they do not fix alone.
 pub fn fixed_combinations(damped: &Damped) -> Table {
     let mut out = Table::new("Combinations that the data fix", ["product", "± %"]).numeric([1]);
+    let parameters = &damped.account.parameters;
+    if parameters.iter().all(|p| p.status == Status::Identified) {
+        return Table::default(); // each constant is fixed alone
+    }
     let alone = |weights: &[(usize, f64)]| weights.len() == 1;
     let fixed_ones = damped
         .account

@@ -1,7 +1,9 @@
 //! `ident damping`: from hammer tests to the damping constants of the robot.
 
 mod account;
+mod figures;
 mod input;
+mod page;
 mod result;
 mod write;
 
