@@ -46,7 +46,7 @@ fn intervals_of_dampings_cover_the_truth() {
         from_hz: 2.0,
         released: Released::default(),
         residuals: Residuals::None,
-        starts: 2,
+        starts: 8,
     };
     let robot = load("kr210", None).unwrap().robot;
     let (mut inside, mut all, mut open) = (0, 0, 0);

@@ -48,6 +48,11 @@ impl Residuals {
     }
 }
 
+/// Weighted sum of squares within which another minimum explains the data as well as the best: four
+/// standard deviations. Springs in series about nearly the same axis have two solutions for their
+/// dampings, which only the third order in frequency tells apart.
+const RIVAL: f64 = 16.0;
+
 /// A tuning task: shared parameters, several poses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tuning {
@@ -104,8 +109,14 @@ pub fn tune(task: &Tuning) -> Outcome<Tuned> {
     let at = linearise(task, &kinds, theta).ok_or_else(singular)?;
     let freedom = (rows(task) as f64 - task.parameters.len() as f64).max(1.0);
     let values: Vec<f64> = theta.iter().map(|t| t.exp()).collect();
+    let reduced = at.cost / freedom;
+    let rivals: Vec<&[f64]> = runs
+        .iter()
+        .filter(|run| run.1 <= cost + RIVAL * reduced.max(1.0))
+        .map(|run| run.0.as_slice())
+        .collect();
     Ok(Tuned {
-        uncertainty: uncertainty(task, theta, &at, at.cost / freedom, freedom),
+        uncertainty: uncertainty(task, theta, &at, &rivals, (reduced, freedom)),
         reduced_chi_square: at.cost / freedom,
         matches: matches(task, &kinds, &values),
         agreeing_starts: agreeing as f64 / runs.len() as f64,

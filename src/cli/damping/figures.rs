@@ -123,12 +123,13 @@ pub fn hits(test: &Test, pair: &Pair, stem: &str) -> Option<Chart> {
     let top = *pair.measured.frequency_hz.last()?;
     let low = *pair.measured.frequency_hz.first()?;
     let mut panel = Panel::new(frequencies(), accelerance());
-    for (i, hit) in input.hits.iter().enumerate() {
+    let used = test.frf.screened.iter();
+    let used = used.filter(|hit| hit.used() && hit.direction == input.input);
+    for (hit, label) in input.hits.iter().zip(used) {
         let lines = test.frf.frequency_hz.iter().zip(hit.ratio(output));
         let inside = lines.filter(|(f, _)| (low..=top).contains(*f));
         let points = inside.map(|(f, h)| [*f, h.norm()]).collect();
-        let name = if i == 0 { "each hit that was used" } else { "" };
-        panel = panel.with(Series::line(name, points));
+        panel = panel.with(Series::line(format!("hit {}", label.hit), points));
     }
     let used = input.hits.len();
     let title = format!("H_{} of {}, hit by hit", pair.name, file_name(&test.path));
@@ -152,11 +153,10 @@ pub fn poles(test: &Test, to_hz: f64, stem: &str) -> Chart {
     let mut panel = Panel::new(frequencies(), Axis::new("Order", ""))
         .with(Series::points("new pole", seen(false)))
         .with(Series::points("stable pole", seen(true)).emphasised());
-    for (i, mode) in test.modes.iter().enumerate() {
-        let name = if i == 0 { "mode taken" } else { "" };
-        let line = vec![[mode.frequency_hz, 0.0], [mode.frequency_hz, top]];
-        panel = panel.with(Series::dashed(name, line));
-    }
+    let gap = [f64::NAN, f64::NAN];
+    let line = |hz: f64| [[hz, 0.0], [hz, top], gap];
+    let taken = test.modes.iter().flat_map(|mode| line(mode.frequency_hz));
+    panel = panel.with(Series::dashed("mode taken", taken.collect()));
     let caption = "A pole is stable where the order before had it too, within 1 % in frequency and 20 % in damping.";
     let title = format!("Stabilisation, {}", file_name(&test.path));
     Chart::new(stem, title, caption)

@@ -66,7 +66,7 @@ struct Arguments {
     #[arg(long, value_name = "VALUE", default_value_t = 0.01)]
     exponential_end: f64,
     /// Starts of the search, the first at the robot's values
-    #[arg(long, default_value_t = 4, value_name = "N")]
+    #[arg(long, default_value_t = 8, value_name = "N")]
     starts: usize,
     /// Write no fit, no robot and no report
     #[arg(long)]
