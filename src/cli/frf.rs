@@ -165,7 +165,8 @@ fn hit(hit: &ScreenedHit) -> Value {
     json!({"direction": hit.direction, "hit": label, "used": hit.used(), "why": hit.why()})
 }
 
-fn mode(mode: &Mode) -> Value {
+/// A mode with its intervals, null where there is none.
+pub(super) fn mode(mode: &Mode) -> Value {
     let interval = |value: f64, half: f64| {
         let bounds = [value - half, value + half];
         half.is_finite().then(|| json::numbers(&bounds))

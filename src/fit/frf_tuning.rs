@@ -5,6 +5,8 @@
 use super::frf_identifiability::{Uncertainty, uncertainty};
 use super::frf_match::{FrfMatch, frf_match};
 use super::frf_model::{Kind, Measured, Pose};
+pub use super::frf_residuals::Residuals;
+use super::frf_residuals::{residual_basis, with_residuals};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::random::Random;
 use nalgebra::{DMatrix, DVector};
@@ -24,28 +26,6 @@ pub struct Parameter {
     pub bounds: [f64; 2],
     /// Standard deviation of the logarithm about `start`, where a prior is stated.
     pub prior_ln_std: Option<f64>,
-}
-
-/// Which terms stand for what the model leaves out, with a real factor per channel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Residuals {
-    /// None.
-    None,
-    /// `s²/K`: stiffness of the modes above the band.
-    #[default]
-    Upper,
-    /// `s²/K` and `1/M`.
-    Both,
-}
-
-impl Residuals {
-    fn powers(self) -> &'static [i32] {
-        match self {
-            Self::None => &[],
-            Self::Upper => &[2],
-            Self::Both => &[0, 2],
-        }
-    }
 }
 
 /// Weighted sum of squares within which another minimum explains the data as well as the best: four
@@ -287,26 +267,6 @@ fn channel(
     (jacobian, rest)
 }
 
-fn residual_basis(pair: &Measured, weight: &[f64], residuals: Residuals) -> Option<DMatrix<f64>> {
-    let powers = residuals.powers();
-    if powers.is_empty() {
-        return None;
-    }
-    let top = pair.s(pair.frf.len().checked_sub(1)?).norm();
-    let column = |power: &i32| {
-        let term: Vec<Complex64> = (0..pair.frf.len())
-            .map(|k| (pair.s(k) / top).powi(*power))
-            .collect();
-        stacked(&term, weight)
-    };
-    let columns: Vec<f64> = powers.iter().flat_map(column).collect();
-    Some(
-        DMatrix::from_vec(2 * pair.frf.len(), powers.len(), columns)
-            .qr()
-            .q(),
-    )
-}
-
 fn stacked(column: &[Complex64], weight: &[f64]) -> Vec<f64> {
     crate::signal::modal_model::stacked(column, weight)
 }
@@ -315,7 +275,7 @@ fn matches(task: &Tuning, kinds: &[Kind], values: &[f64]) -> Vec<Vec<[FrfMatch; 
     let starts: Vec<f64> = task.parameters.iter().map(|p| p.start).collect();
     let of = |pose: &Pose, pair: &Measured, theta: &[f64]| {
         let simulated = pose.accelerance(kinds, theta, pair).unwrap_or_default();
-        frf_match(&pair.frf, &with_residuals(task, pair, &simulated))
+        frf_match(&pair.frf, &with_residuals(task.residuals, pair, &simulated))
     };
     let pose = |pose: &Pose| -> Vec<[FrfMatch; 2]> {
         let pairs = pose.measured.iter();
@@ -324,22 +284,4 @@ fn matches(task: &Tuning, kinds: &[Kind], values: &[f64]) -> Vec<Vec<[FrfMatch; 
             .collect()
     };
     task.poses.iter().map(pose).collect()
-}
-
-/// The simulated FRF with its residual terms, fitted to the measured one.
-fn with_residuals(task: &Tuning, pair: &Measured, simulated: &[Complex64]) -> Vec<Complex64> {
-    let rest: Vec<Complex64> = pair.frf.iter().zip(simulated).map(|(m, a)| m - a).collect();
-    let weight: Vec<f64> = pair.variance.iter().map(|v| v.sqrt().recip()).collect();
-    let Some(q) = residual_basis(pair, &weight, task.residuals) else {
-        return simulated.to_vec();
-    };
-    let rest = DVector::from_vec(stacked(&rest, &weight));
-    let part = &q * q.tr_mul(&rest);
-    let n = simulated.len();
-    let term = |k: usize| Complex64::new(part[k], part[n + k]) / weight[k];
-    simulated
-        .iter()
-        .enumerate()
-        .map(|(k, h)| h + term(k))
-        .collect()
 }

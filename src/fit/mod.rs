@@ -8,6 +8,7 @@ pub mod frf_identifiability;
 pub mod frf_match;
 pub mod frf_measured;
 pub mod frf_model;
+pub mod frf_residuals;
 pub mod frf_robot;
 pub mod frf_tuning;
 pub mod inspection;

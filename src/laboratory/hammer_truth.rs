@@ -115,9 +115,9 @@ impl HammerTruth {
     fn blows(&self, seed: u64) -> Vec<Blow> {
         let mut random = Random::new(seed);
         let mut blows = Vec::new();
-        for axis in 0..DIRECTIONS.len() {
+        for (axis, direction) in DIRECTIONS.iter().enumerate() {
             for hit in 1..=self.hits {
-                let name = Some(format!("{}{hit}", DIRECTIONS[axis]));
+                let name = Some(format!("{direction}{hit}"));
                 blows.push(Blow {
                     axis,
                     hit,

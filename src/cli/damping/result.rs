@@ -2,12 +2,12 @@
 
 use super::input::Input;
 use crate::cli::Ending;
+use crate::cli::frf::mode;
 use crate::experiments::hammer_frf::HammerFrf;
 use crate::fit::damping::{Account, Pair, Request, Test};
 use crate::fit::frf_match::FrfMatch;
 use crate::fit::frf_model::Kind;
 use crate::report::json::{self, number, numbers};
-use crate::signal::modes::Mode;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 
@@ -234,20 +234,6 @@ impl Damped {
 
 fn matched(found: &FrfMatch) -> Value {
     json!({"frac": number(found.frac), "log_error_dB": number(found.log_error_db)})
-}
-
-/// A mode with its intervals, null where there is none.
-pub fn mode(mode: &Mode) -> Value {
-    let interval = |value: f64, half: f64| {
-        half.is_finite()
-            .then(|| numbers(&[value - half, value + half]))
-    };
-    json!({
-        "frequency_Hz": number(mode.frequency_hz),
-        "frequency_ci95_Hz": interval(mode.frequency_hz, mode.half_width[0]),
-        "damping_ratio": number(mode.damping_ratio),
-        "damping_ratio_ci95": interval(mode.damping_ratio, mode.half_width[1]),
-    })
 }
 
 /// The last part of a path.
