@@ -1,5 +1,6 @@
 //! Floor 9: one file per verb. A new verb is one file, one `mod` line and one line in [`VERBS`].
 
+mod damping;
 mod diagnose;
 mod effects;
 mod frf;
@@ -40,6 +41,7 @@ pub struct Verb {
 pub const VERBS: &[Verb] = &[
     inspect::VERB,
     stiffness::VERB,
+    damping::VERB,
     diagnose::VERB,
     frf::VERB,
     validate::VERB,

@@ -1,10 +1,11 @@
 //! The readable truth of a synthetic campaign, and the files it makes.
 
+use super::hammer_truth::HammerTruth;
 use super::noise::autoregressive;
 use super::recording::Recording;
-use super::schedule;
 use super::workspace::WorkspaceTruth;
 use crate::effects::{Composite, Scene};
+use crate::experiments::schedule;
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::random::Random;
@@ -27,6 +28,8 @@ pub struct Truth {
     pub load_cycle: Vec<LoadCycleTruth>,
     /// The force steps at points of the workspace.
     pub workspace: Option<WorkspaceTruth>,
+    /// The hammer tests.
+    pub hammer: Option<HammerTruth>,
 }
 
 /// One axis test.
@@ -97,6 +100,10 @@ const WORKSPACE_SEED: u64 = 900_001;
 /// Noise of the load cell over the largest force.
 const LOAD_CELL: f64 = 5e-5;
 
+/// Number of the hammer tests among the seeds, far from the load cycles: one more of those changes
+/// no hammer file. Files of one campaign are struck by the same blows.
+const HAMMER: usize = 500_000;
+
 impl Truth {
     /// Reads a truth file.
     pub fn read(path: &Path) -> Outcome<Self> {
@@ -131,6 +138,14 @@ impl Truth {
         if let Some(test) = &self.workspace {
             let text = test.record(&self.robot, &self.source, self.seed_of(WORKSPACE_SEED))?;
             files.push((PathBuf::from(&test.file), text));
+        }
+        if let Some(hammer) = &self.hammer {
+            let robot = (self.robot.as_str(), self.source.as_str());
+            for file in &hammer.file {
+                let seed = self.seed_of(HAMMER as u64);
+                let record = hammer.record(file, robot, &self.load_cycle, seed)?;
+                files.push((PathBuf::from(&file.name), record.text()));
+            }
         }
         Ok(files)
     }
@@ -201,6 +216,7 @@ impl LoadCycleTruth {
         Ok(Recording {
             facts: self.facts(robot, source),
             columns,
+            words: Vec::new(),
             decimals,
             values,
         })

@@ -1,6 +1,8 @@
 //! A workspace on disk: `measurements/<campaign>/`, `fits/<campaign>/`, `reports/<campaign>/`.
 
+use super::front::Front;
 use crate::ground::problem::{Outcome, Problem};
+use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 /// Where a measurement belongs, and where its results go.
@@ -30,6 +32,75 @@ impl Place {
             root: measurements.parent()?.to_path_buf(),
             campaign: folder.file_name()?.to_string_lossy().to_string(),
         })
+    }
+
+    /// The campaign `name` of the workspace `ident` runs in; without a name the only one there.
+    pub fn campaign(name: Option<&str>) -> Outcome<Self> {
+        let folders = || {
+            let entries = std::fs::read_dir("measurements")
+                .into_iter()
+                .flatten()
+                .flatten();
+            let folders = entries.filter(|entry| entry.path().is_dir());
+            let mut names: Vec<String> = folders
+                .map(|e| e.file_name().to_string_lossy().to_string())
+                .collect();
+            names.sort();
+            names
+        };
+        let known = folders();
+        let chosen = match name {
+            Some(name) => known.iter().find(|known| *known == name),
+            None if known.len() == 1 => known.first(),
+            None => None,
+        };
+        chosen
+            .map(|campaign| Self {
+                root: PathBuf::new(),
+                campaign: campaign.clone(),
+            })
+            .ok_or_else(|| {
+                let what = match (name, known.is_empty()) {
+                    (_, true) => "there is no folder measurements/<campaign> here".to_string(),
+                    (Some(name), _) => format!("measurements/ has no campaign `{name}`"),
+                    (None, _) => format!("measurements/ has {} campaigns", known.len()),
+                };
+                let remedy = match known.is_empty() {
+                    true => {
+                        "name a measurement file, or run in the folder that holds measurements/"
+                            .into()
+                    }
+                    false => format!("choose one with --campaign: {}", known.join(", ")),
+                };
+                Problem::new(what, remedy)
+            })
+    }
+
+    /// Folder of the measurements.
+    pub fn measurements(&self) -> PathBuf {
+        self.root.join("measurements").join(&self.campaign)
+    }
+
+    /// The CSV files of the campaign that say they are of `kind`, by name.
+    pub fn files_of(&self, kind: &str) -> Outcome<Vec<PathBuf>> {
+        let entries = std::fs::read_dir(self.measurements())
+            .into_iter()
+            .flatten()
+            .flatten();
+        let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+        files.retain(|path| {
+            path.extension()
+                .is_some_and(|e| e.eq_ignore_ascii_case("csv"))
+        });
+        files.sort();
+        let mut found = Vec::new();
+        for path in files {
+            let said = kind_of(&path).map_err(|problem| problem.in_file(&path))?;
+            if said.as_deref() == Some(kind) {
+                found.push(path);
+            }
+        }
+        Ok(found)
     }
 
     /// Folder of the fits.
@@ -130,6 +201,27 @@ pub fn only_of_kind(folder: &Path, kind: &str) -> Outcome<PathBuf> {
         )
         .in_file(folder)),
     }
+}
+
+/// The kind that the front matter of a CSV file names; only its leading lines are read.
+fn kind_of(path: &Path) -> Outcome<Option<String>> {
+    let unreadable = |e: std::io::Error| {
+        Problem::new(
+            format!("cannot be read ({e})"),
+            "make it a readable file, or move it away",
+        )
+    };
+    let file = std::fs::File::open(path).map_err(unreadable)?;
+    let mut text = String::new();
+    for line in BufReader::new(file.take(1 << 20)).split(b'\n') {
+        let line = String::from_utf8_lossy(&line.map_err(unreadable)?).to_string();
+        let Some(fact) = line.trim_start_matches('\u{feff}').strip_prefix('#') else {
+            break;
+        };
+        text.push_str(fact.strip_prefix(' ').unwrap_or(fact));
+        text.push('\n');
+    }
+    Ok(Front::parse(text)?.text("kind")?.map(str::to_string))
 }
 
 /// The file meant by `name`: the path itself, or, when it is not there, the only file of that name

@@ -23,9 +23,11 @@ pub fn print(map: Map<String, Value>) -> String {
     text
 }
 
-/// A document on one line, for those that hold long series.
-pub fn compact(map: Map<String, Value>) -> String {
-    format!("{}\n", Value::Object(map))
+/// A document with long arrays, on one line with a newline at the end.
+pub fn line(map: Map<String, Value>) -> String {
+    let mut text = Value::Object(map).to_string();
+    text.push('\n');
+    text
 }
 
 /// A number, or null where it is not one.
