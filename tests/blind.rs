@@ -1,20 +1,32 @@
 //! The tests hide an effect in the data and require finding it.
 //!
 //! The generator is written independently of `src/effects`. Seeds are fixed ones and ones that
-//! change with the day; `IDENT_BLIND_SEED` and `IDENT_BLIND_CASES` choose others.
+//! change with the day; `IDENT_BLIND_SEED` and `IDENT_BLIND_CASES` (per effect) choose others.
+//! `cargo test --test blind -- --nocapture` prints the confusion matrix.
 
 mod blind_generator;
 
 use blind_generator::{Case, EFFECTS, OUTSIDE};
+use ident::effects::Effect;
 use ident::findings::{Diagnosis, Settings, Verdict, diagnose};
 use ident::measurement::load_cycle::LoadCycle;
+use ident::measurement::table::Table;
+use rayon::prelude::*;
 use std::collections::BTreeMap;
+use std::path::Path;
 
 fn run(case: &Case) -> Diagnosis {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("case.csv");
-    std::fs::write(&path, &case.csv).unwrap();
-    diagnose(&LoadCycle::read(&path).unwrap(), &Settings::default())
+    run_with(case, &Settings::default())
+}
+
+fn run_with(case: &Case, settings: &Settings) -> Diagnosis {
+    let table = Table::from_reader(
+        Path::new("case.csv"),
+        case.csv.as_bytes(),
+        case.csv.len() as u64,
+    )
+    .unwrap();
+    diagnose(&LoadCycle::from_table(table).unwrap(), settings)
 }
 
 fn answer(diagnosis: &Diagnosis) -> String {
@@ -77,134 +89,338 @@ fn score(case: &Case, diagnosis: &Diagnosis) -> Score {
     }
 }
 
-#[test]
-#[ignore]
-fn explore() {
-    use rayon::prelude::*;
-    let number = |name: &str, other: u64| {
-        std::env::var(name)
-            .ok()
-            .and_then(|v| v.parse().ok())
-            .unwrap_or(other)
-    };
-    let (n, seed) = (number("N", 10), number("SEED", 1));
-    let only = std::env::var("ONLY").unwrap_or_default();
-    let debug = std::env::var("IDENT_DEBUG").is_ok();
-    let wanted = |name: &str| {
-        only.is_empty()
-            || only.split(',').any(|o| {
-                o == name
-                    || (o == "outside" && name.starts_with("outside"))
-                    || (o == "singles" && EFFECTS.contains(&name))
-            })
-    };
-    let kinds: Vec<&str> = EFFECTS
-        .iter()
-        .copied()
-        .chain(["clean", "pair"])
-        .chain(OUTSIDE.iter().copied())
-        .collect();
-    for effect in kinds {
-        if !wanted(effect) {
-            continue;
-        }
-        let one = |i: u64| {
-            let s = seed * 1000 + i;
-            let case = match effect {
-                "clean" => blind_generator::clean(s),
-                "pair" => blind_generator::random_pair(s),
-                e if e.starts_with("outside") => blind_generator::outside(e, s),
-                e => blind_generator::single(e, s),
-            };
-            if debug {
-                let t: Vec<String> = case
-                    .truths
-                    .iter()
-                    .map(|t| format!("{} x{:.1} {:?}", t.effect, t.strength, t.parameters))
-                    .collect();
-                eprintln!(
-                    "--- {effect} seed {s} {} {} n{} lasers {} outliers {} noise {:.3e} truth {:?}",
-                    case.schedule,
-                    case.noise,
-                    case.samples,
-                    case.lasers,
-                    case.outliers,
-                    case.noise_rms,
-                    t
-                );
-            }
-            let d = run(&case);
-            if debug {
-                eprintln!(
-                    "  => {} {:?} noise {:.2e} {}",
-                    answer(&d),
-                    d.adequacy,
-                    d.discrepancy.noise_rms,
-                    d.noise
-                );
-                for (c, p, n) in d.candidates.iter().take(6) {
-                    eprintln!("     {p:.4} {c:?} {n:.1}");
-                }
-                for c in &d.causes {
-                    eprintln!("     {} {:?} {:?}", c.effect, c.parameters, c.gain);
-                }
-                eprintln!("     p {:?}", d.p);
-            }
-            let truth = case
-                .truths
-                .iter()
-                .map(|t| t.effect)
-                .collect::<Vec<_>>()
-                .join("+");
-            (
-                score(&case, &d),
-                format!(
-                    "{:?} {} <- {}",
-                    score(&case, &d),
-                    answer(&d),
-                    if effect == "pair" {
-                        truth
-                    } else {
-                        format!(
-                            "p{:.0e} u{:.2} {}",
-                            d.adequacy.p_value, d.adequacy.unexplained, d.adequacy.test
-                        )
-                    }
-                ),
-                s,
-            )
-        };
-        let answers: Vec<(Score, String, u64)> = if debug {
-            (0..n).map(one).collect()
-        } else {
-            (0..n).into_par_iter().map(one).collect()
-        };
-        let mut tally: BTreeMap<String, Vec<u64>> = BTreeMap::new();
-        let mut scores: BTreeMap<Score, u64> = BTreeMap::new();
-        for (score, a, s) in answers {
-            *scores.entry(score).or_default() += 1;
-            tally.entry(a).or_default().push(s);
-        }
-        println!("{effect}: {scores:?}");
-        for (a, seeds) in tally {
-            println!(
-                "    {:3}  {a}   {:?}",
-                seeds.len(),
-                &seeds[..seeds.len().min(6)]
-            );
+/// What a suite counts.
+#[derive(Default)]
+struct Tally {
+    rows: BTreeMap<String, BTreeMap<String, usize>>,
+    scores: BTreeMap<(String, Score), usize>,
+}
+
+impl Tally {
+    fn add(&mut self, kind: &str, case: &Case, diagnosis: &Diagnosis) {
+        *self
+            .rows
+            .entry(kind.into())
+            .or_default()
+            .entry(answer(diagnosis))
+            .or_default() += 1;
+        *self
+            .scores
+            .entry((kind.into(), score(case, diagnosis)))
+            .or_default() += 1;
+    }
+
+    fn count(&self, wanted: impl Fn(&str) -> bool, scores: &[Score]) -> usize {
+        let hit = self
+            .scores
+            .iter()
+            .filter(|((kind, s), _)| wanted(kind) && scores.contains(s));
+        hit.map(|(_, n)| n).sum()
+    }
+
+    fn print(&self) {
+        for (kind, answers) in &self.rows {
+            let mut sorted: Vec<_> = answers.iter().collect();
+            sorted.sort_by_key(|(_, n)| std::cmp::Reverse(**n));
+            let line: Vec<String> = sorted.iter().map(|(a, n)| format!("{n} {a}")).collect();
+            println!("| {kind} | {} |", line.join(", "));
         }
     }
 }
-#[test]
-#[ignore]
-fn dump() {
-    let effect = std::env::var("ONLY").unwrap();
-    let seed: u64 = std::env::var("SEED").unwrap().parse().unwrap();
-    let case = match effect.as_str() {
-        "clean" => blind_generator::clean(seed),
-        "pair" => blind_generator::random_pair(seed),
-        e if e.starts_with("outside") => blind_generator::outside(e, seed),
-        e => blind_generator::single(e, seed),
-    };
-    std::fs::write("/tmp/case.csv", &case.csv).unwrap();
+
+const ALL: [Score; 5] = [
+    Score::Exact,
+    Score::Covered,
+    Score::Extra,
+    Score::Missed,
+    Score::Wrong,
+];
+
+fn number(name: &str) -> Option<u64> {
+    std::env::var(name).ok().and_then(|v| v.parse().ok())
 }
+
+/// Fixed seeds, and seeds of the day.
+fn seeds(count: u64) -> Vec<u64> {
+    let day = std::time::SystemTime::now()
+        .duration_since(std::time::UNIX_EPOCH)
+        .unwrap()
+        .as_secs()
+        / 86_400;
+    let base = number("IDENT_BLIND_SEED").unwrap_or(day) * 10_000;
+    (0..count)
+        .map(|i| if i % 2 == 0 { i } else { base + i })
+        .collect()
+}
+
+/// Cases per kind; `IDENT_BLIND_CASES` asks for more.
+fn per_kind(default: u64) -> u64 {
+    number("IDENT_BLIND_CASES").unwrap_or(default)
+}
+
+fn tally(kinds: &[(String, u64)], make: impl Fn(&str, u64) -> Case + Sync) -> Tally {
+    let results: Vec<(String, Case, Diagnosis)> = kinds
+        .par_iter()
+        .map(|(kind, seed)| {
+            let case = make(kind, *seed);
+            let diagnosis = run(&case);
+            (kind.clone(), case, diagnosis)
+        })
+        .collect();
+    let mut tally = Tally::default();
+    for (kind, case, diagnosis) in &results {
+        tally.add(kind, case, diagnosis);
+        if std::env::var("IDENT_DEBUG").is_ok()
+            && score(case, diagnosis) > Score::Covered
+            && !kind.starts_with("outside")
+        {
+            let truth: Vec<_> = case
+                .truths
+                .iter()
+                .map(|t| format!("{} x{:.1}", t.effect, t.strength))
+                .collect();
+            println!(
+                "# {kind} {} {} {} {} o{} n{} {truth:?} -> {} {:?} noise {:.2e}/{:.2e}",
+                case.seed,
+                case.schedule,
+                case.noise,
+                case.lasers,
+                case.outliers,
+                case.samples,
+                answer(diagnosis),
+                diagnosis.adequacy,
+                diagnosis.discrepancy.noise_rms,
+                case.noise_rms
+            );
+        }
+    }
+    tally
+}
+
+fn product(kinds: &[&str], count: u64) -> Vec<(String, u64)> {
+    kinds
+        .iter()
+        .flat_map(|k| seeds(count).into_iter().map(move |s| (k.to_string(), s)))
+        .collect()
+}
+
+fn scale(kind: &str) -> bool {
+    matches!(kind, "lever_arm" | "cosine_error" | "stiffness")
+}
+
+fn share(part: usize, all: usize) -> f64 {
+    part as f64 / all.max(1) as f64
+}
+
+/// Singles, pairs, clean data and effects outside the library. Scale errors are counted apart: in
+/// files with one laser the stated spread of the nominal stiffness hides most of them, honestly.
+#[test]
+fn hidden_effects_are_found() {
+    let mut kinds = product(EFFECTS, per_kind(16));
+    kinds.extend(product(&["clean"], per_kind(16) * 6));
+    kinds.extend(product(&["pair"], per_kind(16) * 6));
+    kinds.extend(product(OUTSIDE, per_kind(16) / 2));
+    let tally = tally(&kinds, |kind, seed| match kind {
+        "clean" => blind_generator::clean(seed),
+        "pair" => shape_pair(seed),
+        outside if outside.starts_with("outside") => blind_generator::outside(outside, seed),
+        single => blind_generator::single(single, seed),
+    });
+    tally.print();
+    let single = |k: &str| EFFECTS.contains(&k) && !scale(k);
+    let right = [Score::Exact, Score::Covered];
+    let rate = |wanted: &dyn Fn(&str) -> bool, scores: &[Score]| {
+        share(tally.count(wanted, scores), tally.count(wanted, &ALL))
+    };
+    let clean = rate(&|k| k == "clean", &[Score::Exact]);
+    let unknown = flagged(&tally);
+    println!("cases {}", kinds.len());
+    println!(
+        "single, shape: right {:.3}, exact {:.3}, wrong {:.3}",
+        rate(&single, &right),
+        rate(&single, &[Score::Exact]),
+        rate(&single, &[Score::Wrong])
+    );
+    println!(
+        "single, scale: right {:.3}, wrong {:.3}",
+        rate(&scale, &right),
+        rate(&scale, &[Score::Wrong])
+    );
+    println!(
+        "pairs: right {:.3}, exact {:.3}, wrong {:.3}",
+        rate(&|k| k == "pair", &right),
+        rate(&|k| k == "pair", &[Score::Exact]),
+        rate(&|k| k == "pair", &[Score::Wrong])
+    );
+    println!("clean: no alarm {clean:.3}; outside the library: flagged unknown {unknown:.3}");
+    assert!(
+        rate(&single, &right) >= SINGLES,
+        "single effects named right"
+    );
+    assert!(rate(&|k| k == "pair", &right) >= PAIRS, "pairs named right");
+    assert!(rate(&single, &[Score::Wrong]) <= WRONG, "wrong causes");
+    assert!(clean >= 1.0 - ALARMS, "false alarms");
+    assert!(unknown >= UNKNOWN, "effects outside the library");
+}
+
+/// Thresholds below the rates measured over 1000 and more cases (see ARCHITECTURE.md) by what a
+/// sample of this size may fall short by chance.
+const SINGLES: f64 = 0.90;
+const PAIRS: f64 = 0.72;
+const WRONG: f64 = 0.03;
+const ALARMS: f64 = 0.04;
+const UNKNOWN: f64 = 0.78;
+
+/// A pair without scale errors.
+fn shape_pair(seed: u64) -> Case {
+    (0..)
+        .map(|k| blind_generator::random_pair(seed * 31 + k))
+        .find(|case| case.truths.iter().all(|t| !scale(t.effect)))
+        .unwrap()
+}
+
+fn flagged(tally: &Tally) -> f64 {
+    let outside = tally.rows.iter().filter(|(k, _)| k.starts_with("outside"));
+    let (mut flagged, mut all) = (0, 0);
+    for (answer, count) in outside.flat_map(|(_, answers)| answers) {
+        all += count;
+        if answer.contains("UNKNOWN") {
+            flagged += count;
+        }
+    }
+    share(flagged, all)
+}
+
+/// With the true cause taken out of the library, a cause without look-alikes comes back unknown.
+#[test]
+fn a_missing_cause_is_not_invented() {
+    let kinds = product(&["backlash", "asymmetry", "loosening"], per_kind(16));
+    let unknown = kinds
+        .par_iter()
+        .filter(|(kind, seed)| {
+            let case = blind_generator::single_at(kind, 12.0, *seed);
+            let library = ident::effects::EFFECTS
+                .iter()
+                .copied()
+                .filter(|e| e.card().cause != kind)
+                .collect();
+            let verdict = run_with(
+                &case,
+                &Settings {
+                    library,
+                    ..Settings::default()
+                },
+            )
+            .verdict;
+            matches!(verdict, Verdict::UnknownCause | Verdict::PartlyExplained)
+        })
+        .count();
+    println!(
+        "true cause out of the library: unknown in {unknown} of {}",
+        kinds.len()
+    );
+    assert!(share(unknown, kinds.len()) >= 0.78, "missing causes");
+}
+
+/// The stated interval of the gain covers the gain that the generator knows.
+#[test]
+fn gains_are_honest() {
+    let kinds = product(
+        &[
+            "backlash",
+            "soft_zone",
+            "cubic_stiffness",
+            "asymmetry",
+            "coulomb_friction",
+            "creep",
+            "time_skew",
+        ],
+        per_kind(16),
+    );
+    let covered: Vec<bool> = kinds
+        .par_iter()
+        .filter_map(|(kind, seed)| {
+            let case = blind_generator::single(kind, *seed);
+            let diagnosis = run(&case);
+            let cause = diagnosis.causes.iter().find(|c| c.effect == kind)?;
+            if diagnosis.causes.len() + diagnosis.groups.len() > 1 {
+                return None;
+            }
+            let truth = true_gain(&case);
+            if std::env::var("IDENT_DEBUG").is_ok() {
+                println!(
+                    "{kind} {seed} {} {} n{} noise {:.2e} est after {:.2e} truth {truth:.2} {:?}",
+                    case.schedule,
+                    case.noise,
+                    case.samples,
+                    case.noise_rms,
+                    cause.gain.after,
+                    cause.gain
+                );
+            }
+            Some((cause.gain.ci95_percent[0]..=cause.gain.ci95_percent[1]).contains(&truth))
+        })
+        .collect();
+    let rate = share(covered.iter().filter(|c| **c).count(), covered.len());
+    println!(
+        "gain intervals cover the true gain in {rate:.3} of {}",
+        covered.len()
+    );
+    assert!(rate >= 0.72, "gain intervals");
+}
+
+/// 1 − σ/√(σ² + d²) in percent, d what the straight spring fitted to the other cycles misses.
+fn true_gain(case: &Case) -> f64 {
+    let (s, y) = (&case.straight, &case.clean);
+    let mut d2 = 0.0;
+    for cycle in 0..=case.cycle.iter().copied().max().unwrap_or(0) {
+        let sums = |other: bool| {
+            let rows = (0..y.len()).filter(move |i| (case.cycle[*i] != cycle) == other);
+            rows.fold((0.0, 0.0, 0.0), |(a, b, c), i| {
+                (a + s[i] * s[i], b + s[i] * y[i], c + y[i] * y[i])
+            })
+        };
+        let (ss, sy, _) = sums(true);
+        let (own_ss, own_sy, own_yy) = sums(false);
+        let slope = sy / ss;
+        d2 += own_yy - 2.0 * slope * own_sy + slope * slope * own_ss;
+    }
+    let (d2, n2) = (d2 / y.len() as f64, case.noise_rms * case.noise_rms);
+    100.0 * (1.0 - (n2 / (n2 + d2)).sqrt())
+}
+
+/// One file of an effect and one table line are all it takes: a toy effect that no other file knows
+/// is found in blind data.
+#[test]
+fn a_toy_effect_is_named() {
+    let toy: &'static dyn Effect = &toy::Detent;
+    let library: Vec<&'static dyn Effect> = ident::effects::EFFECTS
+        .iter()
+        .copied()
+        .chain([toy])
+        .collect();
+    let settings = Settings {
+        library,
+        ..Settings::default()
+    };
+    let found = (0..12)
+        .filter(|seed| named_detent(*seed, &settings))
+        .count();
+    assert!(found >= 11, "toy effect named in {found} of 12");
+}
+
+fn named_detent(seed: u64, settings: &Settings) -> bool {
+    let mut case = blind_generator::clean(500 + seed);
+    let angle: Vec<f64> = case.clean.clone();
+    let peak = angle.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+    let strength = 12.0 * case.noise_rms;
+    let extra: Vec<f64> = angle
+        .iter()
+        .map(|a| strength * toy::bump(a / peak))
+        .collect();
+    case.csv = toy::with(&case.csv, &extra);
+    let diagnosis = run_with(&case, settings);
+    diagnosis.causes.iter().any(|c| c.effect == "detent")
+}
+
+mod toy;

@@ -5,12 +5,12 @@ use ident::effects::{
     Card, Composite, EFFECTS, Effect, Family, Law, Parameter, SPRING, Scale, Scene,
 };
 use ident::experiments::load_cycle::enclosed;
+use ident::experiments::schedule;
 use ident::fit::observation::Observation;
 use ident::fit::parameter::Status;
 use ident::fit::solution::{Solution, fit, unit_of};
 use ident::ground::dual::Scalar;
 use ident::ground::random::Random;
-use ident::laboratory::schedule;
 use ident::measurement::load_cycle::Port;
 use rayon::prelude::*;
 use std::collections::BTreeSet;

@@ -1,23 +1,23 @@
 //! `ident frf`: frequency response functions of any structure from hammer tests.
 
-use super::{Ending, json};
-use super::{Verb, arguments};
+use super::output::{print, tell};
+use super::{Ending, Verb, arguments};
 use crate::experiments::hammer_frf::{self, HammerFrf, InputFrf, Settings};
 use crate::experiments::hammer_functions::universal_file;
 use crate::experiments::hammer_modes::modes;
 use crate::experiments::hammer_screen::ScreenedHit;
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
-use crate::measurement::hammer::{self, HammerRecord};
 use crate::measurement::{hammer_uff, uff};
+use crate::report::json;
 use crate::signal::coherence::random_error;
 use crate::signal::frf::Estimator;
 use crate::signal::jackknife;
 use crate::signal::modes::Mode;
 use clap::{ArgMatches, Args, ValueEnum};
 use rustfft::num_complex::Complex64;
-use serde_json::{Value, json};
-use std::path::{Path, PathBuf};
+use serde_json::{Map, Value, json};
+use std::path::PathBuf;
 
 /// The verb.
 pub const VERB: Verb = Verb {
@@ -81,11 +81,11 @@ impl Choice {
 pub fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let args: FrfArgs = super::parsed(matches);
     let settings = settings(&args)?;
-    let record = read(&args.file)?;
+    let record = hammer_uff::read_any(&args.file)?;
     let in_file = |problem: Problem| problem.in_file(&args.file);
     let frf = hammer_frf::estimate(&record, &settings).map_err(in_file)?;
     for remark in &frf.remarks {
-        eprintln!("note: {remark}");
+        tell(&format!("note: {remark}"));
     }
     if let Some(path) = &args.uff {
         let file = universal_file(&frf, args.estimator.estimator());
@@ -93,20 +93,17 @@ pub fn run(matches: &ArgMatches) -> Outcome<Ending> {
     }
     let modes = args.modes.then(|| modes(&frf, args.band_hz));
     if args.json {
-        json::print(&document(&args, &frf, modes.as_deref())?)?;
+        print(&json::line(document(
+            &args,
+            &record.sha256,
+            &frf,
+            modes.as_deref(),
+        )))?;
     } else {
         let account = account(&frf, args.estimator.estimator());
-        super::print(&(account + &modes_account(modes.as_deref())))?;
+        print(&(account + &modes_account(modes.as_deref())))?;
     }
     Ok(ending(&frf))
-}
-
-fn read(path: &Path) -> Outcome<HammerRecord> {
-    if hammer_uff::is_universal(path) {
-        hammer_uff::read_hammer(path)
-    } else {
-        hammer::read_hammer(path)
-    }
 }
 
 fn settings(args: &FrfArgs) -> Outcome<Settings> {
@@ -143,8 +140,13 @@ fn ending(frf: &HammerFrf) -> Ending {
     }
 }
 
-fn document(args: &FrfArgs, frf: &HammerFrf, modes: Option<&[Mode]>) -> Outcome<Value> {
-    let mut document = json::head("frf", &[&args.file])?;
+fn document(
+    args: &FrfArgs,
+    sha256: &str,
+    frf: &HammerFrf,
+    modes: Option<&[Mode]>,
+) -> Map<String, Value> {
+    let mut document = json::head("frf", &[(&args.file, sha256)]);
     document.insert("resolution_Hz".into(), json::number(1.0 / frf.length_s));
     document.insert("exponential_rate_1_s".into(), json::number(frf.rate));
     document.insert("remarks".into(), json!(frf.remarks));
@@ -155,7 +157,7 @@ fn document(args: &FrfArgs, frf: &HammerFrf, modes: Option<&[Mode]>) -> Outcome<
     if let Some(modes) = modes {
         document.insert("modes".into(), modes.iter().map(mode).collect());
     }
-    Ok(Value::Object(document))
+    document
 }
 
 fn hit(hit: &ScreenedHit) -> Value {
@@ -163,7 +165,8 @@ fn hit(hit: &ScreenedHit) -> Value {
     json!({"direction": hit.direction, "hit": label, "used": hit.used(), "why": hit.why()})
 }
 
-fn mode(mode: &Mode) -> Value {
+/// A mode with its intervals, null where there is none.
+pub(super) fn mode(mode: &Mode) -> Value {
     let interval = |value: f64, half: f64| {
         let bounds = [value - half, value + half];
         half.is_finite().then(|| json::numbers(&bounds))

@@ -1,20 +1,20 @@
 //! Floor 9: one file per verb. A new verb is one file, one `mod` line and one line in [`VERBS`].
 
+mod damping;
 mod diagnose;
 mod effects;
 mod frf;
 mod inspect;
-pub mod json;
 mod lab;
 mod output;
 mod progress;
 mod robot;
 mod simulate;
 mod stiffness;
+mod validate;
 
-use crate::ground::problem::{Outcome, Problem};
+use crate::ground::problem::Outcome;
 use clap::{ArgMatches, Args, Command, FromArgMatches};
-use std::io::Write;
 
 /// How a verb ended; the number is the exit status of `formats.md`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,8 +41,10 @@ pub struct Verb {
 pub const VERBS: &[Verb] = &[
     inspect::VERB,
     stiffness::VERB,
+    damping::VERB,
     diagnose::VERB,
     frf::VERB,
+    validate::VERB,
     robot::VERB,
     simulate::VERB,
     effects::VERB,
@@ -57,17 +59,6 @@ pub fn arguments<A: Args>(command: Command) -> Command {
 /// Reads a derived `Args` type back. The matches were made by the same type.
 pub fn parsed<A: FromArgMatches>(matches: &ArgMatches) -> A {
     A::from_arg_matches(matches).unwrap_or_else(|error| error.exit())
-}
-
-/// Prints to standard output. A closed pipe is not an error.
-pub fn print(text: &str) -> Outcome<()> {
-    match std::io::stdout().write_all(text.as_bytes()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Problem::new(
-            format!("standard output cannot be written ({error})"),
-            "check where the output is sent",
-        )),
-        _ => Ok(()),
-    }
 }
 
 /// The whole command line.

@@ -2,6 +2,7 @@
 
 use super::output::{print, tell};
 use super::progress::Progress;
+use super::validate;
 use super::{Ending, Verb, arguments, parsed};
 use crate::effects::Composite;
 use crate::experiments::load_cycle::Curves;
@@ -13,6 +14,7 @@ use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::load_cycle::{Axis, LoadCycle, Port};
 use crate::measurement::workspace::{Place, resolve};
 use crate::report::{html, json, svg, text};
+use crate::robot::load::load;
 use crate::sheet::chart::Chart;
 use crate::sheet::number::{ABSENT, engineering, fixed, prefix, significant};
 use crate::sheet::page::{Block, Page, file};
@@ -177,7 +179,24 @@ fn write(results: &[Result]) -> Outcome<()> {
         .iter()
         .map(|(path, content)| (path.as_path(), content.as_bytes()))
         .collect();
-    files::replace_all(&inked)
+    files::replace_all(&inked)?;
+    places(results)
+        .into_iter()
+        .try_for_each(|group| collect(group[0]))
+}
+
+/// Brings the identified robot of the campaign up to date. A campaign whose robot is not known
+/// here has none.
+fn collect(result: &Result) -> Outcome<()> {
+    let Some(name) = result.file.facts.robot.as_deref() else {
+        return Ok(());
+    };
+    match load(name, Some(&result.file.path)) {
+        Ok(base) if !result.place.campaign.is_empty() => {
+            validate::collect(&result.place, &base, result.file.facts.synthetic)
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The results of each campaign.

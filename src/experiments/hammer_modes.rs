@@ -6,6 +6,7 @@ use crate::signal::frf::{CrossSpectra, Estimator};
 use crate::signal::jackknife::leave_one_out;
 use crate::signal::modal_model::Channels;
 use crate::signal::modes::{Mode, identify};
+use crate::signal::stabilisation::{Point, chart};
 use rustfft::num_complex::Complex64;
 
 /// The lines beyond the band that are fitted too, so that modes at its end are seen whole.
@@ -29,6 +30,17 @@ pub fn modes(frf: &HammerFrf, to_hz: f64) -> Vec<Mode> {
         })
         .collect();
     identify(&channels, &left_out, to_hz)
+}
+
+/// The stabilisation chart from which the modes up to `to_hz` were chosen.
+pub fn stabilisation(frf: &HammerFrf, to_hz: f64) -> Vec<Point> {
+    let lines = lines(frf, to_hz);
+    let sums: Vec<&CrossSpectra> = frf.inputs.iter().map(|input| &input.sums).collect();
+    let channels = channels(frf, &sums, &lines, &weights(frf, &lines));
+    match channels.lines() < 8 {
+        true => Vec::new(),
+        false => chart(&channels),
+    }
 }
 
 fn lines(frf: &HammerFrf, to_hz: f64) -> Vec<usize> {

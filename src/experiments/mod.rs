@@ -7,3 +7,5 @@ pub mod hammer_modes;
 pub mod hammer_screen;
 pub mod hammer_variance;
 pub mod load_cycle;
+pub mod schedule;
+pub mod workspace;

@@ -60,10 +60,12 @@ impl Posterior {
         Self { sets }
     }
 
-    /// Probability that any of some causes is present.
-    pub fn any_of(&self, causes: &[&str]) -> f64 {
-        let has = |set: &[&'static str]| set.iter().any(|c| causes.contains(c));
-        self.sets.iter().filter(|s| has(&s.0)).map(|s| s.1).sum()
+    /// Probability of exactly these causes (sorted).
+    pub fn of(&self, causes: &[&'static str]) -> f64 {
+        self.sets
+            .iter()
+            .find(|s| s.0 == causes)
+            .map_or(0.0, |s| s.1)
     }
 
     /// Probability that a cause is present.

@@ -134,10 +134,10 @@ impl Default for Settings {
 
 /// A stand-in with at least this share of the winner's probability cannot be ruled out.
 const AMBIGUOUS: f64 = 0.05;
-/// Probability that a cause or one of its stand-ins is present, below which it is not named.
+/// Probability of a set against the same set less one cause, below which that cause is not named.
 const NEEDED: f64 = 0.9;
 /// Structure counts as left when a test is below this p-value ...
-const SIGNIFICANT: f64 = 1e-4;
+const SIGNIFICANT: f64 = 1e-6;
 /// ... and the unexplained share exceeds this.
 const MATTERS: f64 = 0.1;
 /// With more than this share unexplained the causes found are not the story.
@@ -288,13 +288,11 @@ impl Case<'_> {
         }
     }
 
-    /// Whether some set without this cause and without a stand-in for it would do as well.
+    /// Whether the set is clearly more probable than the same set without this cause.
     fn is_needed(&self, set: &Refined, cause: &'static str) -> bool {
-        let stand_ins = self.posterior.stand_ins(&set.causes, cause, AMBIGUOUS);
-        let family: Vec<&str> = std::iter::once(cause)
-            .chain(stand_ins.iter().map(|s| s.0))
-            .collect();
-        self.posterior.any_of(&family) > NEEDED
+        let rest: Vec<&'static str> = set.causes.iter().copied().filter(|c| *c != cause).collect();
+        let (with, without) = (self.posterior.of(&set.causes), self.posterior.of(&rest));
+        with > NEEDED * (with + without)
     }
 
     /// The set less one cause, refined.

@@ -1,9 +1,9 @@
 //! What an effect looks like, and which others look like it: computed, not remembered.
 
 use crate::effects::{Composite, EFFECTS, Effect, contract::Role};
+use crate::experiments::schedule::SCHEDULES;
 use crate::fit::candidates::Candidates;
 use crate::fit::observation::Observation;
-use crate::laboratory::schedule::SCHEDULES;
 
 /// An effect over three constant cycles, in relative units.
 pub struct Picture {

@@ -1,9 +1,9 @@
 //! The next experiment: which schedule would tell the candidates apart, by computed separation.
 
 use crate::effects::{Composite, Scene};
+use crate::experiments::schedule::SCHEDULES;
 use crate::fit::least_squares::{Problem, Search, minimise};
 use crate::fit::observation::Observation;
-use crate::laboratory::schedule::SCHEDULES;
 use crate::measurement::cycles::Cycles;
 use crate::signal::colour::Colour;
 use crate::signal::cosine::Cosine;

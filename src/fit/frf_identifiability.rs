@@ -54,13 +54,14 @@ pub struct Uncertainty {
     pub fixed: Vec<Combination>,
 }
 
-/// Reads the uncertainty off the normal matrix, scaled up where the fit is worse than the noise.
+/// Reads the uncertainty off the normal matrix, scaled up where the fit is worse than the noise, and
+/// widened to `rivals`: other minima that explain the data as well.
 pub(super) fn uncertainty(
     task: &Tuning,
     theta: &[f64],
     at: &Linearised,
-    reduced_chi_square: f64,
-    freedom: f64,
+    rivals: &[&[f64]],
+    (reduced_chi_square, freedom): (f64, f64),
 ) -> Uncertainty {
     let scale = reduced_chi_square.max(1.0);
     let mut data = at.normal.clone();
@@ -72,8 +73,10 @@ pub(super) fn uncertainty(
     let covariance = inverse(&at.normal) * scale;
     let data_only = inverse(&data) * scale;
     let statement = |i: usize| {
-        let deviation = covariance[(i, i)].sqrt();
-        let alone = data_only[(i, i)].sqrt() < IDENTIFIABLE;
+        let apart = rivals.iter().map(|rival| (rival[i] - theta[i]).abs());
+        let apart = apart.fold(0.0, f64::max) / t95(freedom);
+        let deviation = covariance[(i, i)].sqrt() + apart;
+        let alone = data_only[(i, i)].sqrt() + apart < IDENTIFIABLE;
         statement(task, theta, i, deviation, alone, freedom)
     };
     Uncertainty {

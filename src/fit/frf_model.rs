@@ -1,6 +1,6 @@
 //! The accelerance of a linearised multibody model, with its derivatives by analysis.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use rustfft::num_complex::Complex64;
 
 /// What a parameter multiplies.
@@ -43,6 +43,9 @@ pub struct Pose {
     pub measured: Vec<Measured>,
 }
 
+/// Row, column and value of a matrix.
+pub type Entry = (usize, usize, f64);
+
 /// One measured accelerance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
@@ -68,6 +71,11 @@ impl Measured {
         Complex64::new(self.rate, std::f64::consts::TAU * self.frequency_hz[k])
     }
 
+    /// Whether `other` stands on the same lines, so that the model is the same there.
+    pub fn on_lines_of(&self, other: &Self) -> bool {
+        self.rate == other.rate && self.frequency_hz == other.frequency_hz
+    }
+
     /// How many lines carry the information of one: `x·coth x` with `x = σT`, the equivalent
     /// noise bandwidth of the squared window.
     pub fn lines_per_independent_one(&self) -> f64 {
@@ -75,6 +83,9 @@ impl Measured {
         if x < 1e-6 { 1.0 } else { x / x.tanh() }
     }
 }
+
+/// `Z⁻¹Jᵀ` per line: one solution serves every pair on the same lines.
+pub struct Responses(Vec<DMatrix<Complex64>>);
 
 impl Pose {
     /// Accelerance of a measured pair at the values `theta`, (m/s²)/N, per line; none where the
@@ -85,15 +96,8 @@ impl Pose {
         theta: &[f64],
         pair: &Measured,
     ) -> Option<Vec<Complex64>> {
-        let lines = 0..pair.frequency_hz.len();
-        lines
-            .map(|k| {
-                let s = pair.s(k);
-                let z = self.dynamic_stiffness(kinds, theta, s);
-                let response = z.lu().solve(&self.row(pair.input))?;
-                Some(s * s * self.row(pair.output).dot(&response))
-            })
-            .collect()
+        let responses = self.responses(kinds, theta, pair)?;
+        Some(self.accelerance_of(&responses, pair))
     }
 
     /// Accelerance and its derivatives in every parameter: `∂H/∂θ = −s²·yₒᵀ·(sᵏG)·yᵢ`, `y = Z⁻¹Jᵀ`.
@@ -103,19 +107,68 @@ impl Pose {
         theta: &[f64],
         pair: &Measured,
     ) -> Option<(Vec<Complex64>, Vec<Vec<Complex64>>)> {
-        let mut frf = Vec::with_capacity(pair.frequency_hz.len());
-        let mut slopes = vec![Vec::with_capacity(pair.frequency_hz.len()); kinds.len()];
-        for k in 0..pair.frequency_hz.len() {
-            let s = pair.s(k);
-            let lu = self.dynamic_stiffness(kinds, theta, s).lu();
-            let input = lu.solve(&self.row(pair.input))?;
-            let output = lu.solve(&self.row(pair.output))?;
-            frf.push(s * s * self.row(pair.output).dot(&input));
-            for ((slope, kind), direction) in slopes.iter_mut().zip(kinds).zip(&self.directions) {
-                slope.push(-s * s * kind.factor(s) * bilinear(&output, direction, &input));
-            }
-        }
-        Some((frf, slopes))
+        let responses = self.responses(kinds, theta, pair)?;
+        Some(self.sensitivities_of(&responses, kinds, &self.entries(), pair))
+    }
+
+    /// The responses of all coordinates to unit forces along the rows of the Jacobian, on the lines
+    /// of `pair`; none where the dynamic stiffness is singular.
+    pub fn responses(&self, kinds: &[Kind], theta: &[f64], pair: &Measured) -> Option<Responses> {
+        let forces = self.jacobian.transpose().map(|v| Complex64::new(v, 0.0));
+        let line = |k: usize| {
+            self.dynamic_stiffness(kinds, theta, pair.s(k))
+                .lu()
+                .solve(&forces)
+        };
+        let lines = (0..pair.frequency_hz.len()).map(line);
+        lines.collect::<Option<Vec<_>>>().map(Responses)
+    }
+
+    /// [`Pose::accelerance`] from responses.
+    pub fn accelerance_of(&self, responses: &Responses, pair: &Measured) -> Vec<Complex64> {
+        let line = |(k, y): (usize, &DMatrix<Complex64>)| {
+            let (s, column) = (pair.s(k), y.column(pair.input));
+            let row = self.jacobian.row(pair.output);
+            let along: Complex64 = row.iter().zip(column.iter()).map(|(j, y)| y * *j).sum();
+            s * s * along
+        };
+        responses.0.iter().enumerate().map(line).collect()
+    }
+
+    /// [`Pose::sensitivities`] from responses and the entries of the directions.
+    pub fn sensitivities_of(
+        &self,
+        responses: &Responses,
+        kinds: &[Kind],
+        entries: &[Vec<Entry>],
+        pair: &Measured,
+    ) -> (Vec<Complex64>, Vec<Vec<Complex64>>) {
+        let slope = |(kind, entries): (&Kind, &Vec<Entry>)| {
+            let line = |(k, y): (usize, &DMatrix<Complex64>)| {
+                let s = pair.s(k);
+                let (output, input) = (y.column(pair.output), y.column(pair.input));
+                let parts = entries
+                    .iter()
+                    .map(|(i, j, value)| output[*i] * input[*j] * *value);
+                -s * s * kind.factor(s) * parts.sum::<Complex64>()
+            };
+            responses.0.iter().enumerate().map(line).collect()
+        };
+        let slopes = kinds.iter().zip(entries).map(slope).collect();
+        (self.accelerance_of(responses, pair), slopes)
+    }
+
+    /// Where each direction is not zero.
+    pub fn entries(&self) -> Vec<Vec<Entry>> {
+        let filled = |direction: &DMatrix<f64>| {
+            let n = direction.nrows();
+            let all = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+            let entry = |(i, j): (usize, usize)| (i, j, direction[(i, j)]);
+            all.map(entry)
+                .filter(|(_, _, value)| *value != 0.0)
+                .collect()
+        };
+        self.directions.iter().map(filled).collect()
     }
 
     fn dynamic_stiffness(&self, kinds: &[Kind], theta: &[f64], s: Complex64) -> DMatrix<Complex64> {
@@ -130,20 +183,4 @@ impl Pose {
         }
         z
     }
-
-    fn row(&self, row: usize) -> DVector<Complex64> {
-        let row = self.jacobian.row(row);
-        DVector::from_iterator(row.len(), row.iter().map(|v| Complex64::new(*v, 0.0)))
-    }
-}
-
-/// `aᵀ·G·b`; directions are sparse.
-fn bilinear(a: &DVector<Complex64>, direction: &DMatrix<f64>, b: &DVector<Complex64>) -> Complex64 {
-    let mut sum = Complex64::new(0.0, 0.0);
-    for (j, column) in direction.column_iter().enumerate() {
-        for (i, value) in column.iter().enumerate().filter(|(_, v)| **v != 0.0) {
-            sum += a[i] * b[j] * *value;
-        }
-    }
-    sum
 }

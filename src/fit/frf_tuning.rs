@@ -5,9 +5,12 @@
 use super::frf_identifiability::{Uncertainty, uncertainty};
 use super::frf_match::{FrfMatch, frf_match};
 use super::frf_model::{Kind, Measured, Pose};
+pub use super::frf_residuals::Residuals;
+use super::frf_residuals::{residual_basis, with_residuals};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::random::Random;
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 
 /// One parameter.
@@ -25,27 +28,10 @@ pub struct Parameter {
     pub prior_ln_std: Option<f64>,
 }
 
-/// Which terms stand for what the model leaves out, with a real factor per channel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Residuals {
-    /// None.
-    None,
-    /// `s²/K`: stiffness of the modes above the band.
-    #[default]
-    Upper,
-    /// `s²/K` and `1/M`.
-    Both,
-}
-
-impl Residuals {
-    fn powers(self) -> &'static [i32] {
-        match self {
-            Self::None => &[],
-            Self::Upper => &[2],
-            Self::Both => &[0, 2],
-        }
-    }
-}
+/// Weighted sum of squares within which another minimum explains the data as well as the best: four
+/// standard deviations. Springs in series about nearly the same axis have two solutions for their
+/// dampings, which only the third order in frequency tells apart.
+const RIVAL: f64 = 16.0;
 
 /// A tuning task: shared parameters, several poses.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,9 +73,13 @@ pub fn tune(task: &Tuning) -> Outcome<Tuned> {
     check(task)?;
     let kinds: Vec<Kind> = task.parameters.iter().map(|p| p.kind).collect();
     let mut random = Random::new(11);
-    let runs: Vec<(Vec<f64>, f64)> = (0..task.starts.max(1))
-        .filter_map(|i| descend(task, &kinds, start(task, i, &mut random)))
+    let starts: Vec<Vec<f64>> = (0..task.starts.max(1))
+        .map(|i| start(task, i, &mut random))
         .collect();
+    let descents = starts
+        .into_par_iter()
+        .map(|start| descend(task, &kinds, start));
+    let runs: Vec<(Vec<f64>, f64)> = descents.collect::<Vec<_>>().into_iter().flatten().collect();
     let best = runs.iter().min_by(|a, b| a.1.total_cmp(&b.1));
     let (theta, cost) = best.ok_or_else(singular)?;
     let agreeing = runs
@@ -99,8 +89,14 @@ pub fn tune(task: &Tuning) -> Outcome<Tuned> {
     let at = linearise(task, &kinds, theta).ok_or_else(singular)?;
     let freedom = (rows(task) as f64 - task.parameters.len() as f64).max(1.0);
     let values: Vec<f64> = theta.iter().map(|t| t.exp()).collect();
+    let reduced = at.cost / freedom;
+    let rivals: Vec<&[f64]> = runs
+        .iter()
+        .filter(|run| run.1 <= cost + RIVAL * reduced.max(1.0))
+        .map(|run| run.0.as_slice())
+        .collect();
     Ok(Tuned {
-        uncertainty: uncertainty(task, theta, &at, at.cost / freedom, freedom),
+        uncertainty: uncertainty(task, theta, &at, &rivals, (reduced, freedom)),
         reduced_chi_square: at.cost / freedom,
         matches: matches(task, &kinds, &values),
         agreeing_starts: agreeing as f64 / runs.len() as f64,
@@ -214,9 +210,15 @@ pub(super) fn linearise(task: &Tuning, kinds: &[Kind], theta: &[f64]) -> Option<
         slope: DVector::zeros(n),
         cost: 0.0,
     };
-    for (pose, pair) in pairs(task) {
-        let (frf, slopes) = pose.sensitivities(kinds, &values, pair)?;
-        sum.add(&channel(pair, &frf, &slopes, &values, task.residuals));
+    for pose in &task.poses {
+        let entries = pose.entries();
+        for pairs in pose.measured.chunk_by(Measured::on_lines_of) {
+            let responses = pose.responses(kinds, &values, &pairs[0])?;
+            for pair in pairs {
+                let (frf, slopes) = pose.sensitivities_of(&responses, kinds, &entries, pair);
+                sum.add(&channel(pair, &frf, &slopes, &values, task.residuals));
+            }
+        }
     }
     for (i, parameter) in task.parameters.iter().enumerate() {
         if let Some(deviation) = parameter.prior_ln_std {
@@ -265,26 +267,6 @@ fn channel(
     (jacobian, rest)
 }
 
-fn residual_basis(pair: &Measured, weight: &[f64], residuals: Residuals) -> Option<DMatrix<f64>> {
-    let powers = residuals.powers();
-    if powers.is_empty() {
-        return None;
-    }
-    let top = pair.s(pair.frf.len().checked_sub(1)?).norm();
-    let column = |power: &i32| {
-        let term: Vec<Complex64> = (0..pair.frf.len())
-            .map(|k| (pair.s(k) / top).powi(*power))
-            .collect();
-        stacked(&term, weight)
-    };
-    let columns: Vec<f64> = powers.iter().flat_map(column).collect();
-    Some(
-        DMatrix::from_vec(2 * pair.frf.len(), powers.len(), columns)
-            .qr()
-            .q(),
-    )
-}
-
 fn stacked(column: &[Complex64], weight: &[f64]) -> Vec<f64> {
     crate::signal::modal_model::stacked(column, weight)
 }
@@ -293,7 +275,7 @@ fn matches(task: &Tuning, kinds: &[Kind], values: &[f64]) -> Vec<Vec<[FrfMatch; 
     let starts: Vec<f64> = task.parameters.iter().map(|p| p.start).collect();
     let of = |pose: &Pose, pair: &Measured, theta: &[f64]| {
         let simulated = pose.accelerance(kinds, theta, pair).unwrap_or_default();
-        frf_match(&pair.frf, &with_residuals(task, pair, &simulated))
+        frf_match(&pair.frf, &with_residuals(task.residuals, pair, &simulated))
     };
     let pose = |pose: &Pose| -> Vec<[FrfMatch; 2]> {
         let pairs = pose.measured.iter();
@@ -302,22 +284,4 @@ fn matches(task: &Tuning, kinds: &[Kind], values: &[f64]) -> Vec<Vec<[FrfMatch; 
             .collect()
     };
     task.poses.iter().map(pose).collect()
-}
-
-/// The simulated FRF with its residual terms, fitted to the measured one.
-fn with_residuals(task: &Tuning, pair: &Measured, simulated: &[Complex64]) -> Vec<Complex64> {
-    let rest: Vec<Complex64> = pair.frf.iter().zip(simulated).map(|(m, a)| m - a).collect();
-    let weight: Vec<f64> = pair.variance.iter().map(|v| v.sqrt().recip()).collect();
-    let Some(q) = residual_basis(pair, &weight, task.residuals) else {
-        return simulated.to_vec();
-    };
-    let rest = DVector::from_vec(stacked(&rest, &weight));
-    let part = &q * q.tr_mul(&rest);
-    let n = simulated.len();
-    let term = |k: usize| Complex64::new(part[k], part[n + k]) / weight[k];
-    simulated
-        .iter()
-        .enumerate()
-        .map(|(k, h)| h + term(k))
-        .collect()
 }

@@ -18,8 +18,8 @@ pub struct Screen {
     pub fitted: Vec<f64>,
 }
 
-/// Curves of the dictionary that enter the span.
-const FROM_DICTIONARY: usize = 40;
+/// Curves of each effect that enter the span: its whole family, coarsely.
+const PER_EFFECT: usize = 4;
 /// Powers of the load on each branch.
 const POWERS: usize = 7;
 /// Slow functions of time.
@@ -106,13 +106,23 @@ fn span(data: &Observation, candidates: &Candidates) -> DMatrix<f64> {
         slow[k] = 1.0;
         columns.push(slow);
     }
-    let stride = (candidates.atoms.len() as f64 / FROM_DICTIONARY as f64).max(1.0);
-    let mut at = 0.0;
-    while (at as usize) < candidates.atoms.len() {
-        columns.push(candidates.atoms[at as usize].column.clone());
-        at += stride;
+    for atom in representatives(candidates) {
+        columns.push(candidates.atoms[atom].column.clone());
     }
     DMatrix::from_fn(n, columns.len(), |i, j| columns[j][i])
+}
+
+/// A few curves of every effect, evenly over its grid; more where the grid is long.
+fn representatives(candidates: &Candidates) -> Vec<usize> {
+    let mut chosen = Vec::new();
+    for effect in 0..candidates.library.len() {
+        let own: Vec<usize> = (0..candidates.atoms.len())
+            .filter(|i| candidates.atoms[*i].effect == effect)
+            .collect();
+        let count = PER_EFFECT.max(own.len() / 8).min(own.len());
+        chosen.extend((0..count).map(|k| own[(2 * k + 1) * own.len() / (2 * count)]));
+    }
+    chosen
 }
 
 /// Chebyshev polynomials of the load, over all rows, times the direction of loading, and times time.

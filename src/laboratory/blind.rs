@@ -2,9 +2,9 @@
 
 use super::hide::{Hidden, hide};
 use super::recording::Recording;
-use super::schedule::SCHEDULES;
 use super::truth::LoadCycleTruth;
 use crate::effects::{EFFECTS, Effect, contract::Role};
+use crate::experiments::schedule::SCHEDULES;
 use crate::ground::problem::Outcome;
 use crate::ground::random::Random;
 use crate::measurement::load_cycle::LoadCycle;

@@ -1,4 +1,4 @@
-//! A simulated load-cycle file as text: front matter, header, rows.
+//! A simulated measurement file as text: front matter, header, rows.
 
 use std::fmt::Write;
 
@@ -8,9 +8,11 @@ pub struct Recording {
     pub facts: Vec<String>,
     /// Column names with units.
     pub columns: Vec<&'static str>,
-    /// Decimals of each column.
+    /// Words of the first column, one per row; empty: all columns are numbers.
+    pub words: Vec<&'static str>,
+    /// Decimals of each column of numbers.
     pub decimals: Vec<usize>,
-    /// Values in the columns' units, one vector per column.
+    /// Values in the columns' units, one vector per column of numbers.
     pub values: Vec<Vec<f64>>,
 }
 
@@ -21,15 +23,17 @@ impl Recording {
         for fact in &self.facts {
             let _ = writeln!(text, "# {fact}");
         }
-        let _ = writeln!(text, "{}", self.columns.join(","));
+        let mut writer = csv::Writer::from_writer(Vec::new());
         let rows = self.values.first().map_or(0, Vec::len);
+        // writing into memory cannot fail
+        let _ = writer.write_record(&self.columns);
         for row in 0..rows {
-            for (column, values) in self.values.iter().enumerate() {
-                let comma = if column == 0 { "" } else { "," };
-                let _ = write!(text, "{comma}{:.*}", self.decimals[column], values[row]);
-            }
-            text.push('\n');
+            let word = self.words.get(row).map(ToString::to_string);
+            let numbers = self.values.iter().zip(&self.decimals);
+            let cells = numbers.map(|(values, decimals)| format!("{:.*}", *decimals, values[row]));
+            let _ = writer.write_record(word.into_iter().chain(cells));
         }
-        text
+        let body = writer.into_inner().unwrap_or_default();
+        text + &String::from_utf8_lossy(&body)
     }
 }

@@ -1,9 +1,11 @@
 //! The readable truth of a synthetic campaign, and the files it makes.
 
+use super::hammer_truth::HammerTruth;
 use super::noise::autoregressive;
 use super::recording::Recording;
-use super::schedule;
+use super::workspace::WorkspaceTruth;
 use crate::effects::{Composite, Scene};
+use crate::experiments::schedule;
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::random::Random;
@@ -24,6 +26,10 @@ pub struct Truth {
     /// The axis tests.
     #[serde(default)]
     pub load_cycle: Vec<LoadCycleTruth>,
+    /// The force steps at points of the workspace.
+    pub workspace: Option<WorkspaceTruth>,
+    /// The hammer tests.
+    pub hammer: Option<HammerTruth>,
 }
 
 /// One axis test.
@@ -89,8 +95,14 @@ fn three() -> usize {
 
 /// Stated spread of the levers.
 const LEVER_REL_STD: f64 = 0.002;
+/// Stands apart from the numbers of the axis tests.
+const WORKSPACE_SEED: u64 = 900_001;
 /// Noise of the load cell over the largest force.
 const LOAD_CELL: f64 = 5e-5;
+
+/// Number of the hammer tests among the seeds, far from the load cycles: one more of those changes
+/// no hammer file. Files of one campaign are struck by the same blows.
+const HAMMER: usize = 500_000;
 
 impl Truth {
     /// Reads a truth file.
@@ -117,15 +129,30 @@ impl Truth {
     /// Makes every file: path relative to the campaign, and text.
     pub fn record(&self) -> Outcome<Vec<(PathBuf, String)>> {
         let load_cycles = self.load_cycle.iter().enumerate();
-        load_cycles
+        let mut files = load_cycles
             .map(|(i, test)| {
-                let seed = self.seed.wrapping_mul(1_000_003).wrapping_add(i as u64);
-                Ok((
-                    PathBuf::from(&test.file),
-                    test.record(&self.robot, &self.source, seed)?.text(),
-                ))
+                let text = test.record(&self.robot, &self.source, self.seed_of(i as u64))?;
+                Ok((PathBuf::from(&test.file), text.text()))
             })
-            .collect()
+            .collect::<Outcome<Vec<_>>>()?;
+        if let Some(test) = &self.workspace {
+            let text = test.record(&self.robot, &self.source, self.seed_of(WORKSPACE_SEED))?;
+            files.push((PathBuf::from(&test.file), text));
+        }
+        if let Some(hammer) = &self.hammer {
+            let robot = (self.robot.as_str(), self.source.as_str());
+            for file in &hammer.file {
+                let seed = self.seed_of(HAMMER as u64);
+                let record = hammer.record(file, robot, &self.load_cycle, seed)?;
+                files.push((PathBuf::from(&file.name), record.text()));
+            }
+        }
+        Ok(files)
+    }
+
+    /// Every file has its own noise, so that adding one leaves the others as they were.
+    fn seed_of(&self, file: u64) -> u64 {
+        self.seed.wrapping_mul(1_000_003).wrapping_add(file)
     }
 }
 
@@ -189,6 +216,7 @@ impl LoadCycleTruth {
         Ok(Recording {
             facts: self.facts(robot, source),
             columns,
+            words: Vec::new(),
             decimals,
             values,
         })

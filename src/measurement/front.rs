@@ -121,6 +121,51 @@ impl Front {
         }
     }
 
+    /// Refuses a file of another kind than `wanted`, or of none.
+    ///
+    /// # Errors
+    /// Names the kind found.
+    pub fn expect_kind(&self, wanted: &str) -> Outcome<()> {
+        match self.text("kind")? {
+            Some(kind) if kind == wanted => Ok(()),
+            Some(other) => Err(self.problem(
+                "kind",
+                format!("is `{other}`, not `{wanted}`"),
+                format!(
+                    "give this verb a {wanted} file; `ident inspect FILE` shows what a file is"
+                ),
+            )),
+            None => Err(Problem::new(
+                "the front matter does not say its kind",
+                format!("start the file with the line `# kind = \"{wanted}\"`"),
+            )
+            .at_line(1)),
+        }
+    }
+
+    /// A list of finite numbers, if given.
+    pub fn numbers(&self, key: &str) -> Outcome<Option<Vec<f64>>> {
+        let Some(value) = self.facts.get(key) else {
+            return Ok(None);
+        };
+        let number = |value: &Value| match value {
+            Value::Float(x) => x.is_finite().then_some(*x),
+            Value::Integer(i) => Some(*i as f64),
+            _ => None,
+        };
+        let list: Option<Vec<f64>> = value
+            .as_array()
+            .and_then(|list| list.iter().map(number).collect());
+        let refused = || {
+            self.problem(
+                key,
+                "is not a list of finite numbers",
+                format!("write `# {key} = [0.0, 1.5]`"),
+            )
+        };
+        list.map(Some).ok_or_else(refused)
+    }
+
     /// True when the file says of itself that nobody measured it.
     pub fn synthetic(&self) -> bool {
         matches!(self.facts.get("synthetic"), Some(Value::Boolean(true)))

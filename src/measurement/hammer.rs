@@ -1,11 +1,14 @@
 //! Kind `hammer`: impulse-hammer tests, force and acceleration over time.
 
-use super::columns::Columns;
+use super::front::Front;
+use super::table::{Column, Table};
 use crate::ground::problem::{Outcome, Problem};
+use crate::ground::units::{DEGREE, Dimension};
+use std::ops::Range;
 use std::path::Path;
 
 /// A hammer test as measured, in SI.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct HammerRecord {
     /// The robot file named in the front matter.
     pub robot: Option<String>,
@@ -22,6 +25,12 @@ pub struct HammerRecord {
     pub outputs: Vec<String>,
     /// The records, in file order.
     pub runs: Vec<HammerRun>,
+    /// True when the file says that nobody measured it.
+    pub synthetic: bool,
+    /// True when the file says `role = "comparison"`: it is taken only when it is named.
+    pub comparison: bool,
+    /// SHA-256 of the file.
+    pub sha256: String,
 }
 
 /// One uninterrupted record.
@@ -39,45 +48,84 @@ pub struct HammerRun {
 
 /// Reads a file of kind `hammer`.
 pub fn read_hammer(path: &Path) -> Outcome<HammerRecord> {
-    let columns = Columns::read(path)?;
-    from_columns(&columns).map_err(|problem| problem.in_file(path))
+    from_table(&Table::read(path)?).map_err(|problem| problem.in_file(path))
 }
 
-fn from_columns(columns: &Columns) -> Outcome<HammerRecord> {
-    let time = required(columns, "time", "time_s")?;
-    let force = required(columns, "force", "force_N")?;
-    let outputs = outputs(columns)?;
-    let spans = spans(columns, time);
-    let interval_s = interval(columns, time, &spans)?;
+fn from_table(table: &Table) -> Outcome<HammerRecord> {
+    check_kind(&table.front)?;
+    let time = required(table, "time_s", Dimension::Time)?;
+    let force = required(table, "force_N", Dimension::Force)?;
+    let outputs = outputs(table)?;
+    let hits = hits(table)?;
+    let spans = spans(table, hits, time);
+    let interval_s = interval(table, time, &spans)?;
     let runs = spans
         .iter()
-        .map(|span| run(columns, force, &outputs, span.clone()))
+        .map(|span| run(table, hits, force, &outputs, span.clone()))
         .collect::<Outcome<_>>()?;
+    let front = &table.front;
     Ok(HammerRecord {
-        robot: text(columns, "robot"),
-        joint_angles: joint_angles(columns)?,
-        accelerometer_noise: positive(columns, "accelerometer_noise_m_s2")?,
-        exponential_window_s: positive(columns, "exponential_window_s")?,
+        robot: front.text("robot")?.map(str::to_string),
+        joint_angles: joint_angles(front)?,
+        accelerometer_noise: front.positive("accelerometer_noise_m_s2")?,
+        exponential_window_s: front.positive("exponential_window_s")?,
         interval_s,
         outputs: outputs.into_iter().map(|(name, _)| name).collect(),
         runs,
+        synthetic: front.synthetic(),
+        comparison: front.text("role")? == Some("comparison"),
+        sha256: table.sha256.clone(),
     })
 }
 
-fn required<'a>(columns: &'a Columns, stem: &str, name: &str) -> Outcome<&'a [f64]> {
-    columns.numbers(stem).ok_or_else(|| {
+fn check_kind(front: &Front) -> Outcome<()> {
+    match front.text("kind")? {
+        None | Some("hammer") => Ok(()),
+        Some(other) => Err(front.problem(
+            "kind",
+            format!("is `{other}`, not a hammer test"),
+            "give a file of kind `hammer`",
+        )),
+    }
+}
+
+/// The numbers of column `name` (SI), which must measure `dimension`.
+fn numbers<'a>(
+    table: &'a Table,
+    name: &str,
+    dimension: Dimension,
+) -> Outcome<Option<(&'a Column, &'a [f64])>> {
+    let stem = name.split('_').next().unwrap_or(name);
+    let Some(column) = table.column(stem) else {
+        return Ok(None);
+    };
+    match column.numbers() {
+        Some(values) if column.dimension == Some(dimension) => Ok(Some((column, values))),
+        _ => Err(Problem::new(
+            format!("does not measure what a hammer test needs in `{stem}`"),
+            format!("give this column the unit of `{name}`"),
+        )
+        .in_column(&column.name)),
+    }
+}
+
+fn required<'a>(table: &'a Table, name: &str, dimension: Dimension) -> Outcome<&'a [f64]> {
+    let found = numbers(table, name, dimension)?.map(|(_, values)| values);
+    found.ok_or_else(|| {
         Problem::new("column is missing", format!("add the column `{name}`")).in_column(name)
     })
 }
 
+type Output<'a> = (String, (&'a Column, &'a [f64]));
+
 /// The measured accelerations: columns `ax`, `ay`, `az` that are not empty throughout.
-fn outputs(columns: &Columns) -> Outcome<Vec<(String, &[f64])>> {
-    let measured = ["x", "y", "z"].into_iter().filter_map(|name| {
-        let column = columns.numbers(&format!("a{name}"))?;
-        let any = column.iter().any(|v| !v.is_nan());
-        any.then(|| (name.to_string(), column))
-    });
-    let outputs: Vec<_> = measured.collect();
+fn outputs(table: &Table) -> Outcome<Vec<Output<'_>>> {
+    let mut outputs = Vec::new();
+    for name in ["x", "y", "z"] {
+        let column = numbers(table, &format!("a{name}_m_s2"), Dimension::Acceleration)?;
+        let measured = column.filter(|(_, values)| values.iter().any(|v| !v.is_nan()));
+        outputs.extend(measured.map(|column| (name.to_string(), column)));
+    }
     if outputs.is_empty() {
         return Err(Problem::new(
             "no acceleration was measured",
@@ -87,21 +135,46 @@ fn outputs(columns: &Columns) -> Outcome<Vec<(String, &[f64])>> {
     Ok(outputs)
 }
 
-/// Row ranges of the records: a new one where direction or hit changes, or time starts again.
-fn spans(columns: &Columns, time: &[f64]) -> Vec<std::ops::Range<usize>> {
-    let differs = |words: Option<&[String]>, i: usize| words.is_some_and(|w| w[i] != w[i - 1]);
-    let begins =
-        |i: usize| differs(columns.words("direction"), i) || differs(columns.words("hit"), i);
-    let mut starts: Vec<usize> = (1..time.len()).filter(|i| begins(*i)).collect();
+/// The hit numbers; none where the file has no such column, or an empty one: continuous records.
+fn hits(table: &Table) -> Outcome<Option<&[f64]>> {
+    let column = table.column("hit").and_then(Column::numbers);
+    let Some(hits) = column.filter(|hits| hits.iter().any(|hit| !hit.is_nan())) else {
+        return Ok(None);
+    };
+    match hits.iter().position(|hit| hit.is_nan()) {
+        None => Ok(Some(hits)),
+        Some(row) => Err(Problem::new(
+            "hit without a number",
+            "number every sample of every hit, or leave the whole column empty",
+        )
+        .at_line(table.line_of(row))
+        .in_column("hit")),
+    }
+}
+
+/// The direction of a row, in lower case.
+fn direction(table: &Table, row: usize) -> Option<String> {
+    let (codes, words) = table.column("direction")?.words()?;
+    Some(words.get(usize::from(*codes.get(row)?))?.to_lowercase())
+}
+
+/// Row ranges of the records: a new one where direction or hit changes.
+fn spans(table: &Table, hits: Option<&[f64]>, time: &[f64]) -> Vec<Range<usize>> {
+    let words = table.column("direction").and_then(Column::words);
+    let begins = |i: &usize| {
+        words.is_some_and(|(codes, _)| codes[*i] != codes[i - 1])
+            || hits.is_some_and(|hits| hits[*i] != hits[i - 1])
+    };
+    let mut starts: Vec<usize> = (1..time.len()).filter(begins).collect();
     starts.insert(0, 0);
     starts.push(time.len());
     starts.windows(2).map(|w| w[0]..w[1]).collect()
 }
 
 /// Mean time step over all records, snapped to a whole sampling rate within 1e-5.
-fn interval(columns: &Columns, time: &[f64], spans: &[std::ops::Range<usize>]) -> Outcome<f64> {
+fn interval(table: &Table, time: &[f64], spans: &[Range<usize>]) -> Outcome<f64> {
     let steps: usize = spans.iter().map(|s| s.len().saturating_sub(1)).sum();
-    let length = |s: &std::ops::Range<usize>| time[s.end - 1] - time[s.start];
+    let length = |s: &Range<usize>| time[s.end - 1] - time[s.start];
     let total: f64 = spans.iter().filter(|s| s.len() > 1).map(length).sum();
     if steps < 8 {
         return Err(Problem::new(
@@ -112,7 +185,7 @@ fn interval(columns: &Columns, time: &[f64], spans: &[std::ops::Range<usize>]) -
     let interval = snapped(total / steps as f64);
     spans
         .iter()
-        .try_for_each(|span| check_steps(columns, time, span, interval))?;
+        .try_for_each(|span| check_steps(table, time, span, interval))?;
     Ok(interval)
 }
 
@@ -126,12 +199,7 @@ fn snapped(interval: f64) -> f64 {
     }
 }
 
-fn check_steps(
-    columns: &Columns,
-    time: &[f64],
-    span: &std::ops::Range<usize>,
-    interval: f64,
-) -> Outcome<()> {
+fn check_steps(table: &Table, time: &[f64], span: &Range<usize>, interval: f64) -> Outcome<()> {
     let wrong = |i: &usize| {
         let step = time[*i] - time[i - 1];
         !(step > 0.75 * interval && step < 1.25 * interval)
@@ -153,17 +221,17 @@ fn check_steps(
     };
     let what = format!("{what} (step {step:.3e} s, others {interval:.3e} s)");
     Err(Problem::new(what, remedy)
-        .at_line(columns.lines[i])
+        .at_line(table.line_of(i))
         .in_column("time_s"))
 }
 
 fn run(
-    columns: &Columns,
+    table: &Table,
+    hits: Option<&[f64]>,
     force: &[f64],
-    outputs: &[(String, &[f64])],
-    span: std::ops::Range<usize>,
+    outputs: &[Output],
+    span: Range<usize>,
 ) -> Outcome<HammerRun> {
-    let word = |name: &str| columns.words(name).map(|words| words[span.start].clone());
     let whole = |name: &str, column: &[f64]| {
         let part = &column[span.clone()];
         match part.iter().position(|v| v.is_nan()) {
@@ -172,51 +240,23 @@ fn run(
                 "missing value inside a time record",
                 "export the record without gaps, or leave the whole column empty",
             )
-            .at_line(columns.lines[span.start + i])
+            .at_line(table.line_of(span.start + i))
             .in_column(name)),
         }
     };
     let responses = outputs
         .iter()
-        .map(|(name, column)| whole(&format!("a{name}_m_s2"), column));
+        .map(|(_, (column, values))| whole(&column.name, values));
     Ok(HammerRun {
-        direction: word("direction").map_or_else(|| "force".into(), |d| d.to_lowercase()),
-        hit: word("hit"),
+        direction: direction(table, span.start).unwrap_or_else(|| "force".into()),
+        hit: hits.map(|hits| hits[span.start].to_string()),
         force: whole("force_N", force)?,
         responses: responses.collect::<Outcome<_>>()?,
     })
 }
 
-fn text(columns: &Columns, key: &str) -> Option<String> {
-    Some(columns.front.get(key)?.as_str()?.to_string())
-}
-
-fn number(value: &toml::Value) -> Option<f64> {
-    value
-        .as_float()
-        .or_else(|| Some(value.as_integer()? as f64))
-}
-
-fn positive(columns: &Columns, key: &str) -> Outcome<Option<f64>> {
-    let Some(value) = columns.front.get(key) else {
-        return Ok(None);
-    };
-    match number(value) {
-        Some(v) if v > 0.0 && v.is_finite() => Ok(Some(v)),
-        _ => Err(Problem::new("is not a positive number", "write a number above 0").in_column(key)),
-    }
-}
-
-fn joint_angles(columns: &Columns) -> Outcome<Option<Vec<f64>>> {
-    let key = "joint_angles_deg";
-    let Some(value) = columns.front.get(key) else {
-        return Ok(None);
-    };
-    let degrees = value.as_array().map(|row| row.iter().map(number).collect());
-    let degrees: Option<Option<Vec<f64>>> = degrees;
-    let degrees = degrees.flatten().ok_or_else(|| {
-        Problem::new("is not a list of numbers", "write [q1, q2, q3, q4, q5, q6]").in_column(key)
-    })?;
-    let radians = |d: f64| d * crate::ground::units::DEGREE;
-    Ok(Some(degrees.into_iter().map(radians).collect()))
+/// Joint angles of the pose, rad.
+fn joint_angles(front: &Front) -> Outcome<Option<Vec<f64>>> {
+    let degrees = front.numbers("joint_angles_deg")?;
+    Ok(degrees.map(|degrees| degrees.iter().map(|d| d * DEGREE).collect()))
 }

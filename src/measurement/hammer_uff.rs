@@ -1,7 +1,8 @@
 //! Kind `hammer` from the time records of a universal file.
 
-use super::hammer::{HammerRecord, HammerRun};
+use super::hammer::{self, HammerRecord, HammerRun};
 use super::uff::{self, Abscissa, Function, Kind, Quantity, Values};
+use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use std::path::Path;
 
@@ -11,10 +12,23 @@ pub fn is_universal(path: &Path) -> bool {
     matches!(name.as_deref(), Some("uff" | "unv" | "ufb" | "58"))
 }
 
+/// Reads a hammer test of either form: universal file by its name, else CSV.
+pub fn read_any(path: &Path) -> Outcome<HammerRecord> {
+    if is_universal(path) {
+        read_hammer(path)
+    } else {
+        hammer::read_hammer(path)
+    }
+}
+
 /// Reads force and acceleration records; the k-th force belongs to the k-th record of each response.
 pub fn read_hammer(path: &Path) -> Outcome<HammerRecord> {
     let file = uff::read(path)?;
-    from_functions(&file.functions_si()).map_err(|problem| problem.in_file(path))
+    let record = from_functions(&file.functions_si()).map_err(|problem| problem.in_file(path))?;
+    Ok(HammerRecord {
+        sha256: files::sha256(&files::read_bytes(path)?),
+        ..record
+    })
 }
 
 fn from_functions(functions: &[Function]) -> Outcome<HammerRecord> {
@@ -44,13 +58,10 @@ fn from_functions(functions: &[Function]) -> Outcome<HammerRecord> {
         }
     }
     Ok(HammerRecord {
-        robot: None,
-        joint_angles: None,
-        accelerometer_noise: None,
-        exponential_window_s: None,
         interval_s,
         outputs: outputs.into_iter().map(|(name, _)| name).collect(),
         runs,
+        ..HammerRecord::default()
     })
 }
 

@@ -132,7 +132,7 @@ impl LoadCycle {
 
     /// Interprets a table that was read already.
     pub fn from_table(table: Table) -> Outcome<Self> {
-        check_kind(&table.front)?;
+        table.front.expect_kind("load-cycle")?;
         let facts = Facts::of(&table.front)?;
         let ports = Channels::find(&table, &facts)?;
         ports.check_facts(&table.front, &facts)?;
@@ -195,22 +195,6 @@ fn check_time(table: &Table) -> Outcome<()> {
         before = *now;
     }
     Ok(())
-}
-
-fn check_kind(front: &Front) -> Outcome<()> {
-    match front.text("kind")? {
-        Some("load-cycle") => Ok(()),
-        Some(other) => Err(front.problem(
-            "kind",
-            format!("is `{other}`, not `load-cycle`"),
-            "give this verb a load-cycle file; `ident inspect FILE` shows what a file is",
-        )),
-        None => Err(Problem::new(
-            "the front matter does not say its kind",
-            "start the file with the line `# kind = \"load-cycle\"`",
-        )
-        .at_line(1)),
-    }
 }
 
 impl Facts {

@@ -1,7 +1,6 @@
 //! Floor 1: what a laboratory wrote down. Reads tables with front matter into SI columns, then the
 //! experiment kinds of `measurements/README.md`, refusing with file, line and remedy.
 
-pub mod columns;
 pub mod cycles;
 pub mod front;
 pub mod hammer;
@@ -10,3 +9,4 @@ pub mod load_cycle;
 pub mod table;
 pub mod uff;
 pub mod workspace;
+pub mod workspace_test;

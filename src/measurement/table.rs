@@ -124,6 +124,13 @@ impl Table {
     }
 }
 
+/// The kind that a file's front matter names, if it can be read that far.
+pub fn kind_of(path: &Path) -> Option<String> {
+    let mut reader = BufReader::new(File::open(path).ok()?);
+    let (front, ..) = read_head(&mut reader).ok()?;
+    Some(front.text("kind").ok()??.to_string())
+}
+
 fn unreadable(error: &std::io::Error) -> Problem {
     let remedy = match error.kind() {
         std::io::ErrorKind::NotFound => "check the path; no such file is there",

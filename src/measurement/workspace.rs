@@ -1,6 +1,8 @@
 //! A workspace on disk: `measurements/<campaign>/`, `fits/<campaign>/`, `reports/<campaign>/`.
 
+use super::front::Front;
 use crate::ground::problem::{Outcome, Problem};
+use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 /// Where a measurement belongs, and where its results go.
@@ -32,6 +34,75 @@ impl Place {
         })
     }
 
+    /// The campaign `name` of the workspace `ident` runs in; without a name the only one there.
+    pub fn campaign(name: Option<&str>) -> Outcome<Self> {
+        let folders = || {
+            let entries = std::fs::read_dir("measurements")
+                .into_iter()
+                .flatten()
+                .flatten();
+            let folders = entries.filter(|entry| entry.path().is_dir());
+            let mut names: Vec<String> = folders
+                .map(|e| e.file_name().to_string_lossy().to_string())
+                .collect();
+            names.sort();
+            names
+        };
+        let known = folders();
+        let chosen = match name {
+            Some(name) => known.iter().find(|known| *known == name),
+            None if known.len() == 1 => known.first(),
+            None => None,
+        };
+        chosen
+            .map(|campaign| Self {
+                root: PathBuf::new(),
+                campaign: campaign.clone(),
+            })
+            .ok_or_else(|| {
+                let what = match (name, known.is_empty()) {
+                    (_, true) => "there is no folder measurements/<campaign> here".to_string(),
+                    (Some(name), _) => format!("measurements/ has no campaign `{name}`"),
+                    (None, _) => format!("measurements/ has {} campaigns", known.len()),
+                };
+                let remedy = match known.is_empty() {
+                    true => {
+                        "name a measurement file, or run in the folder that holds measurements/"
+                            .into()
+                    }
+                    false => format!("choose one with --campaign: {}", known.join(", ")),
+                };
+                Problem::new(what, remedy)
+            })
+    }
+
+    /// Folder of the measurements.
+    pub fn measurements(&self) -> PathBuf {
+        self.root.join("measurements").join(&self.campaign)
+    }
+
+    /// The CSV files of the campaign that say they are of `kind`, by name.
+    pub fn files_of(&self, kind: &str) -> Outcome<Vec<PathBuf>> {
+        let entries = std::fs::read_dir(self.measurements())
+            .into_iter()
+            .flatten()
+            .flatten();
+        let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+        files.retain(|path| {
+            path.extension()
+                .is_some_and(|e| e.eq_ignore_ascii_case("csv"))
+        });
+        files.sort();
+        let mut found = Vec::new();
+        for path in files {
+            let said = kind_of(&path).map_err(|problem| problem.in_file(&path))?;
+            if said.as_deref() == Some(kind) {
+                found.push(path);
+            }
+        }
+        Ok(found)
+    }
+
     /// Folder of the fits.
     pub fn fits(&self) -> PathBuf {
         self.root.join("fits").join(&self.campaign)
@@ -41,6 +112,116 @@ impl Place {
     pub fn reports(&self) -> PathBuf {
         self.root.join("reports").join(&self.campaign)
     }
+}
+
+/// The folder of the measurements of a campaign below `root`: the one named, else the only one.
+///
+/// # Errors
+/// No such campaign, none at all, or several to choose from.
+pub fn campaign(root: &Path, named: Option<&str>) -> Outcome<PathBuf> {
+    let all = folders(&root.join("measurements"));
+    let names: Vec<String> = all
+        .iter()
+        .filter_map(|p| Some(p.file_name()?.to_string_lossy().into()))
+        .collect();
+    let found = match named {
+        Some(name) => names.iter().position(|n| n == name),
+        None => (all.len() == 1).then_some(0),
+    };
+    found.map(|i| all[i].clone()).ok_or_else(|| {
+        let what = match (named, names.is_empty()) {
+            (_, true) => "no campaign lies under measurements/ here".to_string(),
+            (Some(name), _) => format!("no campaign `{name}` lies under measurements/"),
+            (None, _) => format!("{} campaigns lie under measurements/", names.len()),
+        };
+        let remedy = match names.is_empty() {
+            true => {
+                "run it where measurements/<campaign>/ is, or give the measurement file".to_string()
+            }
+            false => format!("add --campaign with one of: {}", names.join(", ")),
+        };
+        Problem::new(what, remedy)
+    })
+}
+
+/// The identified robot of a campaign below `root`: the one named, else the only one there is.
+///
+/// # Errors
+/// None, or several to choose from.
+pub fn identified_robot(root: &Path, named: Option<&str>) -> Outcome<PathBuf> {
+    let mut all = folders(&root.join("fits"));
+    all.retain(|folder| named.is_none_or(|name| folder.ends_with(name)));
+    let mut found: Vec<PathBuf> = all
+        .into_iter()
+        .map(|folder| folder.join("robot.toml"))
+        .collect();
+    found.retain(|path| path.is_file());
+    match found.len() {
+        1 => Ok(found.remove(0)),
+        0 => Err(Problem::new(
+            "no robot is given, and no identified one (fits/<campaign>/robot.toml) lies here",
+            "add --robot with a built-in name (kr210, kr300) or a robot file, or let `ident validate` identify one",
+        )),
+        n => Err(Problem::new(
+            format!("no robot is given, and {n} identified ones lie here"),
+            format!("add --campaign, or --robot with one of: {}", list(&found)),
+        )),
+    }
+}
+
+fn folders(under: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(under).into_iter().flatten().flatten();
+    let mut found: Vec<PathBuf> = entries.map(|e| e.path()).filter(|p| p.is_dir()).collect();
+    found.sort();
+    found
+}
+
+/// The only measurement of a kind in the folder of a campaign.
+///
+/// # Errors
+/// None, or several: then one must be given.
+pub fn only_of_kind(folder: &Path, kind: &str) -> Outcome<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let paths = entries.map(|e| e.path());
+    let mut found: Vec<PathBuf> = paths
+        .filter(|p| p.extension().is_some_and(|e| e == "csv"))
+        .filter(|p| super::table::kind_of(p).as_deref() == Some(kind))
+        .collect();
+    found.sort();
+    match found.len() {
+        1 => Ok(found.remove(0)),
+        0 => Err(Problem::new(
+            format!("holds no measurement of kind `{kind}`"),
+            format!("put one there (`# kind = \"{kind}\"` in its front matter), or give the file"),
+        )
+        .in_file(folder)),
+        n => Err(Problem::new(
+            format!("holds {n} measurements of kind `{kind}`"),
+            format!("give one of them: {}", list(&found)),
+        )
+        .in_file(folder)),
+    }
+}
+
+/// The kind that the front matter of a CSV file names; only its leading lines are read.
+fn kind_of(path: &Path) -> Outcome<Option<String>> {
+    let unreadable = |e: std::io::Error| {
+        Problem::new(
+            format!("cannot be read ({e})"),
+            "make it a readable file, or move it away",
+        )
+    };
+    let file = std::fs::File::open(path).map_err(unreadable)?;
+    let mut text = String::new();
+    for line in BufReader::new(file.take(1 << 20)).split(b'\n') {
+        let line = String::from_utf8_lossy(&line.map_err(unreadable)?).to_string();
+        let Some(fact) = line.trim_start_matches('\u{feff}').strip_prefix('#') else {
+            break;
+        };
+        text.push_str(fact.strip_prefix(' ').unwrap_or(fact));
+        text.push('\n');
+    }
+    Ok(Front::parse(text)?.text("kind")?.map(str::to_string))
 }
 
 /// The file meant by `name`: the path itself, or, when it is not there, the only file of that name

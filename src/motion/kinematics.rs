@@ -81,6 +81,11 @@ pub fn forward_kinematics<S: Scalar>(chain: &Chain, work: &mut Work<S>, q: &[S])
     tcp(chain, work)
 }
 
+/// The point of hinge i after [`place`], m, base frame.
+pub fn hinge_point<S: Scalar>(work: &Work<S>, i: usize) -> V3<S> {
+    work.point[i]
+}
+
 /// Column i of the Jacobian at `point` (base frame, m) after [`place`]: velocity of the point (m/s)
 /// and of the tool (rad/s), base axes, per rad/s of hinge i.
 #[inline]

@@ -9,7 +9,12 @@ use std::path::{Path, PathBuf};
 /// Writes a page into a folder, each file in one step, `index.html` last: what it links to is there.
 /// Everything is inked before anything is written. Returns the files in the order of writing.
 pub fn write(folder: &Path, page: &Page) -> Outcome<Vec<PathBuf>> {
-    let index = ("index.html".to_string(), html::ink(page)?);
+    write_as(folder, "index.html", page)
+}
+
+/// [`write`] with another name for the page.
+pub fn write_as(folder: &Path, name: &str, page: &Page) -> Outcome<Vec<PathBuf>> {
+    let index = (name.to_string(), html::ink(page)?);
     let figure = |(stem, chart): (String, &_)| Ok((file(&stem, chart), svg::ink(chart)?));
     let figures = page.figures().into_iter().map(figure);
     let mut contents = figures.collect::<Outcome<Vec<(String, String)>>>()?;

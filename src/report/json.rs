@@ -22,3 +22,20 @@ pub fn print(map: Map<String, Value>) -> String {
     text.push('\n');
     text
 }
+
+/// A document with long arrays, on one line with a newline at the end.
+pub fn line(map: Map<String, Value>) -> String {
+    let mut text = Value::Object(map).to_string();
+    text.push('\n');
+    text
+}
+
+/// A number, or null where it is not one.
+pub fn number(value: f64) -> Value {
+    serde_json::Number::from_f64(value).map_or(Value::Null, Value::Number)
+}
+
+/// A list of numbers, null where they are not.
+pub fn numbers(values: &[f64]) -> Value {
+    values.iter().map(|v| number(*v)).collect()
+}

@@ -133,4 +133,22 @@ impl Robot {
                 .map(|axis| (axis.name.clone(), &axis.spring)),
         )
     }
+
+    /// [`Robot::springs`], to be changed.
+    pub fn springs_mut(&mut self) -> impl Iterator<Item = (String, &mut Spring)> {
+        let joints = self.joints.iter_mut().flat_map(|joint| {
+            let (name, tilt_site) = (joint.name.clone(), joint.tilt_site());
+            let tilt = joint
+                .tilt
+                .iter_mut()
+                .map(move |spring| (tilt_site.clone(), spring));
+            let drive = joint
+                .drive
+                .iter_mut()
+                .map(move |spring| (name.clone(), spring));
+            tilt.chain(drive)
+        });
+        let elastic = self.elastic.iter_mut();
+        joints.chain(elastic.map(|axis| (axis.name.clone(), &mut axis.spring)))
+    }
 }

@@ -4,6 +4,7 @@ use super::jackknife::{t95, variance};
 use super::modal_fit::{PoleFit, cost, linear_fits, refine};
 use super::modal_model::{Channels, damping, frequency};
 use super::stabilisation::{Candidate, candidates, chart};
+use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 
 /// A mode of the structure.
@@ -36,7 +37,7 @@ pub fn identify(channels: &Channels, left_out: &[Channels], to_hz: f64) -> Vec<M
     let refined = prune(channels, refine(channels, &chosen, STEPS));
     let refined = missing(channels, beyond(channels, refined), &found);
     let again: Vec<Vec<Complex64>> = left_out
-        .iter()
+        .par_iter()
         .map(|part| refine(part, &refined.poles, 6).poles)
         .collect();
     modes(channels, &refined.poles, &again, to_hz)

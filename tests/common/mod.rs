@@ -224,13 +224,10 @@ pub fn record(modes: &[Mode], blows: &[(&str, Blow)], seed: u64) -> HammerRecord
         }
     });
     HammerRecord {
-        robot: None,
-        joint_angles: None,
-        accelerometer_noise: None,
-        exponential_window_s: None,
         interval_s: 1.0 / blows[0].1.rate_hz,
         outputs: ["x", "y", "z"].map(String::from).to_vec(),
         runs: runs.collect(),
+        ..HammerRecord::default()
     }
 }
 

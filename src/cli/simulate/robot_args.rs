@@ -4,6 +4,7 @@ use crate::cli::Ending;
 use crate::cli::output::tell;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::units::DEGREE;
+use crate::measurement::workspace;
 use crate::motion::{self, Chain};
 use crate::robot::check;
 use crate::robot::load::{Loaded, load};
@@ -13,9 +14,13 @@ use std::path::Path;
 /// Robot, posture and form of the answer.
 #[derive(Debug, Args)]
 pub struct RobotArgs {
-    /// Built-in name (kr210, kr300) or a robot file, TOML or URDF
+    /// Built-in name (kr210, kr300) or a robot file, TOML or URDF; without it the identified robot of
+    /// the campaign (fits/<campaign>/robot.toml)
     #[arg(long, value_name = "ROBOT")]
-    pub robot: String,
+    pub robot: Option<String>,
+    /// Campaign whose identified robot is meant, if there are several
+    #[arg(long, value_name = "NAME", conflicts_with = "robot")]
+    pub campaign: Option<String>,
     /// Joint angles in degrees, one per joint, A1 first
     #[arg(
         long,
@@ -33,7 +38,10 @@ pub struct RobotArgs {
 impl RobotArgs {
     /// The robot and its joint angles, rad.
     pub fn load(&self) -> Outcome<(Loaded, Vec<f64>)> {
-        let loaded = load(&self.robot, None)?;
+        let loaded = match &self.robot {
+            Some(name) => load(name, None)?,
+            None => identified(self.campaign.as_deref())?,
+        };
         let q = self.angles(loaded.robot.dof())?;
         Ok((loaded, q))
     }
@@ -56,6 +64,13 @@ impl RobotArgs {
         }
         Ok(self.joints_deg.iter().map(|q| q * DEGREE).collect())
     }
+}
+
+/// The robot that `stiffness` and `validate` identified; told on standard error.
+fn identified(campaign: Option<&str>) -> Outcome<Loaded> {
+    let path = workspace::identified_robot(Path::new(""), campaign)?;
+    tell(&format!("robot: {}", path.display()));
+    load(&path.display().to_string(), None)
 }
 
 /// Joints beyond their limits, one warning line each, printed to standard error.

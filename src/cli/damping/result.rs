@@ -1,0 +1,243 @@
+//! The result of `ident damping` and its JSON.
+
+use super::input::Input;
+use crate::cli::Ending;
+use crate::cli::frf::mode;
+use crate::experiments::hammer_frf::HammerFrf;
+use crate::fit::damping::{Account, Pair, Request, Test};
+use crate::fit::frf_match::FrfMatch;
+use crate::fit::frf_model::Kind;
+use crate::report::json::{self, number, numbers};
+use serde_json::{Map, Value, json};
+use std::path::{Path, PathBuf};
+
+/// Match below which the simulation needs attention: FRAC, and mean amplitude error in dB.
+const GOOD: (f64, f64) = (0.99, 0.5);
+
+/// Everything that is reported.
+pub struct Damped {
+    /// What went in.
+    pub input: Input,
+    /// What was asked for.
+    pub request: Request,
+    /// What came out.
+    pub account: Account,
+}
+
+impl Damped {
+    /// Remarks on all tests, with their file where there are several.
+    pub fn remarks(&self) -> Vec<String> {
+        let tests = &self.input.tests;
+        let named = |test: &Test, remark: &String| match tests.len() {
+            1 => remark.clone(),
+            _ => format!("{}: {remark}", file_name(&test.path)),
+        };
+        let mut all: Vec<String> = tests
+            .iter()
+            .flat_map(|test| test.frf.remarks.iter().map(|r| named(test, r)))
+            .collect();
+        let left = self.input.passed_over.iter();
+        all.extend(left.map(|path| {
+            format!(
+                "{} is a comparison test: name it after --frf to use it",
+                path.display()
+            )
+        }));
+        all
+    }
+
+    /// Whether something needs attention: a hit left out, a remark, an FRF that is not met.
+    pub fn ending(&self) -> Ending {
+        let mut tests = self.input.tests.iter();
+        let left =
+            tests.any(|t| !t.frf.remarks.is_empty() || t.frf.screened.iter().any(|h| !h.used()));
+        match left || !self.met() {
+            true => Ending::Attention,
+            false => Ending::Done,
+        }
+    }
+
+    /// Whether every pair is met in shape and scale.
+    pub fn met(&self) -> bool {
+        let good = |pair: &Pair| {
+            let after = pair.matches[1];
+            after.frac > GOOD.0 && after.log_error_db < GOOD.1
+        };
+        self.account.pairs.iter().flatten().all(good)
+    }
+
+    /// Whether any of the data was simulated.
+    pub fn synthetic(&self) -> bool {
+        self.input.tests.iter().any(|test| test.record.synthetic)
+    }
+
+    /// The combinations of constants that the data fix, as in `A4^0.7·A6^-0.7`, with their relative
+    /// standard deviation.
+    pub fn combinations(&self) -> Vec<(String, f64)> {
+        let constants = &self.account.constants;
+        let factor = |(i, weight): &(usize, f64)| {
+            let kind = match constants[*i].kind {
+                Kind::Damping => "",
+                Kind::Stiffness => " stiffness",
+                Kind::Mass => " mass",
+            };
+            format!("{}{kind}^{weight:.2}", constants[*i].site)
+        };
+        let fixed = self.account.tuned.uncertainty.fixed.iter();
+        fixed
+            .map(|one| {
+                let factors: Vec<String> = one.weights.iter().map(factor).collect();
+                (factors.join(" · "), one.ln_std)
+            })
+            .collect()
+    }
+
+    /// The document of `formats.md`.
+    pub fn json(&self) -> Map<String, Value> {
+        let tests = &self.input.tests;
+        let robot = self.input.robot.input();
+        let mut inputs: Vec<(&Path, &str)> = tests
+            .iter()
+            .map(|t| (t.path.as_path(), t.record.sha256.as_str()))
+            .collect();
+        let robot_path = PathBuf::from(&robot.0);
+        inputs.push((&robot_path, &robot.1));
+        let mut map = json::head("damping", &inputs);
+        let account = &self.account;
+        map.insert("synthetic".into(), json!(self.synthetic()));
+        map.insert("frf".into(), self.frf());
+        map.insert(
+            "modes".into(),
+            tests
+                .iter()
+                .flat_map(|t| t.modes.iter().map(mode))
+                .collect(),
+        );
+        map.insert("parameters".into(), json!(account.parameters));
+        map.insert("fixed_combinations".into(), self.combinations_json());
+        map.insert("priors".into(), self.priors());
+        map.insert("match".into(), self.matches(1));
+        map.insert("match_before".into(), self.matches(0));
+        map.insert("poses".into(), self.poses());
+        map.insert(
+            "fit".into(),
+            json!({
+                "reduced_chi_square": number(account.tuned.reduced_chi_square),
+                "agreeing_starts": number(account.tuned.agreeing_starts),
+                "band_Hz": [self.request.from_hz, self.request.settings.band_hz],
+            }),
+        );
+        map.insert("remarks".into(), json!(self.remarks()));
+        map
+    }
+
+    fn frf(&self) -> Value {
+        let tests = &self.input.tests;
+        let hits = || {
+            tests
+                .iter()
+                .flat_map(|t| t.frf.screened.iter().map(move |h| (t, h)))
+        };
+        let rejected = hits().filter(|(_, hit)| !hit.used()).map(|(test, hit)| {
+            let label = hit.hit.parse::<u64>().map_or(json!(hit.hit), |n| json!(n));
+            json!({"file": test.path.display().to_string(), "direction": hit.direction, "hit": label, "why": hit.why()})
+        });
+        let first = tests.first().map(|t| &t.frf);
+        json!({
+            "estimator": "H1",
+            "resolution_Hz": first.map(|f| number(1.0 / f.length_s)),
+            "exponential_rate_1_s": first.map(|f: &HammerFrf| number(f.rate)),
+            "hits_used": hits().filter(|(_, hit)| hit.used()).count(),
+            "hits_rejected": rejected.collect::<Vec<_>>(),
+        })
+    }
+
+    fn combinations_json(&self) -> Value {
+        let all = self
+            .account
+            .tuned
+            .uncertainty
+            .fixed
+            .iter()
+            .zip(self.combinations());
+        all.map(|(one, (text, ln_std))| {
+            let constant = |i: usize| &self.account.parameters[i];
+            let weights: Vec<Value> = one
+                .weights
+                .iter()
+                .map(|(i, w)| json!({"name": constant(*i).name, "site": constant(*i).site, "exponent": w}))
+                .collect();
+            json!({"product": text, "factors": weights, "relative_stderr": number(ln_std)})
+        })
+        .collect()
+    }
+
+    fn priors(&self) -> Value {
+        let constants = self.account.constants.iter().zip(&self.account.parameters);
+        let stated = constants.filter_map(|(constant, parameter)| {
+            let spread = constant.prior_ln_std?;
+            Some(json!({"name": parameter.name, "site": constant.site, "value": constant.start, "relative_std": spread}))
+        });
+        stated.collect()
+    }
+
+    /// Per direction pair; over several poses the worst of each measure.
+    fn matches(&self, which: usize) -> Value {
+        let mut map: Map<String, Value> = Map::new();
+        let mut names: Vec<&String> = self
+            .account
+            .pairs
+            .iter()
+            .flatten()
+            .map(|p| &p.name)
+            .collect();
+        names.sort();
+        names.dedup();
+        for name in names {
+            let same = self
+                .account
+                .pairs
+                .iter()
+                .flatten()
+                .filter(|pair| pair.name == *name);
+            let worst = same
+                .map(|pair| pair.matches[which])
+                .reduce(|a, b| FrfMatch {
+                    frac: a.frac.min(b.frac),
+                    log_error_db: a.log_error_db.max(b.log_error_db),
+                });
+            map.extend(worst.map(|worst| (name.clone(), matched(&worst))));
+        }
+        Value::Object(map)
+    }
+
+    fn poses(&self) -> Value {
+        let tests = self.input.tests.iter().zip(&self.account.pairs);
+        tests
+            .map(|(test, pairs)| {
+                let pairs = pairs
+                    .iter()
+                    .map(|p| (p.name.clone(), matched(&p.matches[1])));
+                let degrees = test.record.joint_angles.iter().flatten();
+                let degrees: Vec<f64> = degrees
+                    .map(|q| (q / crate::ground::units::DEGREE * 1e9).round() / 1e9)
+                    .collect();
+                json!({
+                    "file": test.path.display().to_string(),
+                    "joint_angles_deg": numbers(&degrees),
+                    "match": pairs.collect::<Map<String, Value>>(),
+                })
+            })
+            .collect()
+    }
+}
+
+fn matched(found: &FrfMatch) -> Value {
+    json!({"frac": number(found.frac), "log_error_dB": number(found.log_error_db)})
+}
+
+/// The last part of a path.
+pub fn file_name(path: &Path) -> String {
+    path.file_name()
+        .map_or_else(String::new, |name| name.to_string_lossy().to_string())
+}

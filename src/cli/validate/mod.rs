@@ -1,0 +1,229 @@
+//! `ident validate`: the simulation beside a workspace test, and what the points say of the model.
+
+mod answer;
+mod figures;
+mod page;
+mod tables;
+
+use super::output::{print, tell};
+use super::{Ending, Verb, arguments, parsed};
+use crate::fit::axis_tests::{self, AxisTest};
+use crate::fit::identified_robot::{text, with_axis_tests, with_points};
+use crate::fit::validation::{Validation, needs_attention, validate};
+use crate::ground::files;
+use crate::ground::problem::{Outcome, Problem};
+use crate::measurement::workspace::{Place, campaign, only_of_kind, resolve};
+use crate::measurement::workspace_test::WorkspaceTest;
+use crate::report::{folder, text as terminal};
+use crate::robot::load::{Loaded, load};
+use crate::robot::{Robot, check};
+use clap::{ArgMatches, Args};
+use std::path::{Path, PathBuf};
+
+/// The verb.
+pub const VERB: Verb = Verb {
+    name: "validate",
+    about: "Compare the simulation with force steps at points of the workspace, and re-identify",
+    arguments: arguments::<Arguments>,
+    run,
+};
+
+#[derive(Args)]
+struct Arguments {
+    /// Measurement of kind workspace; without it the only one of the campaign
+    file: Option<PathBuf>,
+    /// Campaign under measurements/, if there are several
+    #[arg(long, value_name = "NAME", conflicts_with = "file")]
+    campaign: Option<String>,
+    /// Robot to simulate as it is; without it the file's robot with what the axis tests found
+    #[arg(long, value_name = "ROBOT")]
+    robot: Option<String>,
+    /// Print one JSON document instead of the account
+    #[arg(long)]
+    json: bool,
+    /// Write no robot and no report
+    #[arg(long)]
+    dry_run: bool,
+}
+
+/// Everything that is reported.
+struct Validated {
+    test: WorkspaceTest,
+    place: Place,
+    base: Loaded,
+    robot: Robot,
+    tests: Vec<AxisTest>,
+    found: Validation,
+}
+
+fn run(matches: &ArgMatches) -> Outcome<Ending> {
+    let arguments: Arguments = parsed(matches);
+    let path = measurement(&arguments)?;
+    let validated = examine(&arguments, &path)?;
+    let page = page::page(&validated);
+    let written = match arguments.dry_run {
+        true => Vec::new(),
+        false => write(&validated, &page)?,
+    };
+    match arguments.json {
+        true => print(&answer::json(&validated, arguments.dry_run))?,
+        false => print(&account(&validated, &written))?,
+    }
+    let warn = |warning: &String| tell(&format!("warning: {}: {warning}", path.display()));
+    validated.found.warnings.iter().for_each(warn);
+    Ok(match needs_attention(&validated.found) {
+        true => Ending::Attention,
+        false => Ending::Done,
+    })
+}
+
+fn measurement(arguments: &Arguments) -> Outcome<PathBuf> {
+    match &arguments.file {
+        Some(file) => {
+            let (path, said) = resolve(file)?;
+            said.iter().for_each(|s| tell(s));
+            Ok(path)
+        }
+        None => only_of_kind(
+            &campaign(Path::new(""), arguments.campaign.as_deref())?,
+            "workspace",
+        ),
+    }
+}
+
+/// Writes the identified robot of a campaign after its axis tests changed: with what the points of
+/// its workspace say, if it has such a test for this robot.
+///
+/// # Errors
+/// A fit that cannot be read, a file that cannot be written.
+pub fn collect(place: &Place, base: &Loaded, synthetic: bool) -> Outcome<()> {
+    let folder = place.root.join("measurements").join(&place.campaign);
+    let points = only_of_kind(&folder, "workspace").and_then(|path| WorkspaceTest::read(&path));
+    let tests = axis_tests::read(&place.fits())?;
+    let robot = with_axis_tests(&base.robot, &tests);
+    let usable = points.ok().filter(|test| {
+        let same = load(&test.facts.robot, Some(&test.path)).is_ok_and(|l| l.sha256 == base.sha256);
+        same && fits(&robot, test).is_ok()
+    });
+    let found = match usable {
+        Some(test) => {
+            let found = validate(&test, &robot, &tests)?;
+            with_points(&robot, &found.refit.parameters(), &provenance(&test))
+        }
+        None => robot,
+    };
+    let path = place.fits().join("robot.toml");
+    files::replace(&path, text(&found, &base.path, synthetic).as_bytes())
+}
+
+/// The measurement and the start of its hash.
+fn provenance(test: &WorkspaceTest) -> String {
+    let name = test.path.file_name().unwrap_or_default().to_string_lossy();
+    let short: String = test.sha256.chars().take(12).collect();
+    format!("{name} {short}")
+}
+
+fn examine(arguments: &Arguments, path: &Path) -> Outcome<Validated> {
+    let test = WorkspaceTest::read(path)?;
+    let place = Place::of(path);
+    let base = match &arguments.robot {
+        Some(name) => load(name, None)?,
+        None => load(&test.facts.robot, Some(path)).map_err(|p| p.in_file(path))?,
+    };
+    fits(&base.robot, &test)?;
+    let tests = axis_tests::read(&place.fits())?;
+    let mut robot = base.robot.clone();
+    if arguments.robot.is_none() && !tests.is_empty() {
+        robot = with_axis_tests(&robot, &tests);
+        tell(&format!(
+            "robot: {} with what {} axis tests found ({}); what these points said before is left out, so that they judge freely",
+            base.path,
+            tests.len(),
+            place.fits().display()
+        ));
+    }
+    let found = validate(&test, &robot, &tests)?;
+    Ok(Validated {
+        test,
+        place,
+        base,
+        robot,
+        tests,
+        found,
+    })
+}
+
+/// Refuses a robot that these points cannot be simulated with.
+fn fits(robot: &Robot, test: &WorkspaceTest) -> Outcome<()> {
+    let angles = test.facts.joint_angles.first().map_or(0, Vec::len);
+    let refuse = |what: String, remedy: &str| Err(Problem::new(what, remedy).in_file(&test.path));
+    if angles != robot.dof() {
+        return refuse(
+            format!(
+                "gives {angles} joint angles per point, the robot `{}` has {} joints",
+                robot.name,
+                robot.dof()
+            ),
+            "correct `joint_angles_deg`, or name the right robot",
+        );
+    }
+    if !robot.is_elastic() {
+        return refuse(
+            format!("nothing in the robot `{}` is elastic", robot.name),
+            "add `drive = { stiffness_Nm_rad = .. }` to its joints; `ident robot convert FILE` makes an editable copy",
+        );
+    }
+    check::bodies(robot).map_err(|problem| problem.in_file(&test.path))
+}
+
+impl Validated {
+    fn robot_path(&self) -> PathBuf {
+        self.place.fits().join("robot.toml")
+    }
+
+    /// The robot with everything found.
+    fn identified(&self) -> Robot {
+        let known = with_axis_tests(&self.base.robot, &self.tests);
+        with_points(
+            &known,
+            &self.found.refit.parameters(),
+            &provenance(&self.test),
+        )
+    }
+}
+
+fn write(validated: &Validated, page: &crate::sheet::page::Page) -> Outcome<Vec<PathBuf>> {
+    let robot = text(
+        &validated.identified(),
+        &validated.base.path,
+        validated.test.facts.synthetic,
+    );
+    let path = validated.robot_path();
+    let report = folder::write_as(&validated.place.reports(), "validate.html", page)?;
+    files::replace(&path, robot.as_bytes())?;
+    Ok([vec![path], report].concat())
+}
+
+fn account(validated: &Validated, written: &[PathBuf]) -> String {
+    let mut said = tables::sentences(validated)
+        .iter()
+        .map(|(_, s)| format!("{s}\n"))
+        .collect::<String>();
+    for table in tables::all(validated) {
+        said.push('\n');
+        said.push_str(&terminal::table(&table));
+    }
+    let ends = |end: &str| {
+        written
+            .iter()
+            .find(|path| path.to_string_lossy().ends_with(end))
+    };
+    if let (Some(robot), Some(report)) = (ends("robot.toml"), ends(".html")) {
+        said.push_str(&format!(
+            "\nidentified robot {}, report {}\n",
+            robot.display(),
+            report.display()
+        ));
+    }
+    said
+}

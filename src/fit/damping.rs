@@ -1,0 +1,240 @@
+//! From hammer tests and a robot to its dampings: hits judged, FRFs, one tuning over all poses.
+
+use super::frf_identifiability::Status as Found;
+use super::frf_match::{FrfMatch, frf_match};
+use super::frf_measured::measured;
+use super::frf_model::{Kind, Measured, Pose};
+use super::frf_robot::{Released, parameters, pose, with_values};
+use super::frf_tuning::{Parameter, Residuals, Tuned, Tuning, tune};
+use super::parameter::{Identified, Status};
+use crate::experiments::hammer_frf::{HammerFrf, Settings, estimate};
+use crate::experiments::hammer_modes::modes;
+use crate::ground::problem::{Outcome, Problem};
+use crate::measurement::hammer::HammerRecord;
+use crate::robot::{Robot, check};
+use crate::signal::modes::Mode;
+use rayon::prelude::*;
+use rustfft::num_complex::Complex64;
+use std::path::{Path, PathBuf};
+
+/// One hammer test on its way.
+#[derive(Debug, Clone)]
+pub struct Test {
+    /// The file.
+    pub path: PathBuf,
+    /// What it holds.
+    pub record: HammerRecord,
+    /// Its FRFs.
+    pub frf: HammerFrf,
+    /// The modes it shows.
+    pub modes: Vec<Mode>,
+}
+
+/// What is asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Request {
+    /// How hits become FRFs; `band_hz` is the upper end of the band that is tuned.
+    pub settings: Settings,
+    /// Lower end of that band, Hz: below it an accelerometer sees drift.
+    pub from_hz: f64,
+    /// Which constants are tuned.
+    pub released: Released,
+    /// Terms for what the model leaves out.
+    pub residuals: Residuals,
+    /// Number of starts.
+    pub starts: usize,
+}
+
+/// One direction pair at one pose: output, then input, as in `xy`.
+#[derive(Debug, Clone)]
+pub struct Pair {
+    /// Its name.
+    pub name: String,
+    /// Measured, with variance.
+    pub measured: Measured,
+    /// Simulated with the robot as it was, at the same `s`.
+    pub before: Vec<Complex64>,
+    /// Simulated with the tuned robot.
+    pub after: Vec<Complex64>,
+    /// How well either meets the measured one.
+    pub matches: [FrfMatch; 2],
+}
+
+/// What came out.
+#[derive(Debug, Clone)]
+pub struct Account {
+    /// The tuned constants with bounds and priors.
+    pub constants: Vec<Parameter>,
+    /// The tuning itself.
+    pub tuned: Tuned,
+    /// The constants as reported.
+    pub parameters: Vec<Identified>,
+    /// Pairs per test.
+    pub pairs: Vec<Vec<Pair>>,
+    /// The robot with all values of the best fit.
+    pub robot: Robot,
+}
+
+/// Names of the rows of the Jacobian.
+pub const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Judges the hits of a record, estimates its FRFs, looks for its modes.
+///
+/// # Errors
+/// No usable hit.
+pub fn test(path: &Path, record: HammerRecord, settings: &Settings) -> Outcome<Test> {
+    let frf = estimate(&record, settings).map_err(|problem| problem.in_file(path))?;
+    Ok(Test {
+        path: path.to_path_buf(),
+        modes: modes(&frf, settings.band_hz),
+        record,
+        frf,
+    })
+}
+
+/// Tunes the robot to all tests at once.
+///
+/// # Errors
+/// A robot without bodies or springs, a test without pose or without a pair along the base axes.
+pub fn identify(tests: &[Test], robot: &Robot, request: &Request) -> Outcome<Account> {
+    check::dynamics(robot)?;
+    let constants = parameters(robot, request.released);
+    let poses = tests
+        .iter()
+        .map(|test| at_pose(test, robot, &constants, request))
+        .collect::<Outcome<Vec<_>>>()?;
+    let task = Tuning {
+        parameters: constants,
+        poses,
+        residuals: request.residuals,
+        starts: request.starts,
+    };
+    let tuned = tune(&task)?;
+    Ok(Account {
+        parameters: reported(&task.parameters, &tuned),
+        pairs: task
+            .poses
+            .iter()
+            .map(|pose| pairs(pose, &task, &tuned))
+            .collect(),
+        robot: with_values(robot, &task.parameters, &tuned.values),
+        constants: task.parameters,
+        tuned,
+    })
+}
+
+fn at_pose(
+    test: &Test,
+    robot: &Robot,
+    constants: &[Parameter],
+    request: &Request,
+) -> Outcome<Pose> {
+    let place = |problem: Problem| problem.in_file(&test.path);
+    let joints = joints(test, robot).map_err(place)?;
+    let pairs = measured(&test.frf, request.from_hz, request.settings.band_hz);
+    if pairs.is_empty() || pairs.iter().all(|pair| pair.frf.is_empty()) {
+        return Err(place(Problem::new(
+            "no FRF along the base axes in the band",
+            "name the directions x, y or z, measure ax, ay or az, and record long enough",
+        )));
+    }
+    let pose = pose(robot, joints, constants).map_err(place)?;
+    Ok(Pose {
+        measured: pairs,
+        ..pose
+    })
+}
+
+fn joints<'a>(test: &'a Test, robot: &Robot) -> Outcome<&'a [f64]> {
+    let (wanted, remedy) = (
+        robot.dof(),
+        "write `# joint_angles_deg = [...]`, one angle per joint",
+    );
+    match &test.record.joint_angles {
+        Some(angles) if angles.len() == wanted => Ok(angles),
+        Some(angles) => {
+            let what = format!(
+                "{} joint angles, the robot has {wanted} joints",
+                angles.len()
+            );
+            Err(Problem::new(what, remedy).in_column("joint_angles_deg"))
+        }
+        None => Err(Problem::new("the pose is missing", remedy).in_column("joint_angles_deg")),
+    }
+}
+
+fn pairs(pose: &Pose, task: &Tuning, tuned: &Tuned) -> Vec<Pair> {
+    let kinds: Vec<Kind> = task.parameters.iter().map(|p| p.kind).collect();
+    let starts: Vec<f64> = task.parameters.iter().map(|p| p.start).collect();
+    let pair = |measured: &Measured| {
+        let simulated = |theta: &[f64]| {
+            pose.accelerance(&kinds, theta, measured)
+                .unwrap_or_default()
+        };
+        let (before, after) = (simulated(&starts), simulated(&tuned.values));
+        Pair {
+            name: format!("{}{}", AXES[measured.output], AXES[measured.input]),
+            matches: [&before, &after].map(|h| frf_match(&measured.frf, h)),
+            measured: measured.clone(),
+            before,
+            after,
+        }
+    };
+    pose.measured.par_iter().map(pair).collect()
+}
+
+fn reported(constants: &[Parameter], tuned: &Tuned) -> Vec<Identified> {
+    let rows = constants
+        .iter()
+        .zip(&tuned.values)
+        .zip(&tuned.uncertainty.statements);
+    rows.map(|((constant, value), said)| {
+        let (name, unit, meaning) = words(constant.kind);
+        let prior = if said.by_prior {
+            "; fixed by its prior, not by the data"
+        } else {
+            ""
+        };
+        Identified {
+            name: name.into(),
+            site: constant.site.clone(),
+            value: said.ci95.map(|_| *value),
+            unit: unit.into(),
+            stderr: said.stderr,
+            ci95: said.ci95,
+            status: status(said.status),
+            meaning: format!("{meaning}{prior}"),
+            limit95: None,
+        }
+    })
+    .collect()
+}
+
+fn status(found: Found) -> Status {
+    match found {
+        Found::Identified => Status::Identified,
+        Found::AtBound => Status::AtBound,
+        Found::NotIdentifiable => Status::NotIdentifiable,
+    }
+}
+
+/// Name, unit and meaning of a constant.
+fn words(kind: Kind) -> (&'static str, &'static str, &'static str) {
+    match kind {
+        Kind::Damping => (
+            "damping",
+            "N·m·s/rad",
+            "viscous damping of this elastic axis",
+        ),
+        Kind::Stiffness => (
+            "stiffness",
+            "N·m/rad",
+            "stiffness of this elastic axis, released",
+        ),
+        Kind::Mass => (
+            "mass",
+            "kg",
+            "mass of the tool, released, its inertia in proportion",
+        ),
+    }
+}

@@ -1,0 +1,231 @@
+//! From raw force steps to stiffnesses: one line of displacement over force per set-up and
+//! component, with an own intercept for every cycle, wild readings left out and counted.
+
+use super::parameter::{Status, Z95};
+use crate::measurement::workspace_test::{Step, WorkspaceTest};
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+/// Displacement over force of one component in one set-up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Line {
+    /// Slope, m/N.
+    pub slope: f64,
+    /// Its standard error from the scatter of the readings, m/N.
+    pub stderr: f64,
+    /// Degrees of freedom behind it; infinite where the stated noise stands in.
+    pub freedom: f64,
+    /// Scatter about the line, m.
+    pub scatter: f64,
+    /// Readings used.
+    pub rows: usize,
+    /// Readings left out as wild.
+    pub wild: usize,
+}
+
+/// One point, loaded in one direction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setup {
+    /// Index of the point, from 0.
+    pub point: usize,
+    /// Direction of the force: 0 x, 1 y, 2 z.
+    pub direction: usize,
+    /// Number of cycles.
+    pub cycles: usize,
+    /// Force steps.
+    pub rows: usize,
+    /// The line of each displacement component; `None` where it was not measured.
+    pub lines: [Option<Line>; 3],
+}
+
+/// Force over displacement along the same direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stiffness {
+    /// Value, N/m; `None` unless the readings support it.
+    pub value: Option<f64>,
+    /// Its standard error, N/m.
+    pub stderr: Option<f64>,
+    /// 95 % interval, N/m, repeatability of the set-up included.
+    pub ci95: Option<[f64; 2]>,
+    /// Whether the readings support it.
+    pub status: Status,
+}
+
+/// Readings further from the line than this many robust standard deviations are wild.
+const WILD: f64 = 6.0;
+/// Above this relative standard deviation a slope is no measurement.
+const UNSUPPORTED: f64 = 0.5;
+
+/// Every set-up of a file, by point and direction.
+pub fn setups(test: &WorkspaceTest) -> Vec<Setup> {
+    let mut keys: Vec<(usize, usize)> = test.steps.iter().map(|s| (s.point, s.direction)).collect();
+    keys.sort_unstable();
+    keys.dedup();
+    let noise = test.facts.sensor_noise;
+    let of = |(point, direction): (usize, usize)| {
+        let own = test.steps.iter();
+        let own = own.filter(|s| s.point == point && s.direction == direction);
+        let own: Vec<&Step> = own.collect();
+        let mut cycles: Vec<i64> = own.iter().map(|s| s.cycle).collect();
+        cycles.sort_unstable();
+        cycles.dedup();
+        let line = |component: usize| {
+            let readings = own.iter().map(|step| Reading::of(step, &cycles, component));
+            line(&readings.flatten().collect::<Vec<_>>(), cycles.len(), noise)
+        };
+        Setup {
+            point,
+            direction,
+            cycles: cycles.len(),
+            rows: own.len(),
+            lines: [line(0), line(1), line(2)],
+        }
+    };
+    keys.into_iter().map(of).collect()
+}
+
+/// One reading of one component.
+#[derive(Clone, Copy)]
+struct Reading {
+    cycle: usize,
+    force: f64,
+    displacement: f64,
+}
+
+impl Reading {
+    fn of(step: &Step, cycles: &[i64], component: usize) -> Option<Self> {
+        let displacement = step.displacement[component];
+        (!displacement.is_nan()).then_some(())?;
+        Some(Self {
+            cycle: cycles.binary_search(&step.cycle).ok()?,
+            force: step.force,
+            displacement,
+        })
+    }
+}
+
+/// Robust start, then least squares over what is not wild.
+fn line(readings: &[Reading], cycles: usize, noise: Option<f64>) -> Option<Line> {
+    let mut weights = vec![1.0; readings.len()];
+    let mut scale = 0.0;
+    for _ in 0..30 {
+        let (_, residuals) = weighted(readings, &weights, cycles)?;
+        scale = spread(&residuals);
+        let huber = |r: &f64| (1.345 * scale / r.abs().max(1e-300)).min(1.0);
+        weights = residuals.iter().map(huber).collect();
+        if scale == 0.0 {
+            break;
+        }
+    }
+    let (_, residuals) = weighted(readings, &weights, cycles)?;
+    let limit = WILD * scale.max(0.2 * noise.unwrap_or(0.0)).max(f64::MIN_POSITIVE);
+    let kept = |r: &f64| if r.abs() <= limit { 1.0 } else { 0.0 };
+    let kept: Vec<f64> = residuals.iter().map(kept).collect();
+    ordinary(readings, &kept, cycles, noise)
+        .or_else(|| ordinary(readings, &vec![1.0; kept.len()], cycles, noise))
+}
+
+fn ordinary(readings: &[Reading], kept: &[f64], cycles: usize, noise: Option<f64>) -> Option<Line> {
+    let (fit, residuals) = weighted(readings, kept, cycles)?;
+    let used = kept.iter().filter(|w| **w > 0.0).count();
+    let freedom = used as f64 - 1.0 - fit.cycles as f64;
+    let squares: f64 = residuals.iter().zip(kept).map(|(r, w)| w * r * r).sum();
+    let (scatter, freedom) = match (freedom > 0.0, noise) {
+        (true, _) => ((squares / freedom).sqrt(), freedom),
+        (false, Some(noise)) => (noise, f64::INFINITY),
+        (false, None) => return None,
+    };
+    Some(Line {
+        slope: fit.slope,
+        stderr: scatter / fit.force_squares.sqrt(),
+        freedom,
+        scatter,
+        rows: used,
+        wild: readings.len() - used,
+    })
+}
+
+struct Weighted {
+    slope: f64,
+    force_squares: f64,
+    cycles: usize,
+}
+
+/// Weighted least squares of one slope and an intercept per cycle; `None` without any change of force.
+fn weighted(readings: &[Reading], weights: &[f64], cycles: usize) -> Option<(Weighted, Vec<f64>)> {
+    let mut sums = vec![[0.0; 3]; cycles];
+    for (reading, w) in readings.iter().zip(weights) {
+        let sum = &mut sums[reading.cycle];
+        let terms = [*w, w * reading.force, w * reading.displacement];
+        (0..3).for_each(|k| sum[k] += terms[k]);
+    }
+    let centre = |reading: &Reading| {
+        let [w, f, d] = sums[reading.cycle];
+        let w = if w > 0.0 { w } else { 1.0 };
+        (reading.force - f / w, reading.displacement - d / w)
+    };
+    let (mut squares, mut product, mut largest) = (0.0, 0.0, 0.0_f64);
+    for (reading, w) in readings.iter().zip(weights) {
+        let (f, d) = centre(reading);
+        squares += w * f * f;
+        product += w * f * d;
+        largest = largest.max(reading.force.abs());
+    }
+    (squares > 1e-18 * largest * largest && squares > 0.0).then_some(())?;
+    let slope = product / squares;
+    let residual = |reading: &Reading| {
+        let (f, d) = centre(reading);
+        d - slope * f
+    };
+    let fit = Weighted {
+        slope,
+        force_squares: squares,
+        cycles: sums.iter().filter(|sum| sum[0] > 0.0).count(),
+    };
+    Some((fit, readings.iter().map(residual).collect()))
+}
+
+/// Standard deviation by the median of the magnitudes; the root mean square if that is zero.
+fn spread(residuals: &[f64]) -> f64 {
+    let mut sizes: Vec<f64> = residuals.iter().map(|r| r.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    match sizes.get(sizes.len() / 2) {
+        Some(median) if *median > 0.0 => 1.4826 * median,
+        _ => (sizes.iter().map(|r| r * r).sum::<f64>() / sizes.len().max(1) as f64).sqrt(),
+    }
+}
+
+impl Setup {
+    /// Force over displacement along the force. `repeatability`: relative standard deviation of the set-up.
+    pub fn stiffness(&self, repeatability: f64) -> Stiffness {
+        let unsupported = Stiffness {
+            value: None,
+            stderr: None,
+            ci95: None,
+            status: Status::NotIdentifiable,
+        };
+        let Some(line) = self.lines[self.direction] else {
+            return unsupported;
+        };
+        let shared = repeatability * line.slope;
+        let stderr = line.stderr.hypot(shared);
+        let supported = line.slope > 0.0 && stderr < UNSUPPORTED * line.slope;
+        let half = quantile(line.freedom * (stderr / line.stderr).powi(4)) * stderr;
+        if !supported || half >= line.slope {
+            return unsupported;
+        }
+        Stiffness {
+            value: Some(1.0 / line.slope),
+            stderr: Some(stderr / line.slope.powi(2)),
+            ci95: Some([1.0 / (line.slope + half), 1.0 / (line.slope - half)]),
+            status: Status::Identified,
+        }
+    }
+}
+
+/// 97.5 % point of Student's distribution (Welch and Satterthwaite's degrees of freedom).
+pub fn quantile(freedom: f64) -> f64 {
+    match StudentsT::new(0.0, 1.0, freedom) {
+        Ok(student) if freedom.is_finite() && freedom < 1e6 => student.inverse_cdf(0.975),
+        _ => Z95,
+    }
+}
