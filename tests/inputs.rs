@@ -651,7 +651,7 @@ fn the_same_input_gives_the_same_bytes() {
             let ran = bench.run_with(&arguments, &[("RAYON_NUM_THREADS", threads)]);
             assert_eq!(ran.status, 0, "{}", ran.errors);
             let files = bench.files();
-            assert_eq!(files.len(), 9, "{files:?}");
+            assert_eq!(files.len(), 10, "{files:?}");
             let contents: Vec<Vec<u8>> = files.iter().map(|f| bench.bytes(f)).collect();
             (ran.out, ran.errors, contents)
         })

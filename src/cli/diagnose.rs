@@ -4,7 +4,10 @@ use super::output::{print, tell};
 use super::progress::Progress;
 use super::{Ending, Verb, arguments, parsed};
 use crate::experiments::load_cycle::Curves;
-use crate::findings::{Diagnosis, Settings, Verdict, diagnose, sentence::sentence};
+use crate::findings::{
+    Diagnosis, Settings, Verdict, diagnose,
+    sentence::{probability, sentence, sentences},
+};
 use crate::fit::store::{SCHEMA, StoredFit, stored_effects, stored_scale};
 use crate::ground::files;
 use crate::ground::problem::Outcome;
@@ -13,7 +16,7 @@ use crate::measurement::workspace::{Place, resolve};
 use crate::report::{html, json, svg, text};
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
 use crate::sheet::number::{engineering, prefix, significant};
-use crate::sheet::page::{Block, Page, Tone};
+use crate::sheet::page::{Block, Page, Tone, file};
 use crate::sheet::table::Table;
 use clap::{ArgMatches, Args};
 use rayon::prelude::*;
@@ -147,7 +150,7 @@ fn ink(result: &Diagnosed) -> Outcome<Vec<(PathBuf, String)>> {
     let reports = result.place.reports();
     let mut out = vec![(result.model_path(), result.stored().text()?)];
     for (stem, chart) in page.figures() {
-        out.push((reports.join(format!("{stem}.svg")), svg::ink(chart)?));
+        out.push((reports.join(file(&stem, chart)), svg::ink(chart)?));
     }
     out.push((
         reports.join(format!("{}-diagnosis.html", result.file.stem())),
@@ -160,9 +163,10 @@ fn ink(result: &Diagnosed) -> Outcome<Vec<(PathBuf, String)>> {
 fn page(result: &Diagnosed) -> Page {
     let file = &result.file;
     let subtitle = format!(
-        "{} of {}",
+        "{} of {}, from {}",
         file.site(),
-        file.facts.robot.as_deref().unwrap_or("unnamed robot")
+        file.facts.robot.as_deref().unwrap_or("an unnamed robot"),
+        file.path.file_name().unwrap_or_default().to_string_lossy()
     );
     let mut page = Page::new(format!("Diagnosis of {}", file.stem()), subtitle);
     page.synthetic = file.facts.synthetic;
@@ -177,68 +181,70 @@ fn page(result: &Diagnosed) -> Page {
             .with(Block::heading("Why"))
             .with(Block::Table(causes_table(result)));
     }
+    if !result.found.groups.is_empty() {
+        page = page.with(Block::heading("What to measure next"));
+        for group in &result.found.groups {
+            let pair = group.effects.join(" from ");
+            page = page.with(Block::text(format!(
+                "To tell {pair}: {}.",
+                group.would_tell
+            )));
+        }
+    }
     page = page
         .with(Block::heading("What was compared"))
         .with(Block::Table(candidates_table(result)))
         .with(Block::heading("What remains"))
-        .with(Block::text(format!(
-            "{} % of the discrepancy's variance is left; noise: {}.",
-            significant(100.0 * result.found.unexplained.share_of_variance, 2),
-            result.found.noise
-        )))
+        .with(Block::text(left(result)))
         .with(Block::Chart(remaining(result)));
     page
 }
 
-fn curves<'a>(result: &'a Diagnosed, model: &'a [f64], name: &'a str) -> Curves<'a> {
-    let data = &result.found.data;
-    let (load, reading) = match result.found.imposed {
-        false => (&data.scene.load, &data.reading),
-        true => (&data.reading, &data.scene.load),
-    };
-    Curves {
-        file: &result.file,
-        time: &data.scene.time,
-        load,
-        reading,
-        model,
-        name,
-        imposed: result.found.imposed,
-    }
-}
-
-/// Measured against simulated, and the residual before and after.
+/// Measured against simulated: the readings, what the present simulation misses and the extended
+/// model explains, and what is left.
 fn before_and_after(result: &Diagnosed) -> Chart {
     let found = &result.found;
-    let mut chart = curves(result, &found.simulated, "present simulation").chart(
-        &format!("{}-diagnosis", result.file.stem()),
-        "measured against simulated",
-    );
-    let after = curves(result, &found.extended, "extended model").chart("after", "after");
-    for (panel, extended) in chart.panels.iter_mut().zip(after.panels).skip(1) {
-        panel.series[0].name = "measured − present simulation".into();
-        if let Some(mut series) = extended.series.into_iter().next() {
-            series.name = "measured − extended model".into();
-            // both residuals in the units of the first
-            let scale =
-                residual_scale(result, &found.simulated) / residual_scale(result, &found.extended);
-            series.points.iter_mut().for_each(|p| p[1] *= scale);
-            panel.series.push(series.emphasised());
+    let (load, reading) = match found.imposed {
+        false => (&found.data.scene.load, &found.data.reading),
+        true => (&found.data.reading, &found.data.scene.load),
+    };
+    let beyond = format!(
+        "{} − simulation",
+        match found.imposed {
+            false => result.file.port.deflection_name(),
+            true => result.file.port.load_name(),
         }
-    }
-    chart
-}
-
-/// Factor that the chart of a model's residual applies to SI.
-fn residual_scale(result: &Diagnosed, model: &[f64]) -> f64 {
-    let largest = result
-        .found
-        .data
-        .reading
-        .iter()
-        .zip(model)
-        .fold(0.0_f64, |m, (y, f)| m.max((y - f).abs()));
-    prefix(largest, result.found.unit).0
+    );
+    let curves = Curves {
+        file: &result.file,
+        time: &found.data.scene.time,
+        load,
+        reading,
+        model: &found.extended,
+        name: "extended model",
+        reference: (&beyond, &found.simulated),
+        imposed: found.imposed,
+    };
+    let simulated = curves.prediction(&found.simulated);
+    Chart::new(
+        format!("{}-diagnosis", result.file.stem()),
+        format!("{}: measured against simulated", result.file.site()),
+        format!(
+            "Load cycle {} of {}, {} rows. From top to bottom: the readings; what the present simulation misses, over load and over time; what is left with the named causes in the model.",
+            result.file.stem(),
+            result.file.facts.robot.as_deref().unwrap_or("an unnamed robot"),
+            result.file.load.len()
+        ),
+    )
+    .synthetic(result.file.facts.synthetic)
+    .with(
+        curves
+            .loops()
+            .with(Series::dashed("present simulation", simulated)),
+    )
+    .with(curves.beyond_over_load())
+    .with(curves.beyond_over_time())
+    .with(curves.residual_over_time())
 }
 
 fn remaining(result: &Diagnosed) -> Chart {
@@ -265,19 +271,38 @@ fn remaining(result: &Diagnosed) -> Chart {
             .collect::<Vec<_>>()
     };
     let axis = || Axis::new("Mean residual", yu.clone());
+    let noise = result.found.discrepancy.noise_rms * ys;
+    let band = |points: &[[f64; 2]], xs: f64| {
+        let edges: Vec<[f64; 3]> = points.iter().map(|p| [p[0] * xs, -noise, noise]).collect();
+        Series::band("± noise of one reading", &edges)
+    };
     Chart::new(
         format!("{}-remaining", result.file.stem()),
         "What no named cause explains",
-        "Mean of measured − extended model in twelve bins.",
+        "Mean of measured − extended model in twelve bins of load and of time. The band, for scale, is the noise of one reading.",
     )
     .synthetic(result.file.facts.synthetic)
     .with(
         Panel::new(Axis::new(name, xu), axis())
+            .with(band(&shape.shape, xs))
             .with(Series::line("mean residual", scaled(&shape.shape, xs))),
     )
     .with(
         Panel::new(Axis::new("Time", "s"), axis())
+            .with(band(&shape.over_time, 1.0))
             .with(Series::line("mean residual", scaled(&shape.over_time, 1.0))),
+    )
+}
+
+fn left(result: &Diagnosed) -> String {
+    let percent = 100.0 * result.found.unexplained.share_of_variance;
+    let share = match percent {
+        p if p < 0.1 => "Less than 0.1".into(),
+        p => significant(p, 2),
+    };
+    format!(
+        "{share} % of the error's variance is left above the noise. The noise is {}.",
+        result.found.noise
     )
 }
 
@@ -287,16 +312,12 @@ fn causes_table(result: &Diagnosed) -> Table {
         "site",
         "probability",
         "parameters",
-        "error before",
-        "after",
-        "reduction (95 %)",
-        "would tell",
+        "error without",
+        "with it",
+        "reduction [95 %]",
     ];
-    let mut table = Table::new(
-        "Causes, in order of gain on cycles that were not fitted",
-        header,
-    )
-    .numeric([2, 4, 5]);
+    let mut table =
+        Table::new("Causes, with the error on data held out of the fit", header).numeric([2, 4, 5]);
     let unit = result.found.unit;
     for cause in &result.found.causes {
         let parameters: Vec<String> = cause
@@ -312,27 +333,31 @@ fn causes_table(result: &Diagnosed) -> Table {
         table.push([
             cause.effect.to_string(),
             cause.site.clone(),
-            format!("{:.0} %", 100.0 * cause.probability),
+            probability(cause.probability),
             parameters.join(", "),
             engineering(cause.gain.before, 3, unit),
             engineering(cause.gain.after, 3, unit),
             reduction(&cause.gain),
-            String::new(),
         ]);
     }
     for group in &result.found.groups {
         table.push([
             format!("one of {}", group.effects.join(", ")),
-            group.sites.join(", "),
-            String::new(),
+            distinct(&group.sites),
+            "not told apart".into(),
             String::new(),
             engineering(group.gain.before, 3, unit),
             engineering(group.gain.after, 3, unit),
             reduction(&group.gain),
-            group.would_tell.clone(),
         ]);
     }
     table
+}
+
+fn distinct(sites: &[String]) -> String {
+    let mut sites = sites.to_vec();
+    sites.dedup();
+    sites.join(", ")
 }
 
 fn reduction(gain: &crate::findings::gain::Gain) -> String {
@@ -356,7 +381,10 @@ fn candidates_table(result: &Diagnosed) -> Table {
         };
         table.push([
             name,
-            format!("{:.2} %", 100.0 * probability),
+            match 100.0 * probability {
+                p if p < 0.01 => "< 0.01 %".into(),
+                p => format!("{p:.2} %"),
+            },
             format!("{nats:.1}"),
         ]);
     }
@@ -376,7 +404,9 @@ fn as_text(results: &[Diagnosed], dry: bool) -> String {
             result.file.path.display(),
             result.found.verdict.name()
         ));
-        said.push_str(&format!("  {}\n", sentence(&result.found)));
+        for sentence in sentences(&result.found) {
+            said.push_str(&text::indented(&sentence, 2));
+        }
         if results.len() == 1 {
             if !result.found.causes.is_empty() || !result.found.groups.is_empty() {
                 said.push_str(&format!("\n{}", text::table(&causes_table(result))));
@@ -389,7 +419,7 @@ fn as_text(results: &[Diagnosed], dry: bool) -> String {
                 .reports()
                 .join(format!("{}-diagnosis.html", result.file.stem()));
             said.push_str(&format!(
-                "  model {}, report {}\n",
+                "  model  {}\n  report {}\n",
                 result.model_path().display(),
                 report.display()
             ));

@@ -69,7 +69,7 @@ pub fn command() -> Command {
         .subcommand_required(true)
         .arg_required_else_help(true);
     VERBS.iter().fold(root, |root, verb| {
-        root.subcommand((verb.arguments)(Command::new(verb.name).about(verb.about)))
+        root.subcommand((verb.arguments)(Command::new(verb.name)).about(verb.about))
     })
 }
 

@@ -11,11 +11,13 @@ use crate::fit::stiffness::{Account, DEFAULT_EFFECTS, Request, identify};
 use crate::fit::store::{SCHEMA, StoredFit, stored_effects, stored_scale};
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
-use crate::measurement::load_cycle::{Axis, LoadCycle};
+use crate::measurement::load_cycle::{Axis, LoadCycle, Port};
 use crate::measurement::workspace::{Place, resolve};
-use crate::report::{json, svg, text};
+use crate::report::{html, json, svg, text};
 use crate::robot::load::load;
-use crate::sheet::number::{engineering, significant};
+use crate::sheet::chart::Chart;
+use crate::sheet::number::{ABSENT, engineering, fixed, prefix, significant};
+use crate::sheet::page::{Block, Page, file};
 use crate::sheet::table::Table;
 use clap::{ArgMatches, Args};
 use rayon::prelude::*;
@@ -164,19 +166,23 @@ fn ending(results: &[Result]) -> Ending {
 }
 
 fn write(results: &[Result]) -> Outcome<()> {
-    let inked: Vec<(PathBuf, String)> = results
-        .par_iter()
-        .map(ink)
-        .collect::<Outcome<Vec<_>>>()?
-        .concat();
+    let fits = results.par_iter().map(|result| {
+        let folder = result.place.fits();
+        let path = folder.join(format!("{}.toml", result.file.stem()));
+        Ok((path, stored(result).text()?))
+    });
+    let mut inked = fits.collect::<Outcome<Vec<_>>>()?;
+    for group in places(results) {
+        inked.extend(ink(&group)?);
+    }
     let inked: Vec<(&Path, &[u8])> = inked
         .iter()
         .map(|(path, content)| (path.as_path(), content.as_bytes()))
         .collect();
     files::replace_all(&inked)?;
-    let mut places: Vec<&Result> = results.iter().collect();
-    places.dedup_by(|a, b| a.place == b.place);
-    places.into_iter().try_for_each(collect)
+    places(results)
+        .into_iter()
+        .try_for_each(|group| collect(group[0]))
 }
 
 /// Brings the identified robot of the campaign up to date. A campaign whose robot is not known
@@ -193,35 +199,154 @@ fn collect(result: &Result) -> Outcome<()> {
     }
 }
 
-fn ink(result: &Result) -> Outcome<Vec<(PathBuf, String)>> {
-    let stem = result.file.stem();
-    let mut out = vec![(
-        result.place.fits().join(format!("{stem}.toml")),
-        stored(result).text()?,
-    )];
-    if result.account.parameters[0].status == Status::Identified {
-        let model: Vec<f64> = fitted(&result.account);
-        let data = &result.account.data;
-        let (load, reading) = match result.account.imposed {
-            false => (&data.scene.load, &data.reading),
-            true => (&data.reading, &data.scene.load),
-        };
-        let curves = Curves {
-            file: &result.file,
-            time: &result.account.data.scene.time,
-            load,
-            reading,
-            model: &model,
-            name: "fitted model",
-            imposed: result.account.imposed,
-        };
-        let chart = curves.chart(&format!("{stem}-stiffness"), "load cycles and fitted model");
-        out.push((
-            result.place.reports().join(format!("{stem}-stiffness.svg")),
-            svg::ink(&chart)?,
-        ));
+/// The results of each campaign.
+fn places(results: &[Result]) -> Vec<Vec<&Result>> {
+    let mut groups: Vec<Vec<&Result>> = Vec::new();
+    for result in results {
+        match groups.iter_mut().find(|g| g[0].place == result.place) {
+            Some(group) => group.push(result),
+            None => groups.push(vec![result]),
+        }
     }
+    groups
+}
+
+/// The page of one campaign: several files share `stiffness.html`, one alone has its own.
+fn page_path(results: &[&Result]) -> PathBuf {
+    let name = match results {
+        [one] => format!("{}-stiffness.html", one.file.stem()),
+        _ => "stiffness.html".into(),
+    };
+    results[0].place.reports().join(name)
+}
+
+fn ink(results: &[&Result]) -> Outcome<Vec<(PathBuf, String)>> {
+    let page = page(results);
+    let reports = results[0].place.reports();
+    let figures = page.figures();
+    let figures = figures.par_iter().map(|(stem, chart)| {
+        let path = reports.join(file(stem, chart));
+        Ok((path, svg::ink(chart)?))
+    });
+    let mut out = figures.collect::<Outcome<Vec<_>>>()?;
+    out.push((page_path(results), html::ink(&page)?));
     Ok(out)
+}
+
+/// The report: the stiffnesses beside the nominal ones, then each file with its figure.
+fn page(results: &[&Result]) -> Page {
+    let first = results[0];
+    let title = match results {
+        [one] => format!("Stiffness of {}", one.file.stem()),
+        _ => "Identified stiffness".into(),
+    };
+    let subtitle = match (results, first.place.campaign.as_str()) {
+        ([one], _) => format!("{}, {} rows", one.file.site(), one.file.load.len()),
+        (_, "") => format!("{} files", results.len()),
+        (_, campaign) => format!("{} files of campaign {campaign}", results.len()),
+    };
+    let mut page = Page::new(title, subtitle);
+    page.synthetic = results.iter().any(|r| r.file.facts.synthetic);
+    page = page.with(Block::heading("Stiffness, beside the present simulation"));
+    for table in tables(results) {
+        page = page.with(Block::Table(table));
+    }
+    let noted = || results.iter().filter(|r| !r.account.warnings.is_empty());
+    if noted().next().is_some() {
+        page = page.with(Block::heading("What needs attention"));
+    }
+    for result in noted() {
+        let said = format!(
+            "{}: {}.",
+            result.file.stem(),
+            result.account.warnings.join("; ")
+        );
+        page = page.with(Block::text(said));
+    }
+    page = page.with(Block::heading("Files"));
+    for result in results {
+        let mut inside = vec![Block::Table(parameters_table(result))];
+        if result.account.parameters[0].status == Status::Identified {
+            inside.insert(0, Block::Chart(chart(result)));
+        }
+        page = match results {
+            [_] => inside.into_iter().fold(page, Page::with),
+            _ => page.with(Block::details(
+                format!("{} ({})", result.file.stem(), result.file.site()),
+                inside,
+            )),
+        };
+    }
+    page
+}
+
+/// Load cycles with the fitted model, and what lies beyond its spring.
+fn chart(result: &Result) -> Chart {
+    let account = &result.account;
+    let scene = &account.data.scene;
+    let (load, reading) = match account.imposed {
+        false => (&scene.load, &account.data.reading),
+        true => (&account.data.reading, &scene.load),
+    };
+    let model = fitted(account);
+    let spring: Vec<f64> = match account.imposed {
+        false => scene
+            .load
+            .iter()
+            .map(|m| m / account.solution.p[0])
+            .collect(),
+        true => vec![0.0; scene.load.len()],
+    };
+    let beyond = match account.imposed {
+        false => format!("{} − spring", result.file.port.deflection_name()),
+        true => result.file.port.load_name().to_string(),
+    };
+    let curves = Curves {
+        file: &result.file,
+        time: &scene.time,
+        load,
+        reading,
+        model: &model,
+        name: "fitted model",
+        reference: (&beyond, &spring),
+        imposed: account.imposed,
+    };
+    let stem = format!("{}-stiffness", result.file.stem());
+    curves.chart(&stem, "load cycles and fitted model")
+}
+
+/// Everything that was identified in one file.
+fn parameters_table(result: &Result) -> Table {
+    let mut table = Table::new(
+        format!("What was identified in {}", result.file.stem()),
+        ["parameter", "value", "95 % interval", "meaning"],
+    )
+    .numeric([1, 2]);
+    for parameter in &result.account.parameters {
+        let unit = if parameter.unit == "1" {
+            ""
+        } else {
+            &parameter.unit
+        };
+        let value = match (parameter.value, parameter.limit95, parameter.status) {
+            (Some(value), ..) => engineering(value, 5, unit),
+            (None, Some(limit), _) => format!("< {}", engineering(limit, 2, unit)),
+            (None, None, Status::AtBound) => "at its bound".into(),
+            _ => "not identifiable".into(),
+        };
+        let interval = parameter.ci95.map_or(ABSENT.into(), |[low, high]| {
+            let (factor, unit) = prefix(low.abs().max(high.abs()), unit);
+            let end = |v: f64| significant(v * factor, 5);
+            format!("{} to {} {unit}", end(low), end(high))
+        });
+        table.push([
+            parameter.name.replace('_', " "),
+            value,
+            interval,
+            parameter.meaning.clone(),
+        ]);
+    }
+    table
 }
 
 fn fitted(account: &Account) -> Vec<f64> {
@@ -334,90 +459,122 @@ fn straight_difference(account: &Account) -> Option<f64> {
 /// Columns of the table: heading, parameter name.
 const COLUMNS: &[(&str, &str)] = &[
     ("stiffness", "stiffness"),
-    ("secant", "secant_stiffness"),
     ("backlash", "backlash"),
-    ("loss/cycle", "hysteresis_loss"),
+    ("loss per cycle", "hysteresis_loss"),
     ("loss factor", "loss_factor"),
 ];
 
 fn as_text(results: &[Result], dry: bool) -> String {
-    let mut header = vec!["file".to_string(), "site".to_string()];
-    header.extend(COLUMNS.iter().map(|c| c.0.to_string()));
-    header.extend(["textbook line".to_string(), "nominal".to_string()]);
-    let synthetic = results.iter().any(|r| r.file.facts.synthetic);
-    let title = if synthetic {
-        "Identified stiffness (synthetic data)"
-    } else {
-        "Identified stiffness"
-    };
-    let numeric: Vec<usize> = (2..header.len()).collect();
-    let mut table = Table::new(title, header).numeric(numeric);
-    for result in results {
-        table.push(row(result));
-    }
-    table = table
-        .noted("value ± half of the 95 % interval; `<` is the 95 % limit of what was not found");
-    let mut said = text::table(&table);
+    let all: Vec<&Result> = results.iter().collect();
+    let mut said = tables(&all)
+        .iter()
+        .map(text::table)
+        .collect::<Vec<_>>()
+        .join("\n");
     if !dry {
-        for folder in folders(results) {
-            said.push_str(&format!("fits and figures under {folder}\n"));
+        for group in places(results) {
+            said.push_str(&format!(
+                "fits {}, report {}\n",
+                group[0].place.fits().display(),
+                page_path(&group).display()
+            ));
         }
     }
     said
 }
 
-fn folders(results: &[Result]) -> Vec<String> {
-    let mut folders: Vec<String> = results
+/// One table for each kind of quantity: joints that turn, springs that are pressed.
+fn tables(results: &[&Result]) -> Vec<Table> {
+    let of = |port: Port| results.iter().copied().filter(move |r| r.file.port == port);
+    [Port::Rotational, Port::Linear]
+        .into_iter()
+        .map(|port| of(port).collect::<Vec<_>>())
+        .filter(|results| !results.is_empty())
+        .map(|results| table(&results))
+        .collect()
+}
+
+fn table(results: &[&Result]) -> Table {
+    let found = |r: &Result, name: &str| {
+        let parameters = &r.account.parameters;
+        parameters.iter().find(|p| p.name == name).cloned()
+    };
+    let units: Vec<(f64, String)> = COLUMNS
         .iter()
-        .map(|r| {
-            format!(
-                "{} and {}",
-                r.place.fits().display(),
-                r.place.reports().display()
-            )
-        })
+        .map(|(_, name)| unit(results.iter().filter_map(|r| found(r, name))))
         .collect();
-    folders.dedup();
-    folders
-}
-
-fn row(result: &Result) -> Vec<String> {
-    let account = &result.account;
-    let mut cells = vec![result.file.stem(), result.file.site()];
-    for (_, name) in COLUMNS {
-        let parameter = account.parameters.iter().find(|p| p.name == *name);
-        cells.push(parameter.map_or("–".into(), cell));
+    let mut header = vec!["file".to_string(), "site".to_string()];
+    for ((heading, _), (_, unit)) in COLUMNS.iter().zip(&units) {
+        header.extend([format!("{heading} {unit}").trim().to_string(), "± %".into()]);
     }
-    let line = straight_difference(account).map_or("–".into(), |d| {
-        format!(
-            "{} ({d:+.1} %)",
-            engineering(account.straight, 4, result.file.port.stiffness_unit())
-        )
-    });
-    cells.push(line);
-    let nominal = result.file.facts.nominal_stiffness;
-    cells.push(nominal.map_or("–".into(), |k| {
-        engineering(k, 4, result.file.port.stiffness_unit())
-    }));
-    cells
+    let stiffness = &units[0];
+    header.insert(4, format!("nominal {}", stiffness.1));
+    header.push("straight line".into());
+    let synthetic = results.iter().any(|r| r.file.facts.synthetic);
+    let label = if synthetic { " (synthetic data)" } else { "" };
+    let title = format!("Identified stiffness{label}");
+    let numeric: Vec<usize> = (2..header.len()).collect();
+    let mut table = Table::new(title, header).numeric(numeric);
+    for result in results {
+        let mut cells = vec![result.file.stem(), result.file.site()];
+        for ((_, name), (factor, _)) in COLUMNS.iter().zip(&units) {
+            cells.extend(cell(found(result, name).as_ref(), *factor));
+        }
+        let nominal = result.file.facts.nominal_stiffness;
+        cells.insert(
+            4,
+            nominal.map_or(ABSENT.into(), |k| significant(k * stiffness.0, 4)),
+        );
+        let line = straight_difference(&result.account);
+        cells.push(line.map_or(ABSENT.into(), signed_percent));
+        table.push(cells);
+    }
+    table
+        .noted(format!(
+            "± %: half of the 95 % interval; <: 95 % limit of what was not found; {ABSENT}: not known"
+        ))
+        .noted("straight line: by how much a line through all readings misses the stiffness")
 }
 
-fn cell(parameter: &Identified) -> String {
-    let unit = if parameter.unit == "1" {
-        ""
-    } else {
-        &parameter.unit
+/// `+1.2 %`, `-1.2 %`, and `0.0 %` for what rounds to it.
+fn signed_percent(value: f64) -> String {
+    match fixed(value, 1) {
+        text if value > 0.0 && text != "0.0" => format!("+{text} %"),
+        text => format!("{text} %"),
+    }
+}
+
+/// Factor and unit in which the smallest value of a column is shown; the others have the same.
+fn unit(parameters: impl Iterator<Item = Identified>) -> (f64, String) {
+    let mut smallest: Option<(f64, String)> = None;
+    for parameter in parameters {
+        let value = parameter.value.or(parameter.limit95).map_or(0.0, f64::abs);
+        let less = smallest.as_ref().is_none_or(|s| value < s.0 || s.0 == 0.0);
+        if smallest.is_none() || (less && value > 0.0) {
+            smallest = Some((value, parameter.unit));
+        }
+    }
+    match smallest {
+        Some((_, unit)) if unit == "1" => (1.0, String::new()),
+        Some((value, unit)) => prefix(value, &unit),
+        None => (1.0, String::new()),
+    }
+}
+
+/// Value and half of its interval in percent.
+fn cell(parameter: Option<&Identified>, factor: f64) -> [String; 2] {
+    let Some(parameter) = parameter else {
+        return [ABSENT.into(), String::new()];
     };
     match (parameter.value, parameter.ci95, parameter.limit95) {
         (Some(value), Some([low, high]), _) => {
             let half = 50.0 * (high - low) / value.abs();
-            format!(
-                "{} ± {} %",
-                engineering(value, 4, unit),
-                significant(half, 2)
-            )
+            [significant(value * factor, 4), significant(half, 2)]
         }
-        (None, _, Some(limit)) => format!("< {}", engineering(limit, 2, unit)),
-        _ => "not identifiable".into(),
+        (None, _, Some(limit)) => [
+            format!("< {}", significant(limit * factor, 2)),
+            String::new(),
+        ],
+        _ => [ABSENT.into(), String::new()],
     }
 }

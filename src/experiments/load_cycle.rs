@@ -118,13 +118,15 @@ pub struct Curves<'a> {
     pub model: &'a [f64],
     /// What the model is called in the legend.
     pub name: &'a str,
+    /// A simpler prediction of what `model` predicts, with its name on an axis: what lies beyond it
+    /// is drawn enlarged.
+    pub reference: (&'a str, &'a [f64]),
     /// Whether the deflection was imposed: `model` is then a load, over the deflection.
     pub imposed: bool,
 }
 
 impl Curves<'_> {
     fn scales(&self) -> Scales {
-        let largest = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let residual = self.residual();
         Scales {
             load: prefix(largest(self.load), self.file.port.load_unit()),
@@ -133,13 +135,17 @@ impl Curves<'_> {
         }
     }
 
-    fn residual(&self) -> Vec<f64> {
-        let measured = if self.imposed {
+    /// What the model predicts, as measured.
+    fn measured(&self) -> &[f64] {
+        if self.imposed {
             self.load
         } else {
             self.reading
-        };
-        measured
+        }
+    }
+
+    fn residual(&self) -> Vec<f64> {
+        self.measured()
             .iter()
             .zip(self.model)
             .map(|(y, f)| y - f)
@@ -154,41 +160,105 @@ impl Curves<'_> {
         }
     }
 
-    /// Moment over angle with the model over it, residual over moment, residual over time.
+    /// Moment over angle with the model over it, the same beyond the reference, residual over moment,
+    /// residual over time.
     pub fn chart(&self, stem: &str, what: &str) -> Chart {
-        let s = self.scales();
-        let residual = self.residual();
-        let port = self.file.port;
-        let load_axis = || Axis::new(port.load_name(), s.load.1.clone());
-        let residual_axis = || Axis::new("Residual", s.residual.1.clone());
-        let measured = pairs(self.reading, s.deflection.0, self.load, s.load.0);
-        let modelled = match self.imposed {
-            false => pairs(self.model, s.deflection.0, self.load, s.load.0),
-            true => pairs(self.reading, s.deflection.0, self.model, s.load.0),
-        };
-        let loops = Panel::new(
-            Axis::new(port.deflection_name(), s.deflection.1.clone()),
-            load_axis(),
-        )
-        .with(Series::points("measured", measured))
-        .with(Series::line(self.name, modelled).emphasised());
-        let over_load = Panel::new(load_axis(), residual_axis()).with(Series::points(
-            "measured − model",
-            pairs(self.load, s.load.0, &residual, s.residual.0),
-        ));
-        let over_time = Panel::new(Axis::new("Time", "s"), residual_axis()).with(Series::line(
-            "measured − model",
-            pairs(self.time, 1.0, &residual, s.residual.0),
-        ));
         Chart::new(
             stem,
             format!("{}: {what}", self.file.site()),
             self.caption(),
         )
         .synthetic(self.file.facts.synthetic)
-        .with(loops)
-        .with(over_load)
-        .with(over_time)
+        .with(self.loops())
+        .with(self.beyond_over_load())
+        .with(self.residual_over_load())
+        .with(self.residual_over_time())
+    }
+
+    /// Load over deflection with the model over it.
+    pub fn loops(&self) -> Panel {
+        let s = self.scales();
+        Panel::new(self.deflection_axis(&s), self.load_axis(&s))
+            .with(Series::points(
+                "measured",
+                pairs(self.reading, s.deflection.0, self.load, s.load.0),
+            ))
+            .with(Series::line(self.name, self.over(self.model, &s)))
+    }
+
+    /// A prediction of what the model predicts, in the axes of [`Self::loops`].
+    pub fn prediction(&self, values: &[f64]) -> Vec<[f64; 2]> {
+        self.over(values, &self.scales())
+    }
+
+    fn over(&self, values: &[f64], s: &Scales) -> Vec<[f64; 2]> {
+        match self.imposed {
+            false => pairs(values, s.deflection.0, self.load, s.load.0),
+            true => pairs(self.reading, s.deflection.0, values, s.load.0),
+        }
+    }
+
+    /// What lies beyond the reference, over the load (over the displacement, if that was imposed).
+    pub fn beyond_over_load(&self) -> Panel {
+        let s = self.scales();
+        match self.imposed {
+            false => self.beyond(self.load_axis(&s), self.load, s.load.0),
+            true => self.beyond(self.deflection_axis(&s), self.reading, s.deflection.0),
+        }
+    }
+
+    /// What lies beyond the reference, over time.
+    pub fn beyond_over_time(&self) -> Panel {
+        self.beyond(Axis::new("Time", "s"), self.time, 1.0)
+    }
+
+    fn beyond(&self, axis: Axis, x: &[f64], xs: f64) -> Panel {
+        let less = |values: &[f64]| -> Vec<f64> {
+            values
+                .iter()
+                .zip(self.reference.1)
+                .map(|(v, r)| v - r)
+                .collect()
+        };
+        let (measured, model) = (less(self.measured()), less(self.model));
+        let (ys, unit) = prefix(largest(&measured), self.residual_unit());
+        Panel::new(axis, Axis::new(self.reference.0, unit))
+            .with(Series::points("measured", pairs(x, xs, &measured, ys)))
+            .with(Series::line(self.name, pairs(x, xs, &model, ys)))
+    }
+
+    /// Measured less model, over the load.
+    pub fn residual_over_load(&self) -> Panel {
+        let s = self.scales();
+        Panel::new(self.load_axis(&s), self.residual_axis(&s)).with(Series::points(
+            self.residual_name(),
+            pairs(self.load, s.load.0, &self.residual(), s.residual.0),
+        ))
+    }
+
+    /// Measured less model, over time.
+    pub fn residual_over_time(&self) -> Panel {
+        let s = self.scales();
+        Panel::new(Axis::new("Time", "s"), self.residual_axis(&s)).with(Series::points(
+            self.residual_name(),
+            pairs(self.time, 1.0, &self.residual(), s.residual.0),
+        ))
+    }
+
+    fn residual_name(&self) -> String {
+        format!("measured − {}", self.name)
+    }
+
+    fn load_axis(&self, s: &Scales) -> Axis {
+        Axis::new(self.file.port.load_name(), s.load.1.clone())
+    }
+
+    fn deflection_axis(&self, s: &Scales) -> Axis {
+        Axis::new(self.file.port.deflection_name(), s.deflection.1.clone())
+    }
+
+    fn residual_axis(&self, s: &Scales) -> Axis {
+        Axis::new("Residual", s.residual.1.clone())
     }
 
     fn caption(&self) -> String {
@@ -205,6 +275,10 @@ struct Scales {
     load: (f64, String),
     deflection: (f64, String),
     residual: (f64, String),
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0_f64, |m, x| m.max(x.abs()))
 }
 
 fn pairs(x: &[f64], xs: f64, y: &[f64], ys: f64) -> Vec<[f64; 2]> {

@@ -1,62 +1,141 @@
-//! The verdict as a sentence that an engineer can act on.
+//! The verdict in sentences that an engineer can act on.
 
-use super::diagnosis::{Diagnosis, Verdict};
+use super::diagnosis::{Cause, Diagnosis, Group, Verdict};
+use super::gain::Gain;
 use crate::effects;
-use crate::sheet::number::engineering;
+use crate::sheet::number::{engineering, significant};
 
-/// What the diagnosis says, in one to three sentences.
+/// What the diagnosis says, in one paragraph.
 pub fn sentence(diagnosis: &Diagnosis) -> String {
-    let unit = diagnosis.unit;
-    let size = format!(
-        "The simulation misses the readings by {} (noise {})",
-        engineering(diagnosis.discrepancy.rms, 3, unit),
-        engineering(diagnosis.discrepancy.noise_rms, 2, unit)
-    );
-    match diagnosis.verdict {
-        Verdict::Sufficient => format!(
-            "The simulation is right to within the noise: it misses the readings by {}, of which {} is noise.",
-            engineering(diagnosis.discrepancy.rms, 3, unit),
-            engineering(diagnosis.discrepancy.noise_rms, 2, unit)
-        ),
-        Verdict::UnknownCause => format!(
-            "{size}, {}. No effect in the library explains it: {}",
-            diagnosis.discrepancy.place, diagnosis.unexplained.description
-        ),
-        _ => format!(
-            "{size}, {}. {}",
-            diagnosis.discrepancy.place,
-            reasons(diagnosis)
-        ),
+    sentences(diagnosis).join(" ")
+}
+
+/// The same, one entry for the error, for each cause, for each open question and for what remains.
+pub fn sentences(diagnosis: &Diagnosis) -> Vec<String> {
+    let mut said = vec![opening(diagnosis)];
+    let count = diagnosis.causes.len();
+    let numbered = |i: usize| match count {
+        1 => "Cause".to_string(),
+        _ => format!("Cause {}", i + 1),
+    };
+    let causes = diagnosis.causes.iter().enumerate();
+    said.extend(causes.map(|(i, c)| of_cause(c, &numbered(i), diagnosis.unit)));
+    said.extend(diagnosis.groups.iter().map(|g| of_group(g, diagnosis.unit)));
+    said.extend(closing(diagnosis));
+    said
+}
+
+/// A probability as it is spoken: never a certainty.
+pub fn probability(p: f64) -> String {
+    match p {
+        p if p > 0.99 => "> 99 %".into(),
+        p if p < 0.01 => "< 1 %".into(),
+        p => format!("{:.0} %", 100.0 * p),
     }
 }
 
-fn reasons(diagnosis: &Diagnosis) -> String {
-    let mut parts: Vec<String> = diagnosis
-        .causes
-        .iter()
-        .map(|cause| {
-            let summary = effects::named(cause.effect).map_or("", |e| e.card().summary);
+fn opening(diagnosis: &Diagnosis) -> String {
+    let found = &diagnosis.discrepancy;
+    let size = engineering(found.rms, 3, diagnosis.unit);
+    let noise = engineering(found.noise_rms, 2, diagnosis.unit);
+    if diagnosis.verdict == Verdict::Sufficient {
+        return format!(
+            "The simulation is right to within the noise: it misses the readings by {size} rms, and the readings scatter by {noise}."
+        );
+    }
+    let times = match found.rms / found.noise_rms {
+        ratio if ratio.is_finite() && ratio >= 1.5 => {
             format!(
-                "Cause: {} at {} ({:.0} % probable); naming it cuts the error on unseen cycles by {:.0} %. {summary}",
-                cause.effect,
-                cause.site,
-                100.0 * cause.probability,
-                cause.gain.reduction_percent
+                "{} times the noise of {noise}",
+                significant(ratio, if ratio < 10.0 { 2 } else { 1 })
             )
+        }
+        _ => format!("with a noise of {noise}"),
+    };
+    format!(
+        "The simulation misses the readings by {size} rms, {times}; the error is {}.",
+        found.place
+    )
+}
+
+fn of_cause(cause: &Cause, numbered: &str, unit: &str) -> String {
+    let size = cause
+        .parameters
+        .first()
+        .map_or(String::new(), |(name, value, unit)| {
+            format!(", {} {}", spoken(name), amount(*value, unit))
+        });
+    let summary = effects::named(cause.effect).map_or("", |e| e.card().summary);
+    format!(
+        "{numbered}: {} at {}{size} ({} probable). {summary} In the model, it {}.",
+        spoken(cause.effect),
+        place(&cause.site),
+        probability(cause.probability),
+        of_gain(&cause.gain, unit)
+    )
+}
+
+fn of_group(group: &Group, unit: &str) -> String {
+    let one_site = group.sites.windows(2).all(|pair| pair[0] == pair[1]);
+    let candidates: Vec<String> = group
+        .effects
+        .iter()
+        .zip(&group.sites)
+        .map(|(effect, site)| match one_site {
+            true => spoken(effect),
+            false => format!("{} at {}", spoken(effect), place(site)),
         })
         .collect();
-    for group in &diagnosis.groups {
-        parts.push(format!(
-            "These data cannot tell {} apart; {} would.",
-            group.effects.join(" from "),
-            group.would_tell
-        ));
+    let site = match (one_site, group.sites.first()) {
+        (true, Some(site)) => format!(" at {}", place(site)),
+        _ => String::new(),
+    };
+    format!(
+        "These data cannot tell {}{site}; either {}. What would tell: {}.",
+        candidates.join(" from "),
+        of_gain(&group.gain, unit),
+        group.would_tell
+    )
+}
+
+fn of_gain(gain: &Gain, unit: &str) -> String {
+    format!(
+        "cuts the error on data held out of the fit from {} to {} ({:.0} % less, 95 % interval {:.0} to {:.0} %)",
+        engineering(gain.before, 3, unit),
+        engineering(gain.after, 3, unit),
+        gain.reduction_percent,
+        gain.ci95_percent[0],
+        gain.ci95_percent[1]
+    )
+}
+
+fn closing(diagnosis: &Diagnosis) -> Option<String> {
+    let seen = &diagnosis.unexplained.description;
+    match diagnosis.verdict {
+        Verdict::UnknownCause => Some(format!(
+            "No effect in the library explains it; what is seen is {seen}"
+        )),
+        Verdict::PartlyExplained => {
+            Some(format!("More is wrong than that; what remains is {seen}"))
+        }
+        Verdict::Explained => Some("Nothing is left above the noise.".into()),
+        Verdict::Sufficient | Verdict::CannotTell => None,
     }
-    if diagnosis.verdict == Verdict::PartlyExplained {
-        parts.push(format!(
-            "Structure remains: {}",
-            diagnosis.unexplained.description
-        ));
+}
+
+fn amount(value: f64, unit: &str) -> String {
+    engineering(value, 3, if unit == "1" { "" } else { unit })
+}
+
+/// A site as words: the axes have names, the rest are things.
+fn place(site: &str) -> String {
+    match site.starts_with(char::is_lowercase) {
+        true => format!("the {site}"),
+        false => site.to_string(),
     }
-    parts.join(" ")
+}
+
+/// A name of the table as words.
+fn spoken(name: &str) -> String {
+    name.replace('_', " ")
 }

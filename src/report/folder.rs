@@ -3,7 +3,7 @@
 use super::{html, svg};
 use crate::ground::files;
 use crate::ground::problem::Outcome;
-use crate::sheet::page::Page;
+use crate::sheet::page::{Page, file};
 use std::path::{Path, PathBuf};
 
 /// Writes a page into a folder, each file in one step, `index.html` last: what it links to is there.
@@ -15,7 +15,7 @@ pub fn write(folder: &Path, page: &Page) -> Outcome<Vec<PathBuf>> {
 /// [`write`] with another name for the page.
 pub fn write_as(folder: &Path, name: &str, page: &Page) -> Outcome<Vec<PathBuf>> {
     let index = (name.to_string(), html::ink(page)?);
-    let figure = |(stem, chart): (String, &_)| Ok((format!("{stem}.svg"), svg::ink(chart)?));
+    let figure = |(stem, chart): (String, &_)| Ok((file(&stem, chart), svg::ink(chart)?));
     let figures = page.figures().into_iter().map(figure);
     let mut contents = figures.collect::<Outcome<Vec<(String, String)>>>()?;
     contents.push(index);

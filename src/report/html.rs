@@ -4,7 +4,7 @@ use super::escape::escape;
 use super::svg;
 use crate::ground::problem::Outcome;
 use crate::sheet::chart::Chart;
-use crate::sheet::page::{Block, Page, Tone};
+use crate::sheet::page::{Block, Page, Tone, file};
 use crate::sheet::table::Table;
 use std::fmt::Write as _;
 
@@ -153,6 +153,8 @@ impl Writer {
         let stem = self.figures.next().unwrap_or_default();
         let drawing = svg::inline(chart, &stem)?;
         let (title, caption) = (escape(&chart.title), escape(&chart.caption));
+        let name = file(&stem, chart);
+        let (name, link) = (escape(&name), link(&name));
         let stop = if title.is_empty() || title.ends_with(['.', '?', '!']) {
             ""
         } else {
@@ -163,7 +165,7 @@ impl Writer {
             self.out,
             "<figure id=\"figure-{stem}\">\n<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"Figure: {title}\">\n\
              {drawing}</div>\n<figcaption><strong>{title}{stop}</strong> {caption} \
-             <a href=\"{stem}.svg\" class=\"file\">{stem}.svg</a></figcaption>\n</figure>\n"
+             <a href=\"{link}\" class=\"file\">{name}</a></figcaption>\n</figure>\n"
         );
         Ok(())
     }
@@ -217,6 +219,16 @@ impl Writer {
         }
         self.line("</tr>");
     }
+}
+
+/// A file name as a relative link: signs that mean something there are encoded.
+fn link(name: &str) -> String {
+    let encoded = name
+        .replace('%', "%25")
+        .replace('#', "%23")
+        .replace('?', "%3F")
+        .replace(' ', "%20");
+    escape(&encoded).into_owned()
 }
 
 fn flush(table: &Table, column: usize) -> &'static str {

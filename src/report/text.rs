@@ -41,6 +41,18 @@ pub fn table(table: &Table) -> String {
     out
 }
 
+/// A paragraph within a line's length, every line of it indented.
+///
+/// ```
+/// assert_eq!(ident::report::text::indented("a b", 2), "  a b\n");
+/// ```
+pub fn indented(text: &str, indent: usize) -> String {
+    wrap_columns(text, COLUMNS - indent)
+        .iter()
+        .map(|line| format!("{:indent$}{line}\n", ""))
+        .collect()
+}
+
 /// A whole page. Figures are named, not drawn; what is folded away in HTML is shown.
 pub fn page(page: &Page) -> String {
     let mut out = String::new();
@@ -108,19 +120,20 @@ fn length(text: &str) -> usize {
     text.chars().count()
 }
 
-/// Width of each column: its longest cell, the widest columns narrowed until a row fits a line.
+/// Width of each column: its longest cell. Until a row fits a line, first the headings are broken
+/// into their words, then the widest columns are narrowed.
 fn widths(table: &Table) -> Vec<usize> {
-    let rows = || table.rows.iter().chain([&table.header]);
-    let longest = |k: usize| {
-        rows()
-            .filter_map(|row| row.get(k))
-            .map(|cell| length(cell))
-            .max()
-    };
-    let mut widths: Vec<usize> = (0..table.columns())
-        .map(|k| longest(k).unwrap_or(0))
-        .collect();
-    let room = COLUMNS.saturating_sub(GAP * widths.len().saturating_sub(1));
+    let cells = |k: usize| table.rows.iter().filter_map(move |row| row.get(k));
+    let heading = |k: usize| table.header.get(k).map_or("", String::as_str);
+    let longest = |k: usize| cells(k).map(|cell| length(cell)).max().unwrap_or(0);
+    let word = |k: usize| heading(k).split(' ').map(length).max().unwrap_or(0);
+    let columns = 0..table.columns();
+    let room = COLUMNS.saturating_sub(GAP * columns.len().saturating_sub(1));
+    let whole = |k: usize| longest(k).max(length(heading(k)));
+    let mut widths: Vec<usize> = columns.clone().map(whole).collect();
+    if widths.iter().sum::<usize>() > room {
+        widths = columns.map(|k| longest(k).max(word(k))).collect();
+    }
     while widths.iter().sum::<usize>() > room {
         match widths.iter_mut().max() {
             Some(widest) if *widest > NARROWEST => *widest -= 1,
@@ -163,6 +176,15 @@ mod tests {
         let text = table(&made);
         assert!(text.lines().all(|line| length(line) <= COLUMNS), "{text}");
         assert!(text.lines().nth(3).unwrap().starts_with("          "));
+    }
+
+    #[test]
+    fn headings_are_broken_before_cells() {
+        let made =
+            Table::new("", ["a quite long heading of a column"; 6]).with(["0123456789 0"; 6]);
+        let text = table(&made);
+        assert!(text.lines().all(|line| length(line) <= COLUMNS), "{text}");
+        assert!(text.contains("0123456789 0  0123456789 0"), "{text}");
     }
 
     #[test]

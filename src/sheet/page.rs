@@ -144,6 +144,16 @@ pub fn stem(name: &str) -> String {
     if text.is_empty() { "figure" } else { text }.to_string()
 }
 
+/// File name of a figure that [`Page::figures`] gave this stem: the chart's own name where that can be
+/// one, so that `Prüfung 6°` stays readable.
+pub fn file(named: &str, chart: &Chart) -> String {
+    let whole = named == stem(&chart.name) && !chart.name.is_empty();
+    match whole && !chart.name.contains(['/', '\\']) {
+        true => format!("{}.svg", chart.name),
+        false => format!("{named}.svg"),
+    }
+}
+
 fn free(stem: &str, taken: &mut BTreeSet<String>) -> String {
     let numbered = (2..).map(|n| format!("{stem}-{n}"));
     let mut candidates = std::iter::once(stem.to_string()).chain(numbered);
@@ -163,5 +173,12 @@ mod tests {
         let page = page.with(Block::details("more", vec![chart("Loop"), chart("")]));
         let names: Vec<_> = page.figures().into_iter().map(|(name, _)| name).collect();
         assert_eq!(names, ["a-b", "loop", "Loop-2", "figure"]);
+        let files: Vec<_> = page
+            .figures()
+            .into_iter()
+            .map(|(s, c)| file(&s, c))
+            .collect();
+        assert_eq!(files, ["a-b.svg", "loop.svg", "Loop-2.svg", "figure.svg"]);
+        assert_eq!(file("a-b", &Chart::new("a b", "", "")), "a b.svg");
     }
 }
