@@ -53,7 +53,12 @@ fn intervals_of_dampings_cover_the_truth() {
     for seed in 1..=CAMPAIGNS {
         let truth = truth(seed);
         let path = folder.path().join("hammer.csv");
-        std::fs::write(&path, &truth.record().unwrap()[0].1).unwrap();
+        let files = truth.record().unwrap();
+        let hammer = files
+            .iter()
+            .find(|f| f.0.as_os_str() == "hammer.csv")
+            .unwrap();
+        std::fs::write(&path, &hammer.1).unwrap();
         let tests = [test(&path, read_hammer(&path).unwrap(), &request.settings).unwrap()];
         let account = identify(&tests, &robot, &request).unwrap();
         let known: &BTreeMap<String, f64> = &truth.hammer.as_ref().unwrap().damping;

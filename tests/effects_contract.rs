@@ -288,7 +288,13 @@ fn no_physical_effect_makes_energy() {
                 continue; // a fixture that slips in just this cycle
             };
             closed += 1;
-            let loss = enclosed(&load, &deflection) / (amplitude * scene.deflection_scale);
+            // a law of imposed displacement has its ports swapped, and so the sign of ∮ M dφ
+            let sign = if effect.role() == Role::Imposed {
+                -1.0
+            } else {
+                1.0
+            };
+            let loss = sign * enclosed(&load, &deflection) / (amplitude * scene.deflection_scale);
             let name = effect.card().name;
             assert!(
                 loss > -1e-6,

@@ -31,6 +31,9 @@ pub struct Solution {
 
 /// Relative standard error beyond which a parameter counts as not supported by the data.
 const UNSUPPORTED: f64 = 0.5;
+/// The same for shapes, in which laws are far from linear: beyond, an interval by linearisation is
+/// not to be trusted.
+const UNSUPPORTED_SHAPE: f64 = 0.15;
 
 /// Fits a composite to an observation, noise colour included.
 pub fn fit(model: &Composite, data: &Observation) -> Solution {
@@ -105,7 +108,7 @@ fn leverage(jacobian: &DMatrix<f64>) -> Vec<f64> {
 /// A solution found by plain least squares, its covariance widened for noise of another colour:
 /// (JᵀJ)⁻¹ JᵀSJ (JᵀJ)⁻¹ (White 1980), S the noise variance over the one assumed.
 pub fn conclude_with(problem: &Problem, optimum: Optimum, colour: Colour) -> Solution {
-    let narrow = covariance(&optimum);
+    let narrow = covariance(problem.model, &optimum);
     let mut weighed = optimum.jacobian.clone();
     for (k, (actual, assumed)) in colour.sigma.iter().zip(&problem.colour.sigma).enumerate() {
         weighed.row_mut(k).scale_mut(actual / assumed);
@@ -139,7 +142,7 @@ fn conclude(problem: &Problem, optimum: Optimum) -> Solution {
         .map(|(r, _)| *r)
         .collect();
     let rms = (counted.iter().map(|r| r * r).sum::<f64>() / counted.len().max(1) as f64).sqrt();
-    let covariance = covariance(&optimum);
+    let covariance = covariance(problem.model, &optimum);
     let status = judge(problem.model, &optimum, &covariance);
     Solution {
         model: problem.model.clone(),
@@ -154,9 +157,13 @@ fn conclude(problem: &Problem, optimum: Optimum) -> Solution {
 }
 
 /// (JᵀJ)⁻¹ over the free parameters; directions the data do not see get infinite variance.
-fn covariance(optimum: &Optimum) -> DMatrix<f64> {
+///
+/// A shape that ended on a bound still widens the others: the truth need not lie on that bound.
+fn covariance(model: &Composite, optimum: &Optimum) -> DMatrix<f64> {
+    let slots = model.slots();
+    let counts = |j: &usize| optimum.active[*j] == 0 || !slots[*j].amplitude;
+    let free: Vec<usize> = (0..optimum.p.len()).filter(counts).collect();
     let n = optimum.p.len();
-    let free: Vec<usize> = (0..n).filter(|j| optimum.active[*j] == 0).collect();
     let columns = optimum.jacobian.select_columns(&free);
     let mut covariance = DMatrix::zeros(n, n);
     let normal = columns.transpose() * &columns;
@@ -201,7 +208,7 @@ fn judge(model: &Composite, optimum: &Optimum, covariance: &DMatrix<f64>) -> Vec
                 !std.is_finite()
                     || (slot.parameter.scale == Scale::Stiffness && std > UNSUPPORTED * value.abs())
             }
-            false => !std.is_finite() || std > UNSUPPORTED * value.abs(),
+            false => !std.is_finite() || std > UNSUPPORTED_SHAPE * value.abs(),
         };
         statuses.push(match () {
             () if optimum.active[j] != 0 && (slot.amplitude || amplitude_lives) => Status::AtBound,

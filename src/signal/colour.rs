@@ -19,7 +19,7 @@ pub struct Colour {
 
 /// Families within this many nats of the best are as good; the one with most low-frequency noise
 /// is taken, because the fitted curve hides low frequencies from the estimate.
-const AS_GOOD: f64 = 0.4;
+const AS_GOOD: f64 = 0.7;
 
 impl Colour {
     /// White noise of a known size.
