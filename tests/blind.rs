@@ -258,7 +258,9 @@ fn hidden_effects_are_found() {
         rate(&|k| k == "pair", &[Score::Exact]),
         rate(&|k| k == "pair", &[Score::Wrong])
     ));
-    println!("clean: no alarm {clean:.3}; outside the library: flagged unknown {unknown:.3}");
+    say(&format!(
+        "clean: no alarm {clean:.3}; outside the library: flagged unknown {unknown:.3}"
+    ));
     assert!(
         rate(&single, &right) >= SINGLES,
         "single effects named right"
