@@ -3,7 +3,7 @@
 
     pip install pin
     cargo build --release
-    python benches/peers/pinocchio.py path/to/*.urdf [--ident target/release/ident] [--states 20]
+    python benches/peers/beside_pinocchio.py path/to/*.urdf [--ident target/release/ident] [--states 20]
 
 Compared within 1e-10 relative: tool pose, Jacobian (tool point, base axes), mass matrix, gravity torque as
 `ident simulate pose` prints them; then RNEA and ABA by closure: Pinocchio's inverse and forward dynamics
