@@ -522,20 +522,11 @@ impl Case<'_> {
     fn name_lattice(&self) -> Named {
         let causes = self.step.map(|step| {
             let rms = self.screen.colour.rms.max(step / 12.0_f64.sqrt());
-            let finer = (rms * rms - step * step / 12.0)
-                .max(0.04 * rms * rms)
-                .sqrt();
-            let percent = 100.0 * (1.0 - finer / rms);
-            let gain = Gain {
-                before: rms,
-                after: finer,
-                reduction_percent: percent,
-                ci95_percent: [0.8 * percent, (1.2 * percent).min(100.0)],
-            };
+            let gain = lattice::gain(step, rms, self.screen.colour.relative_error());
             Cause {
                 effect: "quantization",
                 site: "sensor".into(),
-                probability: 0.99,
+                probability: lattice::CERTAINTY,
                 alternatives: Vec::new(),
                 parameters: vec![("step", step, self.file.port.deflection_unit())],
                 gain,

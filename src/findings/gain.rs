@@ -20,6 +20,14 @@ pub struct Gain {
 }
 
 impl Gain {
+    /// Probability that there is a gain at all, from the interval of ln(before/after).
+    pub fn probability(&self) -> f64 {
+        let nats = |percent: f64| -(1.0 - percent.min(100.0 - 1e-9) / 100.0).ln();
+        let spread = (nats(self.ci95_percent[1]) - nats(self.ci95_percent[0])) / (2.0 * Z95);
+        let z = nats(self.reduction_percent) / spread.max(f64::MIN_POSITIVE);
+        0.5 * statrs::function::erf::erfc(-z / std::f64::consts::SQRT_2)
+    }
+
     /// Whether the interval excludes no gain at all.
     pub fn is_real(&self) -> bool {
         self.ci95_percent[0] > 0.0

@@ -2,7 +2,8 @@
 //!
 //! Dry friction is sought first, then a clearance beside it; each must predict cycles that were not
 //! fitted. Faults of the instruments are not sought here: against a slipping contact the laws'
-//! own error is far above the noise, and a channel's fault would be blamed for it.
+//! own error is far above the noise, and a channel's fault would be blamed for it. For the same
+//! reason no evidence is compared: the probability of a cause is that of its gain on unseen cycles.
 
 use super::adequacy::Adequacy;
 use super::diagnosis::{Cause, Diagnosis, Verdict};
@@ -75,12 +76,8 @@ fn cause(
     Cause {
         effect,
         site: file.site(),
-        probability: 0.95,
-        alternatives: if effect == "coulomb_friction" {
-            vec![("hysteresis", 0.05)]
-        } else {
-            Vec::new()
-        },
+        probability: gain.probability(),
+        alternatives: Vec::new(),
         parameters: own
             .map(|(s, v)| (s.parameter.name, *v, unit(s.parameter.scale)))
             .collect(),
@@ -118,14 +115,6 @@ fn conclude(
             .map(|(y, r)| y - r)
             .collect::<Vec<_>>()
     };
-    let candidates = vec![
-        (
-            causes.iter().map(|c| c.effect).collect(),
-            if causes.is_empty() { 0.0 } else { 0.95 },
-            0.0,
-        ),
-        (Vec::new(), if causes.is_empty() { 1.0 } else { 0.0 }, 0.0),
-    ];
     Diagnosis {
         verdict,
         discrepancy,
@@ -141,7 +130,7 @@ fn conclude(
         extended: fitted(&chosen),
         model: chosen.model.clone(),
         p: chosen.p.clone(),
-        candidates,
+        candidates: Vec::new(),
         unit: file.port.load_unit(),
         noise: chosen.colour.describe(),
         imposed: true,

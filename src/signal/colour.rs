@@ -61,6 +61,19 @@ impl Colour {
         sorted.get(sorted.len() / 10).copied().unwrap_or(0.0)
     }
 
+    /// Relative standard error of a mean square over noise of this colour: √(2Σσ⁴)/Σσ².
+    pub fn relative_error(&self) -> f64 {
+        let (squares, fourth) = self
+            .sigma
+            .iter()
+            .fold((0.0, 0.0), |(a, b), s| (a + s * s, b + s.powi(4)));
+        if squares > 0.0 {
+            (2.0 * fourth).sqrt() / squares
+        } else {
+            0.0
+        }
+    }
+
     /// Divides cosine coefficients by their noise.
     pub fn whiten(&self, coefficients: &mut [f64]) {
         for (c, s) in coefficients.iter_mut().zip(&self.sigma) {
