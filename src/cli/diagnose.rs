@@ -191,9 +191,12 @@ fn page(result: &Diagnosed) -> Page {
             )));
         }
     }
+    if !result.found.candidates.is_empty() {
+        page = page
+            .with(Block::heading("What was compared"))
+            .with(Block::Table(candidates_table(result)));
+    }
     page = page
-        .with(Block::heading("What was compared"))
-        .with(Block::Table(candidates_table(result)))
         .with(Block::heading("What remains"))
         .with(Block::text(left(result)))
         .with(Block::Chart(remaining(result)));
@@ -411,7 +414,9 @@ fn as_text(results: &[Diagnosed], dry: bool) -> String {
             if !result.found.causes.is_empty() || !result.found.groups.is_empty() {
                 said.push_str(&format!("\n{}", text::table(&causes_table(result))));
             }
-            said.push_str(&format!("\n{}", text::table(&candidates_table(result))));
+            if !result.found.candidates.is_empty() {
+                said.push_str(&format!("\n{}", text::table(&candidates_table(result))));
+            }
         }
         if !dry {
             let report = result
