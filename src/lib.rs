@@ -7,7 +7,7 @@
 //! 9  cli          one file per verb
 //! 8  report       text, HTML, SVG, JSON: ink for a sheet
 //! 7  findings     what the simulation gets wrong, and why    laboratory  known truth, hidden effects
-//! 6  fit          least squares, noise, intervals, stored fits
+//! 6  fit          least squares, noise, intervals, stored fits    causes    of the whole robot, ONE FILE EACH
 //! 5  experiments  what a model says that a measurement should have shown
 //! 4  motion       kinematics, dynamics, statics, modes, FRFs
 //! 3  robot        chain, springs, bodies, robot files
@@ -34,6 +34,7 @@
 //! ```
 #![warn(missing_docs)]
 
+pub mod causes;
 pub mod cli;
 pub mod effects;
 pub mod experiments;

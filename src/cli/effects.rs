@@ -3,7 +3,7 @@
 use super::output::print;
 use super::{Ending, Verb, arguments, parsed};
 use crate::effects::{EFFECTS, Effect, Family};
-use crate::findings::look_alikes::{Picture, look_alikes, picture};
+use crate::findings::load_cycle::look_alikes::{Picture, look_alikes, picture};
 use crate::fit::solution::unit_of;
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};

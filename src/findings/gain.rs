@@ -1,15 +1,11 @@
-//! What naming a cause gains, on cycles that were not fitted.
+//! What naming a cause gains on data that were not fitted.
 
-use crate::effects::Composite;
-use crate::fit::least_squares::{Problem, Search, minimise};
-use crate::fit::observation::Observation;
 use crate::fit::parameter::Z95;
-use crate::signal::colour::Colour;
 
-/// Error on held-out cycles before and after, with the interval of its reduction.
+/// Rms error on held-out data before and after, with the interval of its reduction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gain {
-    /// Rms error on held-out cycles without the cause.
+    /// Rms error on held-out data without the cause.
     pub before: f64,
     /// With it.
     pub after: f64,
@@ -32,116 +28,17 @@ impl Gain {
     pub fn is_real(&self) -> bool {
         self.ci95_percent[0] > 0.0
     }
-}
 
-/// Which rows are predicted from which.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Split {
-    /// Whole cycles are held out: what repeats must be predicted where it was not seen.
-    Cycles,
-    /// Pieces of every cycle are held out: for what happens once and is not in every cycle.
-    Pieces,
-}
-
-/// Most folds: beyond, neighbouring cycles are held out together.
-const FOLDS: usize = 4;
-/// Pieces per cycle of [`Split::Pieces`].
-const PIECES: usize = 8;
-
-/// Rows of each fold.
-fn folds(data: &Observation, split: Split) -> Vec<Vec<bool>> {
-    let n = data.rows();
-    let cycles = data.cycles.count();
-    let part: Vec<usize> = match split {
-        Split::Cycles if cycles > 1 => data
-            .cycles
-            .of_row
-            .iter()
-            .map(|c| c * cycles.min(FOLDS) / cycles)
-            .collect(),
-        _ => (0..n)
-            .map(|i| i * PIECES * cycles / n.max(1) % FOLDS)
-            .collect(),
-    };
-    let count = part.iter().max().map_or(1, |m| m + 1);
-    (0..count)
-        .map(|fold| part.iter().map(|p| *p == fold).collect())
-        .collect()
-}
-
-/// Prediction error of a model on every row, each row predicted from the folds it is not in.
-pub fn held_out(
-    model: &Composite,
-    start: &[f64],
-    data: &Observation,
-    colour: &Colour,
-    split: Split,
-) -> Vec<f64> {
-    let mut error = vec![0.0; data.rows()];
-    for fold in folds(data, split) {
-        let problem = Problem {
-            model,
-            data,
-            colour,
-            ignored: &fold,
-        };
-        let fit = minimise(
-            &problem,
-            start,
-            Search {
-                iterations: 6,
-                tolerance: 1e-4,
-            },
-        );
-        let predicted = model.predict(&fit.p, &data.scene);
-        for i in (0..error.len()).filter(|i| fold[*i]) {
-            error[i] = data.reading[i] - predicted[i];
+    /// From rms errors on unseen data and the standard error of ln(before/after).
+    pub fn of(before: f64, after: f64, ln_std: f64) -> Self {
+        let middle = (before / after).ln();
+        let half = Z95 * ln_std;
+        let percent = |g: f64| 100.0 * (1.0 - (-g).exp());
+        Self {
+            before,
+            after,
+            reduction_percent: percent(middle),
+            ci95_percent: [percent(middle - half), percent(middle + half)],
         }
     }
-    error
-}
-
-/// Gain from errors before and after, row by row. The interval follows from the noise's own
-/// fluctuation: with errors a (after) and b = a + d, A = mean a², B = mean b², noise of spectrum s,
-/// var A = 2Σs²/n², var B = var A + 4ΣD²s/n², cov = var A, by the delta method on ½ ln(B/A).
-pub fn gain(before: &[f64], after: &[f64], data: &Observation) -> Gain {
-    let n = before.len() as f64;
-    let square = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>() / n;
-    let (b, a) = (square(before), square(after).max(f64::MIN_POSITIVE));
-    let mut lifted: Vec<f64> = before.iter().zip(after).map(|(x, y)| x - y).collect();
-    data.cosine.transform(&mut lifted);
-    let spectrum = spectrum(after, data);
-    let (mut ss, mut ds) = (0.0, 0.0);
-    for (s, d) in spectrum.iter().zip(&lifted) {
-        ss += s * s;
-        ds += d * d * s;
-    }
-    let (var_a, extra) = (2.0 * ss / (n * n), 4.0 * ds / (n * n));
-    let variance = 0.25 * (var_a / (a * a) + (var_a + extra) / (b * b) - 2.0 * var_a / (a * b));
-    let middle = 0.5 * (b / a).ln();
-    let half = Z95 * variance.max(0.0).sqrt();
-    let percent = |g: f64| 100.0 * (1.0 - (-g).exp());
-    Gain {
-        before: b.sqrt(),
-        after: a.sqrt(),
-        reduction_percent: percent(middle),
-        ci95_percent: [percent(middle - half), percent(middle + half)],
-    }
-}
-
-/// Half width of the smoothing of a periodogram, lines.
-const SMOOTHING: usize = 4;
-
-/// Smoothed periodogram of errors: the noise as these errors show it.
-fn spectrum(errors: &[f64], data: &Observation) -> Vec<f64> {
-    let mut power = errors.to_vec();
-    data.cosine.transform(&mut power);
-    power.iter_mut().for_each(|c| *c *= *c);
-    let n = power.len();
-    (0..n)
-        .map(|k| {
-            let near = &power[k.saturating_sub(SMOOTHING)..(k + SMOOTHING + 1).min(n)];
-            near.iter().sum::<f64>() / near.len() as f64
-        })
-        .collect()
 }

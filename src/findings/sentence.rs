@@ -1,27 +1,26 @@
 //! The verdict in sentences that an engineer can act on.
 
-use super::diagnosis::{Cause, Diagnosis, Group, Verdict};
+use super::answer::{Answer, Cause, Group, Verdict};
 use super::gain::Gain;
-use crate::effects;
 use crate::sheet::number::{engineering, significant};
 
-/// What the diagnosis says, in one paragraph.
-pub fn sentence(diagnosis: &Diagnosis) -> String {
-    sentences(diagnosis).join(" ")
+/// What the answer says, in one paragraph.
+pub fn sentence(answer: &Answer) -> String {
+    sentences(answer).join(" ")
 }
 
 /// The same, one entry for the error, for each cause, for each open question and for what remains.
-pub fn sentences(diagnosis: &Diagnosis) -> Vec<String> {
-    let mut said = vec![opening(diagnosis)];
-    let count = diagnosis.causes.len();
+pub fn sentences(answer: &Answer) -> Vec<String> {
+    let mut said = vec![opening(answer)];
+    let count = answer.causes.len();
     let numbered = |i: usize| match count {
         1 => "Cause".to_string(),
         _ => format!("Cause {}", i + 1),
     };
-    let causes = diagnosis.causes.iter().enumerate();
-    said.extend(causes.map(|(i, c)| of_cause(c, &numbered(i), diagnosis.unit)));
-    said.extend(diagnosis.groups.iter().map(|g| of_group(g, diagnosis.unit)));
-    said.extend(closing(diagnosis));
+    let causes = answer.causes.iter().enumerate();
+    said.extend(causes.map(|(i, c)| of_cause(c, &numbered(i), answer.unit)));
+    said.extend(answer.groups.iter().map(|g| of_group(g, answer.unit)));
+    said.extend(closing(answer));
     said
 }
 
@@ -34,11 +33,24 @@ pub fn probability(p: f64) -> String {
     }
 }
 
-fn opening(diagnosis: &Diagnosis) -> String {
-    let found = &diagnosis.discrepancy;
-    let size = engineering(found.rms, 3, diagnosis.unit);
-    let noise = engineering(found.noise_rms, 2, diagnosis.unit);
-    if diagnosis.verdict == Verdict::Sufficient {
+/// How much is left, and what the noise is like.
+pub fn left(answer: &Answer) -> String {
+    let percent = 100.0 * answer.unexplained.share_of_variance;
+    let share = match percent {
+        p if p < 0.1 => "Less than 0.1".into(),
+        p => significant(p, 2),
+    };
+    format!(
+        "{share} % of the error's variance is left above the noise. The noise is {}.",
+        answer.noise
+    )
+}
+
+fn opening(answer: &Answer) -> String {
+    let found = &answer.discrepancy;
+    let size = engineering(found.rms, 3, answer.unit);
+    let noise = engineering(found.noise_rms, 2, answer.unit);
+    if answer.verdict == Verdict::Sufficient {
         return format!(
             "The simulation is right to within the noise: it misses the readings by {size} rms, and the readings scatter by {noise}."
         );
@@ -65,12 +77,12 @@ fn of_cause(cause: &Cause, numbered: &str, unit: &str) -> String {
         .map_or(String::new(), |(name, value, unit)| {
             format!(", {} {}", spoken(name), amount(*value, unit))
         });
-    let summary = effects::named(cause.effect).map_or("", |e| e.card().summary);
     format!(
-        "{numbered}: {} at {}{size} ({} probable). {summary} In the model, it {}.",
+        "{numbered}: {} at {}{size} ({} probable). {} In the model, it {}.",
         spoken(cause.effect),
         place(&cause.site),
         probability(cause.probability),
+        cause.summary,
         of_gain(&cause.gain, unit)
     )
 }
@@ -109,9 +121,9 @@ fn of_gain(gain: &Gain, unit: &str) -> String {
     )
 }
 
-fn closing(diagnosis: &Diagnosis) -> Option<String> {
-    let seen = &diagnosis.unexplained.description;
-    match diagnosis.verdict {
+fn closing(answer: &Answer) -> Option<String> {
+    let seen = &answer.unexplained.description;
+    match answer.verdict {
         Verdict::UnknownCause => Some(format!(
             "No effect in the library explains it; what is seen is {seen}"
         )),

@@ -204,7 +204,7 @@ pub fn only_of_kind(folder: &Path, kind: &str) -> Outcome<PathBuf> {
 }
 
 /// The kind that the front matter of a CSV file names; only its leading lines are read.
-fn kind_of(path: &Path) -> Outcome<Option<String>> {
+pub fn kind_of(path: &Path) -> Outcome<Option<String>> {
     let unreadable = |e: std::io::Error| {
         Problem::new(
             format!("cannot be read ({e})"),

@@ -6,10 +6,12 @@
 //! reason no evidence is compared: the probability of a cause is that of its gain on unseen cycles.
 
 use super::adequacy::Adequacy;
-use super::diagnosis::{Cause, Diagnosis, Verdict};
-use super::discrepancy::{Discrepancy, Structure};
-use super::gain::{Gain, Split, gain, held_out};
+use super::diagnosis::{Diagnosis, summary};
+use super::structure;
+use super::unseen::{Split, gain, held_out};
 use crate::effects::{CLEARANCE_SLIDER, DRY_SLIDER};
+use crate::findings::answer::{Answer, Cause, Verdict};
+use crate::findings::gain::Gain;
 use crate::fit::imposed::{observe, solve};
 use crate::fit::observation::{MOST_ROWS, Observation};
 use crate::fit::solution::{Solution, unit_of};
@@ -77,6 +79,7 @@ fn cause(
         effect,
         site: file.site(),
         probability: gain.probability(),
+        summary: summary(effect),
         alternatives: Vec::new(),
         parameters: own
             .map(|(s, v)| (s.parameter.name, *v, unit(s.parameter.scale)))
@@ -95,8 +98,8 @@ fn conclude(
     let square = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>() / v.len().max(1) as f64;
     let share = square(&chosen.residual) / square(&plain.residual).max(f64::MIN_POSITIVE);
     let noise_rms = noise(&file.load);
-    let discrepancy = Discrepancy::of(&plain.residual, &data, noise_rms);
-    let unexplained = Structure::of(
+    let discrepancy = structure::discrepancy(&plain.residual, &data, noise_rms);
+    let unexplained = structure::structure(
         &chosen.residual,
         &data,
         square(&plain.residual),
@@ -115,24 +118,28 @@ fn conclude(
             .map(|(y, r)| y - r)
             .collect::<Vec<_>>()
     };
-    Diagnosis {
+    let answer = Answer {
         verdict,
         discrepancy,
         causes,
         groups: Vec::new(),
+        unexplained,
+        p_value: 0.0,
+        candidates: Vec::new(),
+        unit: file.port.load_unit(),
+        noise: chosen.colour.describe(),
+    };
+    Diagnosis {
+        answer,
         adequacy: Adequacy {
             p_value: 0.0,
             unexplained: share,
             test: "lack of fit",
         },
-        unexplained,
         simulated: fitted(&plain),
         extended: fitted(&chosen),
         model: chosen.model.clone(),
         p: chosen.p.clone(),
-        candidates: Vec::new(),
-        unit: file.port.load_unit(),
-        noise: chosen.colour.describe(),
         imposed: true,
         data,
     }

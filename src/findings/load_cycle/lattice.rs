@@ -1,6 +1,6 @@
 //! Quantisation: the lattice of distinct values.
 
-use super::gain::Gain;
+use crate::findings::gain::Gain;
 use crate::fit::parameter::Z95;
 
 /// Step of the lattice on which the values lie, if they do: the largest distance between

@@ -2,15 +2,17 @@
 
 use super::adequacy::{self, Adequacy};
 use super::ambiguity::{Posterior, temper};
-use super::discrepancy::{Discrepancy, Structure};
-use super::gain::{Gain, Split, gain, held_out};
 use super::imposed::diagnose_imposed;
 use super::refine::{Refined, refine, refine_from};
 use super::scales::{self, ScaleFinding};
 use super::search::search;
+use super::structure;
+use super::unseen::{Split, gain, held_out};
 use super::{lattice, next};
 use crate::effects::{Composite, EFFECTS, Effect, Family, shapes};
 use crate::experiments::load_cycle::{settle, settled_cycle};
+use crate::findings::answer::{Answer, Candidate, Cause, Group, Verdict};
+use crate::findings::gain::Gain;
 use crate::fit::candidates::Candidates;
 use crate::fit::imposed::is_imposed;
 use crate::fit::least_squares::Problem;
@@ -19,99 +21,32 @@ use crate::fit::observation::Observation;
 use crate::fit::screen::{Screen, screen};
 use crate::measurement::load_cycle::LoadCycle;
 
-/// The verdict on a simulation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
-    /// The simulation is right to within the noise.
-    Sufficient,
-    /// Causes found, nothing left.
-    Explained,
-    /// Causes found, structure remains.
-    PartlyExplained,
-    /// Structure that nobody in the library explains.
-    UnknownCause,
-    /// The data cannot separate the candidates.
-    CannotTell,
-}
-
-impl Verdict {
-    /// As in the JSON.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Sufficient => "sufficient",
-            Self::Explained => "explained",
-            Self::PartlyExplained => "partly-explained",
-            Self::UnknownCause => "unknown-cause",
-            Self::CannotTell => "cannot-tell",
-        }
-    }
-}
-
-/// A named cause.
-#[derive(Debug, Clone)]
-pub struct Cause {
-    /// Its name.
-    pub effect: &'static str,
-    /// Where.
-    pub site: String,
-    /// Probability that it is present.
-    pub probability: f64,
-    /// Runners-up with their probabilities.
-    pub alternatives: Vec<(&'static str, f64)>,
-    /// Its parameters: name, value SI, unit.
-    pub parameters: Vec<(&'static str, f64, &'static str)>,
-    /// What naming it gains.
-    pub gain: Gain,
-}
-
-/// Causes that these data cannot tell apart.
-#[derive(Debug, Clone)]
-pub struct Group {
-    /// The candidates, most probable first.
-    pub effects: Vec<&'static str>,
-    /// Their sites.
-    pub sites: Vec<String>,
-    /// What would tell.
-    pub would_tell: String,
-    /// What any of them gains.
-    pub gain: Gain,
-}
-
-/// One row of the candidates' table: causes, probability, nats of misfit explained.
-pub type Candidate = (Vec<&'static str>, f64, f64);
-
-/// What a diagnosis found.
+/// What a diagnosis found: the answer, and the models and data behind it.
 pub struct Diagnosis {
-    /// The verdict.
-    pub verdict: Verdict,
-    /// How far the present simulation is off.
-    pub discrepancy: Discrepancy,
-    /// Named causes, in order of gain.
-    pub causes: Vec<Cause>,
-    /// Groups that cannot be separated.
-    pub groups: Vec<Group>,
+    /// The answer.
+    pub answer: Answer,
     /// Is anything left?
     pub adequacy: Adequacy,
-    /// What is left.
-    pub unexplained: Structure,
     /// The extended model.
     pub model: Composite,
     /// Its parameters, SI.
     pub p: Vec<f64>,
-    /// The sets that were compared, most probable first.
-    pub candidates: Vec<Candidate>,
     /// Reduced data.
     pub data: Observation,
     /// Reading that the present simulation predicts.
     pub simulated: Vec<f64>,
     /// Reading that the extended model predicts.
     pub extended: Vec<f64>,
-    /// Unit of the deflection.
-    pub unit: &'static str,
-    /// Noise in words.
-    pub noise: String,
     /// Whether the displacement was imposed: `data` then holds it as the load, and predicts force.
     pub imposed: bool,
+}
+
+impl std::ops::Deref for Diagnosis {
+    type Target = Answer;
+
+    fn deref(&self) -> &Answer {
+        &self.answer
+    }
 }
 
 /// How to diagnose.
@@ -337,7 +272,8 @@ impl Case<'_> {
                     effect: cause,
                     site: self.site(chosen, cause),
                     probability: self.posterior.inclusion(cause),
-                    alternatives: self.posterior.stand_ins(&chosen.causes, cause, 1e-4),
+                    summary: summary(cause),
+                    alternatives: self.alternatives(chosen, cause),
                     parameters: self.parameters(chosen, cause),
                     gain,
                 });
@@ -348,6 +284,17 @@ impl Case<'_> {
             }
         }
         named
+    }
+
+    /// Runners-up with their sites.
+    fn alternatives(
+        &self,
+        chosen: &Refined,
+        cause: &'static str,
+    ) -> Vec<(&'static str, String, f64)> {
+        let others = self.posterior.stand_ins(&chosen.causes, cause, 1e-4);
+        let placed = |(other, p): (&'static str, f64)| (other, self.site(chosen, other), p);
+        others.into_iter().map(placed).collect()
     }
 
     fn group(
@@ -471,6 +418,7 @@ impl Case<'_> {
                     effect,
                     site,
                     probability,
+                    summary: summary(effect),
                     alternatives: Vec::new(),
                     parameters: vec![("excess", finding.excess, "1")],
                     gain,
@@ -527,6 +475,7 @@ impl Case<'_> {
                 effect: "quantization",
                 site: "sensor".into(),
                 probability: lattice::CERTAINTY,
+                summary: summary("quantization"),
                 alternatives: Vec::new(),
                 parameters: vec![("step", step, self.file.port.deflection_unit())],
                 gain,
@@ -582,30 +531,33 @@ impl Case<'_> {
                 .collect::<Vec<f64>>()
         };
         let noise = self.screen.colour.rms.min(rms(&difference(&extended)));
-        let discrepancy = Discrepancy::of(&difference(&simulated), &self.data, noise);
+        let discrepancy = structure::discrepancy(&difference(&simulated), &self.data, noise);
         let before = discrepancy.rms * discrepancy.rms;
-        let unexplained = Structure::of(
+        let unexplained = structure::structure(
             &difference(&extended),
             &self.data,
             before,
             noise,
             adequacy.test,
         );
-        let candidates = self.table();
-        Diagnosis {
+        let answer = Answer {
             verdict,
             discrepancy,
             causes: named.causes,
             groups: named.groups,
-            adequacy,
             unexplained,
-            model: chosen.model,
-            p: chosen.optimum.p,
-            candidates,
-            simulated,
-            extended,
+            p_value: adequacy.p_value,
+            candidates: self.table(),
             unit: self.file.port.deflection_unit(),
             noise: self.screen.colour.describe(),
+        };
+        Diagnosis {
+            answer,
+            adequacy,
+            model: chosen.model,
+            p: chosen.optimum.p,
+            simulated,
+            extended,
             imposed: false,
             data: self.data,
         }
@@ -641,9 +593,14 @@ impl Case<'_> {
             .sets
             .iter()
             .take(10)
-            .map(|(c, p, i)| (c.clone(), *p, nats(i)))
+            .map(|(c, p, i)| (c.iter().map(|c| c.to_string()).collect(), *p, nats(i)))
             .collect()
     }
+}
+
+/// What a cause is, one sentence.
+pub fn summary(cause: &str) -> &'static str {
+    crate::effects::named(cause).map_or("", |effect| effect.card().summary)
 }
 
 fn rms(values: &[f64]) -> f64 {

@@ -1,0 +1,114 @@
+//! What a cause of the whole robot must bring, and what it gets for it.
+//!
+//! An [effect](crate::effects) lives in one axis and is judged by the curve of load and deflection. A
+//! cause lives somewhere on the robot or its instruments and is judged by every experiment in which it
+//! would show: physics changes the robot, so one file serves the workspace test, the hammer test and
+//! the simulation alike; an instrument changes what one experiment reads.
+
+use crate::effects::Family;
+use crate::ground::spatial::V3;
+use crate::robot::Robot;
+use nalgebra::Complex;
+
+/// An experiment on the whole robot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sight {
+    /// Force steps at points of the workspace.
+    Workspace,
+    /// Impulse hammer at the tool.
+    Hammer,
+}
+
+/// A parameter of a cause. All are zero where the cause is absent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Amount {
+    /// Its name.
+    pub name: &'static str,
+    /// Its unit as printed.
+    pub unit: &'static str,
+    /// The sentence the user reads about it.
+    pub meaning: &'static str,
+    /// Lowest and highest value.
+    pub bounds: [f64; 2],
+    /// Values to start a search from: the span of what is worth finding.
+    pub starts: &'static [f64],
+}
+
+/// Everything about a cause that is not its equation.
+#[derive(Debug, Clone, Copy)]
+pub struct Card {
+    /// Its name, as in `formats.md`.
+    pub name: &'static str,
+    /// Physics or measurement.
+    pub family: Family,
+    /// What it is, one sentence.
+    pub summary: &'static str,
+    /// Its equation, as text.
+    pub equation: &'static str,
+    /// Author, year, equation.
+    pub source: &'static str,
+    /// How it looks, experiment by experiment: where it would show at all.
+    pub shows: &'static [(Sight, &'static str)],
+    /// Its parameters.
+    pub amounts: &'static [Amount],
+}
+
+/// One force step as an instrument sees it: what it may change before it is read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepSeen {
+    /// Index of the point.
+    pub point: usize,
+    /// Direction of the force, 0 to 2 for x, y, z of the base frame.
+    pub direction: usize,
+    /// Force, N.
+    pub force: f64,
+    /// Displacement of the tool per component, m, base frame.
+    pub displacement: V3,
+}
+
+/// Accelerance of the tool at one `s`: output by input, (m/s²)/N, base frame.
+pub type Accelerance = [[Complex<f64>; 3]; 3];
+
+/// A cause: one file, one line in [`CAUSES`](super::CAUSES).
+pub trait Cause: Sync {
+    /// Its card.
+    fn card(&self) -> &'static Card;
+
+    /// Where on this robot it may sit: `A6`, `A6-tilt`, `base`, `link2`, `tool`, `sensor`, `sensor-x`.
+    fn sites(&self, robot: &Robot) -> Vec<String>;
+
+    /// Physics: changes the robot.
+    fn alter(&self, _robot: &mut Robot, _site: &str, _amounts: &[f64]) {}
+
+    /// Instruments of a workspace test: change one force step as it is read. `compliance` holds the
+    /// displacement per newton in each direction, m/N, columns by direction.
+    fn read_step(
+        &self,
+        _site: &str,
+        _amounts: &[f64],
+        _compliance: &[V3; 3],
+        _step: &mut StepSeen,
+    ) {
+    }
+
+    /// Instruments of a hammer test: change the accelerance at `s` (1/s).
+    fn read_accelerance(
+        &self,
+        _site: &str,
+        _amounts: &[f64],
+        _s: Complex<f64>,
+        _frf: &mut Accelerance,
+    ) {
+    }
+
+    /// What is reported: name, value SI, unit. The amounts themselves if nothing says more.
+    fn said(
+        &self,
+        _robot: &Robot,
+        _site: &str,
+        amounts: &[f64],
+    ) -> Vec<(&'static str, f64, &'static str)> {
+        let own = self.card().amounts.iter().zip(amounts);
+        own.map(|(a, v)| (a.name, *v, a.unit)).collect()
+    }
+}

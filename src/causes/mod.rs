@@ -1,0 +1,51 @@
+//! Floor 6: what can be wrong with the simulation of the whole robot, or with what is measured on it.
+//!
+//! One cause is one file: add it, one `mod` line and one line in [`CAUSES`], and every experiment that
+//! would show it seeks it, `ident effects` explains it, and the extended robot carries it. Nothing else
+//! in the program knows a cause by its name.
+
+pub mod contract;
+pub mod places;
+
+mod added_mass;
+mod base_compliance;
+mod drive_stiffness;
+mod joint_damping;
+mod link_compliance;
+mod missing_tilt;
+mod tilt_stiffness;
+mod tool_compliance;
+
+pub use contract::{Amount, Card, Cause, Sight};
+
+/// Every cause: physics first, then the instruments.
+pub const CAUSES: &[&dyn Cause] = &[
+    &drive_stiffness::DriveStiffness,
+    &tilt_stiffness::TiltStiffness,
+    &missing_tilt::MissingTilt,
+    &base_compliance::BaseCompliance,
+    &link_compliance::LinkCompliance,
+    &tool_compliance::ToolCompliance,
+    &added_mass::AddedMass,
+    &joint_damping::JointDamping,
+];
+
+/// The causes that one experiment would show.
+pub fn seen_by(sight: Sight) -> impl Iterator<Item = &'static dyn Cause> {
+    let shows = move |cause: &&&'static dyn Cause| {
+        cause
+            .card()
+            .shows
+            .iter()
+            .any(|(where_, _)| *where_ == sight)
+    };
+    CAUSES.iter().filter(shows).copied()
+}
+
+/// The cause of this name.
+pub fn named(name: &str) -> Option<&'static dyn Cause> {
+    CAUSES
+        .iter()
+        .copied()
+        .find(|cause| cause.card().name == name)
+}

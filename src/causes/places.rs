@@ -1,0 +1,95 @@
+//! What causes do to the places of a robot.
+
+use super::contract::Amount;
+use crate::ground::spatial::V3;
+use crate::robot::model::ElasticAxis;
+use crate::robot::{Robot, Spring};
+
+/// What is reported of a cause: name, value SI, unit.
+pub type Said = Vec<(&'static str, f64, &'static str)>;
+
+/// An added compliance of one is one radian per 10⁷ N·m, that of a stout bearing.
+pub const UNIT_COMPLIANCE: f64 = 1e-7;
+/// Damping of an added spring, of its stiffness, s: as light as that of the bearings of Table 3.1.
+pub const ADDED_DAMPING: f64 = 4e-4;
+
+/// The relative excess x of a compliance: c = c₀(1 + x).
+pub const fn excess(meaning: &'static str) -> Amount {
+    Amount {
+        name: "excess",
+        unit: "1",
+        meaning,
+        bounds: [-0.9, 20.0],
+        starts: &[-0.6, -0.3, 0.5, 2.0],
+    }
+}
+
+/// An added compliance in units of [`UNIT_COMPLIANCE`].
+pub const fn added(name: &'static str, meaning: &'static str) -> Amount {
+    Amount {
+        name,
+        unit: "1e-7 rad/(N·m)",
+        meaning,
+        bounds: [0.0, 100.0],
+        starts: &[0.3, 1.0, 4.0],
+    }
+}
+
+/// Makes the spring of `site` softer by the relative excess of its compliance.
+pub fn soften(robot: &mut Robot, site: &str, excess: f64) {
+    if let Some((_, spring)) = robot.springs_mut().find(|(name, _)| name == site) {
+        spring.stiffness /= (1.0 + excess).max(1e-3);
+    }
+}
+
+/// The stiffness of `site` with that excess.
+pub fn softened(robot: &Robot, site: &str, excess: f64) -> Said {
+    let own = robot.springs().find(|(name, _)| name == site);
+    let value = own.map(|(_, spring)| spring.stiffness / (1.0 + excess).max(1e-3));
+    value
+        .map(|k| ("stiffness", k, "N·m/rad"))
+        .into_iter()
+        .collect()
+}
+
+/// A spring of that many [`UNIT_COMPLIANCE`]; none for none.
+pub fn added_spring(amount: f64) -> Option<Spring> {
+    let stiffness = 1.0 / (amount * UNIT_COMPLIANCE);
+    (amount > 1e-9).then(|| Spring::new(stiffness, ADDED_DAMPING * stiffness))
+}
+
+/// The stiffness of an added compliance.
+pub fn said_added(name: &'static str, amount: f64) -> Said {
+    let spring = added_spring(amount);
+    spring
+        .map(|s| (name, s.stiffness, "N·m/rad"))
+        .into_iter()
+        .collect()
+}
+
+/// Adds elastic axes about x, y and z through `point` (base axes, every joint at zero), behind the
+/// body that joint `after` moves.
+pub fn add_axes(robot: &mut Robot, site: &str, after: usize, point: V3, amounts: &[f64]) {
+    for (k, amount) in amounts.iter().enumerate().take(3) {
+        let Some(spring) = added_spring(*amount) else {
+            continue;
+        };
+        let mut axis = [0.0; 3];
+        axis[k] = 1.0;
+        robot.elastic.push(ElasticAxis {
+            name: format!("{site}-{}", ["x", "y", "z"][k]),
+            after,
+            axis,
+            point,
+            spring,
+        });
+    }
+}
+
+/// The stiffnesses of [`add_axes`].
+pub fn said_axes(amounts: &[f64]) -> Said {
+    let names = ["stiffness_x", "stiffness_y", "stiffness_z"];
+    let each = names.iter().zip(amounts);
+    each.flat_map(|(name, amount)| said_added(name, *amount))
+        .collect()
+}

@@ -1,0 +1,46 @@
+//! The tool or its mount bends.
+
+use super::contract::{Card, Cause, Sight};
+use super::places::{Said, add_axes, added, said_axes};
+use crate::effects::Family;
+use crate::robot::Robot;
+
+/// See the card.
+pub struct ToolCompliance;
+
+const CARD: Card = Card {
+    name: "tool_compliance",
+    family: Family::Physics,
+    summary: "The tool, its holder or the spindle gives way, and the model holds it rigid.",
+    equation: "rotations about three axes through the flange, compliance added",
+    source: "virtual axes as in source 002, Table 1",
+    shows: &[(
+        Sight::Workspace,
+        "the same error in the frame of the tool at every point",
+    )],
+    amounts: &[
+        added("about_x", "compliance about x, with every joint at zero"),
+        added("about_y", "compliance about y, with every joint at zero"),
+        added("about_z", "compliance about z, with every joint at zero"),
+    ],
+};
+
+impl Cause for ToolCompliance {
+    fn card(&self) -> &'static Card {
+        &CARD
+    }
+
+    fn sites(&self, robot: &Robot) -> Vec<String> {
+        let free = robot.elastic.iter().all(|axis| axis.after < robot.dof());
+        free.then(|| "tool".to_string()).into_iter().collect()
+    }
+
+    fn alter(&self, robot: &mut Robot, site: &str, amounts: &[f64]) {
+        let (last, flange) = (robot.dof(), robot.tool.flange);
+        add_axes(robot, site, last, flange, amounts);
+    }
+
+    fn said(&self, _robot: &Robot, _site: &str, amounts: &[f64]) -> Said {
+        said_axes(amounts)
+    }
+}

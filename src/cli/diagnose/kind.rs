@@ -1,0 +1,62 @@
+//! The kinds of measurement that can be diagnosed. A new kind is one file and one line in [`KINDS`].
+
+use super::load_cycle;
+use crate::findings::Answer;
+use crate::ground::problem::{Outcome, Problem};
+use crate::measurement::workspace::kind_of;
+use crate::sheet::chart::Chart;
+use serde_json::{Map, Value};
+use std::path::Path;
+
+/// Where an answer comes from.
+#[derive(Debug, Clone, Copy)]
+pub struct Source<'a> {
+    /// The measurement file.
+    pub path: &'a Path,
+    /// Its hash.
+    pub sha256: &'a str,
+    /// Simulated, not measured.
+    pub synthetic: bool,
+}
+
+/// A diagnosed measurement, as the verb prints and draws it.
+pub trait Diagnosed: Send + Sync {
+    /// The answer.
+    fn answer(&self) -> &Answer;
+    /// Where it comes from.
+    fn source(&self) -> Source<'_>;
+    /// What was measured, as `A6 of kr210`.
+    fn about(&self) -> String;
+    /// Figures of what was measured and simulated.
+    fn before_and_after(&self) -> Vec<Chart>;
+    /// Figures of what no named cause explains.
+    fn remaining(&self) -> Vec<Chart>;
+    /// The extended model as a file; `None` where nothing was extended.
+    fn model(&self) -> Outcome<Option<String>>;
+    /// What this kind adds to the common JSON.
+    fn more(&self) -> Map<String, Value> {
+        Map::new()
+    }
+}
+
+/// Reads and diagnoses a file.
+pub type Diagnose = fn(&Path) -> Outcome<Box<dyn Diagnosed>>;
+
+/// Every kind, by its name in the front matter.
+pub const KINDS: &[(&str, Diagnose)] = &[("load-cycle", load_cycle::diagnosed)];
+
+/// The kind of a file, and how it is diagnosed. A file that states none is read as a load cycle,
+/// whose reader says what is missing.
+///
+/// # Errors
+/// The file cannot be read, or is of a kind that nothing diagnoses.
+pub fn kind(path: &Path) -> Outcome<(&'static str, Diagnose)> {
+    let said = kind_of(path).map_err(|problem| problem.in_file(path))?;
+    let said = said.unwrap_or_else(|| KINDS[0].0.into());
+    let found = KINDS.iter().find(|kind| kind.0 == said).copied();
+    found.ok_or_else(|| {
+        let known: Vec<&str> = KINDS.iter().map(|kind| kind.0).collect();
+        let remedy = format!("give a file of kind {}", known.join(", "));
+        Problem::new(format!("nothing diagnoses the kind `{said}`"), remedy).in_file(path)
+    })
+}

@@ -1,0 +1,214 @@
+//! `ident diagnose`: what the simulation gets wrong, and why.
+
+mod json;
+mod kind;
+mod load_cycle;
+mod page;
+mod tables;
+
+use super::output::{print, tell};
+use super::progress::Progress;
+use super::{Ending, Verb, arguments, parsed};
+use crate::findings::{Verdict, sentence::sentences};
+use crate::ground::files;
+use crate::ground::problem::Outcome;
+use crate::measurement::workspace::{Place, resolve};
+use crate::report::{html, svg, text};
+use crate::sheet::page::file;
+use clap::{ArgMatches, Args};
+use kind::{Diagnosed, kind};
+use rayon::prelude::*;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+
+/// The verb.
+pub const VERB: Verb = Verb {
+    name: "diagnose",
+    about: "Show what the simulation gets wrong, name the cause, and measure the gain on unseen data",
+    arguments: arguments::<Arguments>,
+    run,
+};
+
+#[derive(Args)]
+struct Arguments {
+    /// Measurement files; a bare name is looked up under measurements/
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// Print one JSON document instead of the account
+    #[arg(long)]
+    json: bool,
+    /// Write no model and no report
+    #[arg(long)]
+    dry_run: bool,
+    /// Report progress on standard error even without a terminal
+    #[arg(long)]
+    progress: bool,
+}
+
+/// One file, diagnosed.
+struct One {
+    kind: &'static str,
+    place: Place,
+    found: Box<dyn Diagnosed>,
+}
+
+fn run(matches: &ArgMatches) -> Outcome<Ending> {
+    let arguments: Arguments = parsed(matches);
+    let progress = Progress::new(arguments.files.len(), arguments.progress);
+    let results = arguments.files.par_iter().map(|name| {
+        let one = one(name);
+        progress.done(&name.display().to_string());
+        one
+    });
+    let results = results.collect::<Outcome<Vec<One>>>()?;
+    progress.finish();
+    if !arguments.dry_run {
+        write(&results)?;
+    }
+    let said = match arguments.json {
+        true => as_json(&results, arguments.dry_run)?,
+        false => as_text(&results, arguments.dry_run)?,
+    };
+    print(&said)?;
+    let fine = |one: &One| one.found.answer().verdict == Verdict::Sufficient;
+    Ok(match results.iter().all(fine) {
+        true => Ending::Done,
+        false => Ending::Attention,
+    })
+}
+
+fn one(name: &Path) -> Outcome<One> {
+    let (path, said) = resolve(name)?;
+    said.iter().for_each(|s| tell(s));
+    let (kind, diagnose) = kind(&path)?;
+    Ok(One {
+        kind,
+        place: Place::of(&path),
+        found: diagnose(&path)?,
+    })
+}
+
+impl One {
+    fn path(&self) -> &Path {
+        self.found.source().path
+    }
+
+    fn stem(&self) -> String {
+        let stem = self.path().file_stem().unwrap_or_default();
+        stem.to_string_lossy().to_string()
+    }
+
+    /// Where the extended model goes, and its text; none if nothing was extended.
+    fn model(&self) -> Outcome<Option<(PathBuf, String)>> {
+        let path = self
+            .place
+            .fits()
+            .join(format!("{}-extended.toml", self.stem()));
+        Ok(self.found.model()?.map(|text| (path, text)))
+    }
+
+    fn report(&self) -> PathBuf {
+        self.place
+            .reports()
+            .join(format!("{}-diagnosis.html", self.stem()))
+    }
+
+    /// Everything that is written for it.
+    fn files(&self) -> Outcome<Vec<(PathBuf, String)>> {
+        let page = page::page(self.found.as_ref(), &self.stem());
+        let mut out: Vec<(PathBuf, String)> = self.model()?.into_iter().collect();
+        for (stem, chart) in page.figures() {
+            out.push((
+                self.place.reports().join(file(&stem, chart)),
+                svg::ink(chart)?,
+            ));
+        }
+        out.push((self.report(), html::ink(&page)?));
+        Ok(out)
+    }
+}
+
+fn write(results: &[One]) -> Outcome<()> {
+    let inked: Vec<Vec<(PathBuf, String)>> =
+        results.par_iter().map(One::files).collect::<Outcome<_>>()?;
+    for (path, content) in inked.concat() {
+        files::replace(&path, content.as_bytes())?;
+    }
+    Ok(())
+}
+
+fn as_text(results: &[One], dry: bool) -> Outcome<String> {
+    let mut said = String::new();
+    for one in results {
+        said.push_str(&account(one));
+        if results.len() == 1 {
+            said.push_str(&tables_of(one));
+        }
+        if !dry {
+            if let Some((path, _)) = one.model()? {
+                said.push_str(&format!("  model  {}\n", path.display()));
+            }
+            said.push_str(&format!("  report {}\n", one.report().display()));
+        }
+    }
+    Ok(said)
+}
+
+fn account(one: &One) -> String {
+    let (answer, source) = (one.found.answer(), one.found.source());
+    let label = if source.synthetic { " (synthetic)" } else { "" };
+    let head = format!(
+        "{}{label}: {}\n",
+        source.path.display(),
+        answer.verdict.name()
+    );
+    let said = sentences(answer);
+    said.iter().fold(head, |all, s| all + &text::indented(s, 2))
+}
+
+fn tables_of(one: &One) -> String {
+    let answer = one.found.answer();
+    let mut said = String::new();
+    if !answer.causes.is_empty() || !answer.groups.is_empty() {
+        said.push_str(&format!("\n{}", text::table(&tables::causes_table(answer))));
+    }
+    if !answer.candidates.is_empty() {
+        said.push_str(&format!(
+            "\n{}",
+            text::table(&tables::candidates_table(answer))
+        ));
+    }
+    said
+}
+
+fn as_json(results: &[One], dry: bool) -> Outcome<String> {
+    let sources: Vec<_> = results.iter().map(|r| r.found.source()).collect();
+    let inputs: Vec<(&Path, &str)> = sources.iter().map(|s| (s.path, s.sha256)).collect();
+    let mut map = crate::report::json::head("diagnose", &inputs);
+    let body = |one: &One| -> Outcome<_> {
+        let model = if dry { None } else { one.model()?.map(|m| m.0) };
+        let mut body = json::body(
+            one.found.answer(),
+            one.found.source().synthetic,
+            model.as_deref(),
+        );
+        body.insert("kind".into(), json!(one.kind));
+        body.extend(one.found.more());
+        Ok(body)
+    };
+    match results {
+        [one] => map.extend(body(one)?),
+        many => {
+            let with_file = |one: &One| {
+                let mut map = body(one)?;
+                map.insert("file".into(), json!(one.path().display().to_string()));
+                Ok(Value::Object(map))
+            };
+            map.insert(
+                "results".into(),
+                many.iter().map(with_file).collect::<Outcome<_>>()?,
+            );
+        }
+    }
+    Ok(crate::report::json::print(map))
+}

@@ -1,0 +1,68 @@
+//! The report of an answer: what is wrong, why, how sure, what it gained, what remains, what to
+//! measure next.
+
+use super::kind::Diagnosed;
+use super::tables::{candidates_table, causes_table};
+use crate::findings::sentence::{left, sentence};
+use crate::findings::{Answer, Verdict};
+use crate::sheet::page::{Block, Page, Tone};
+
+/// The page of one measurement called `stem`.
+pub fn page(result: &dyn Diagnosed, stem: &str) -> Page {
+    let (answer, source) = (result.answer(), result.source());
+    let name = source.path.file_name().unwrap_or_default();
+    let subtitle = format!("{}, from {}", result.about(), name.to_string_lossy());
+    let mut page = Page::new(format!("Diagnosis of {stem}"), subtitle);
+    page.synthetic = source.synthetic;
+    page = page
+        .with(Block::verdict(tone(answer.verdict), sentence(answer)))
+        .with(Block::heading(
+            "What the simulation shows and what was measured",
+        ));
+    page = charts(page, result.before_and_after());
+    page = why(page, answer);
+    page = page
+        .with(Block::heading("What remains"))
+        .with(Block::text(left(answer)));
+    charts(page, result.remaining())
+}
+
+fn charts(page: Page, charts: Vec<crate::sheet::chart::Chart>) -> Page {
+    charts
+        .into_iter()
+        .fold(page, |page, chart| page.with(Block::Chart(chart)))
+}
+
+fn why(mut page: Page, answer: &Answer) -> Page {
+    if !answer.causes.is_empty() || !answer.groups.is_empty() {
+        page = page
+            .with(Block::heading("Why"))
+            .with(Block::Table(causes_table(answer)));
+    }
+    if !answer.groups.is_empty() {
+        page = page.with(Block::heading("What to measure next"));
+    }
+    for group in &answer.groups {
+        let said = format!(
+            "To tell {}: {}.",
+            group.effects.join(" from "),
+            group.would_tell
+        );
+        page = page.with(Block::text(said));
+    }
+    if !answer.candidates.is_empty() {
+        page = page
+            .with(Block::heading("What was compared"))
+            .with(Block::Table(candidates_table(answer)));
+    }
+    page
+}
+
+fn tone(verdict: Verdict) -> Tone {
+    match verdict {
+        Verdict::Sufficient => Tone::Good,
+        Verdict::Explained => Tone::Neutral,
+        Verdict::PartlyExplained | Verdict::CannotTell => Tone::Attention,
+        Verdict::UnknownCause => Tone::Bad,
+    }
+}

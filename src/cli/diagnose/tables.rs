@@ -1,0 +1,94 @@
+//! The tables of an answer.
+
+use crate::findings::Answer;
+use crate::findings::gain::Gain;
+use crate::findings::sentence::probability;
+use crate::sheet::number::engineering;
+use crate::sheet::table::Table;
+
+/// Causes and groups with their gains.
+pub fn causes_table(answer: &Answer) -> Table {
+    let header = [
+        "cause",
+        "site",
+        "probability",
+        "parameters",
+        "error without",
+        "with it",
+        "reduction [95 %]",
+    ];
+    let mut table =
+        Table::new("Causes, with the error on data held out of the fit", header).numeric([2, 4, 5]);
+    let unit = answer.unit;
+    for cause in &answer.causes {
+        let parameters: Vec<String> = cause
+            .parameters
+            .iter()
+            .map(|(name, value, unit)| {
+                format!(
+                    "{name} {}",
+                    engineering(*value, 3, if *unit == "1" { "" } else { unit })
+                )
+            })
+            .collect();
+        table.push([
+            cause.effect.to_string(),
+            cause.site.clone(),
+            probability(cause.probability),
+            parameters.join(", "),
+            engineering(cause.gain.before, 3, unit),
+            engineering(cause.gain.after, 3, unit),
+            reduction(&cause.gain),
+        ]);
+    }
+    for group in &answer.groups {
+        table.push([
+            format!("one of {}", group.effects.join(", ")),
+            distinct(&group.sites),
+            "not told apart".into(),
+            String::new(),
+            engineering(group.gain.before, 3, unit),
+            engineering(group.gain.after, 3, unit),
+            reduction(&group.gain),
+        ]);
+    }
+    table
+}
+
+fn distinct(sites: &[String]) -> String {
+    let mut sites = sites.to_vec();
+    sites.dedup();
+    sites.join(", ")
+}
+
+fn reduction(gain: &Gain) -> String {
+    format!(
+        "{:.1} % [{:.1}, {:.1}]",
+        gain.reduction_percent, gain.ci95_percent[0], gain.ci95_percent[1]
+    )
+}
+
+/// The sets of causes that were compared.
+pub fn candidates_table(answer: &Answer) -> Table {
+    let mut table = Table::new(
+        "Sets of causes, most probable first",
+        ["causes", "probability", "misfit explained in nats"],
+    )
+    .numeric([1, 2]);
+    for (causes, probability, nats) in &answer.candidates {
+        let name = if causes.is_empty() {
+            "none".to_string()
+        } else {
+            causes.join(" + ")
+        };
+        table.push([
+            name,
+            match 100.0 * probability {
+                p if p < 0.01 => "< 0.01 %".into(),
+                p => format!("{p:.2} %"),
+            },
+            format!("{nats:.1}"),
+        ]);
+    }
+    table
+}

@@ -1,0 +1,115 @@
+//! What every diagnosis answers, whatever was measured: the verdict, the causes, what cannot be told
+//! apart, what is left.
+
+use super::gain::Gain;
+
+/// The verdict on a simulation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// The simulation is right to within the noise.
+    Sufficient,
+    /// Causes found, nothing left.
+    Explained,
+    /// Causes found, structure remains.
+    PartlyExplained,
+    /// Structure that nobody in the library explains.
+    UnknownCause,
+    /// The data cannot separate the candidates.
+    CannotTell,
+}
+
+impl Verdict {
+    /// As in the JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sufficient => "sufficient",
+            Self::Explained => "explained",
+            Self::PartlyExplained => "partly-explained",
+            Self::UnknownCause => "unknown-cause",
+            Self::CannotTell => "cannot-tell",
+        }
+    }
+}
+
+/// A named cause.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cause {
+    /// Its name.
+    pub effect: &'static str,
+    /// Where.
+    pub site: String,
+    /// Probability that it is present.
+    pub probability: f64,
+    /// What it is, one sentence.
+    pub summary: &'static str,
+    /// Runners-up: effect, site, probability.
+    pub alternatives: Vec<(&'static str, String, f64)>,
+    /// Its parameters: name, value SI, unit.
+    pub parameters: Vec<(&'static str, f64, &'static str)>,
+    /// What naming it gains.
+    pub gain: Gain,
+}
+
+/// Causes that these data cannot tell apart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Group {
+    /// The candidates, most probable first.
+    pub effects: Vec<&'static str>,
+    /// Their sites.
+    pub sites: Vec<String>,
+    /// What would tell.
+    pub would_tell: String,
+    /// What any of them gains.
+    pub gain: Gain,
+}
+
+/// One row of the candidates' table: causes (with their sites where these differ), probability, nats
+/// of misfit explained.
+pub type Candidate = (Vec<String>, f64, f64);
+
+/// How far the present simulation is off.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Discrepancy {
+    /// Rms of measured − simulated, in the answer's unit.
+    pub rms: f64,
+    /// Noise that the data themselves show.
+    pub noise_rms: f64,
+    /// Where it is largest, a phrase.
+    pub place: String,
+}
+
+/// Structure that is left, without a model: means over load on either branch, and over time.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Structure {
+    /// Share of the discrepancy's variance that nothing explained.
+    pub share_of_variance: f64,
+    /// Mean residual over load: [load, residual].
+    pub shape: Vec<[f64; 2]>,
+    /// Mean residual over time: [s, residual].
+    pub over_time: Vec<[f64; 2]>,
+    /// What is seen, in words.
+    pub description: String,
+}
+
+/// The answer to a measurement.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Answer {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// How far the present simulation is off.
+    pub discrepancy: Discrepancy,
+    /// Named causes, in order of gain.
+    pub causes: Vec<Cause>,
+    /// Groups that cannot be separated.
+    pub groups: Vec<Group>,
+    /// What is left.
+    pub unexplained: Structure,
+    /// Probability that chance leaves so much.
+    pub p_value: f64,
+    /// The sets that were compared, most probable first.
+    pub candidates: Vec<Candidate>,
+    /// Unit of the discrepancy and of the errors of every gain.
+    pub unit: &'static str,
+    /// Noise in words.
+    pub noise: String,
+}

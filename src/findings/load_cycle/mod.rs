@@ -1,0 +1,20 @@
+//! Load cycles of one axis.
+//!
+//! The way of a load cycle: screen (noise, saturated span) → candidates (every effect's family of
+//! curves) → search (sets of causes by evidence) → refine (shapes free) → compare (posterior,
+//! ambiguity) → adequacy (is anything left?) → gain (cycles that were not fitted) → verdict.
+
+pub mod adequacy;
+pub mod ambiguity;
+pub mod diagnosis;
+pub mod imposed;
+pub mod lattice;
+pub mod look_alikes;
+pub mod next;
+pub mod refine;
+pub mod scales;
+pub mod search;
+pub mod structure;
+pub mod unseen;
+
+pub use diagnosis::{Diagnosis, Settings, diagnose};
