@@ -65,7 +65,7 @@ fn words(value: &Value) -> Vec<String> {
     value.as_array().into_iter().flatten().map(word).collect()
 }
 
-fn read(document: &Value) -> Answer {
+pub fn read(document: &Value) -> Answer {
     let list = |key: &str| document[key].as_array().cloned().unwrap_or_default();
     let causes = list("causes");
     let causes = causes

@@ -23,6 +23,7 @@ mod random;
 mod robot;
 mod robot_text;
 pub mod score;
+mod score_checks;
 mod structure;
 pub mod suite;
 mod workspace;
