@@ -30,12 +30,15 @@ pub const OUTSIDE: [&str; 3] = [
     "outside:mount_resonance",
 ];
 
+/// Changes the scene by a size of 0..1 and says how.
+pub type Change = Box<dyn Fn(&mut Scene, f64) -> String>;
+
 /// An effect with its place drawn.
 pub struct Drawn {
     pub sites: Vec<String>,
     /// Leaves the transfer functions as they are: only the records show it.
     pub in_records: bool,
-    pub change: Box<dyn Fn(&mut Scene, f64) -> String>,
+    pub change: Change,
 }
 
 fn drawn(sites: &[&str], change: impl Fn(&mut Scene, f64) -> String + 'static) -> Option<Drawn> {

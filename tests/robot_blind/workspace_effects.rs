@@ -31,12 +31,15 @@ pub const OUTSIDE: [&str; 6] = [
     "outside:wavy_joint",
 ];
 
+/// Changes the scene by a size of 0..1 and says how.
+pub type Change = Box<dyn Fn(&mut Scene, f64) -> String>;
+
 /// An effect with its place drawn.
 pub struct Drawn {
     pub sites: Vec<String>,
     /// Seen in the shape of the readings over force, not in their slope.
     pub shape: bool,
-    pub change: Box<dyn Fn(&mut Scene, f64) -> String>,
+    pub change: Change,
 }
 
 fn drawn(
