@@ -7,7 +7,10 @@ use crate::signal::colour::Colour;
 use nalgebra::{DMatrix, DVector};
 
 /// What the screen found.
+#[derive(Clone)]
 pub struct Screen {
+    /// The span: curves as columns, in cosine coefficients.
+    span: DMatrix<f64>,
     /// Noise of the readings.
     pub colour: Colour,
     /// Whitened sum of squares that the span could not explain.
@@ -44,40 +47,63 @@ const SLOW: usize = 6;
 impl Screen {
     /// The same screen with another colour.
     #[must_use]
-    pub fn recoloured(&self, colour: Colour, data: &Observation, candidates: &Candidates) -> Self {
-        let (basis, left) = project(&span(data, candidates), &candidates.reading, &colour);
+    pub fn recoloured(&self, colour: Colour, candidates: &Candidates) -> Self {
+        let (basis, left) = project(&self.span, &candidates.reading, &colour);
         Self {
             saturated: left.norm_squared(),
             dimension: basis.ncols(),
             colour,
-            tints: self.tints.clone(),
+            ..self.clone()
         }
+    }
+
+    /// Screens again with more curves (cosine coefficients) in the span.
+    #[must_use]
+    pub fn widened(&self, curves: &[Vec<f64>], candidates: &Candidates) -> Self {
+        let (n, own) = (self.span.nrows(), self.span.ncols());
+        let wide = DMatrix::from_fn(n, own + curves.len(), |i, j| match j < own {
+            true => self.span[(i, j)],
+            false => curves[j - own][i],
+        });
+        Self::of(wide, candidates, self.colour.clone())
+    }
+
+    /// Estimates the noise outside of `span`, starting from a colour.
+    fn of(span: DMatrix<f64>, candidates: &Candidates, mut colour: Colour) -> Self {
+        let n = span.nrows();
+        let mut coefficients = Vec::new();
+        let mut free = Vec::new();
+        for _pass in 0..PASSES {
+            let (basis, left) = project(&span, &candidates.reading, &colour);
+            let share = |k: usize| (1.0 - basis.row(k).norm_squared()).max(0.0);
+            free = (0..n).map(share).collect();
+            coefficients = left.iter().zip(&colour.sigma).map(|(r, s)| r * s).collect();
+            colour = Colour::estimate(&coefficients, &free);
+        }
+        let (basis, left) = project(&span, &candidates.reading, &colour);
+        Self {
+            tints: tints(&coefficients, &free, &colour),
+            saturated: left.norm_squared(),
+            dimension: basis.ncols(),
+            colour,
+            span,
+        }
+    }
+
+    /// By how many nats a reading is noisier here than in `other`.
+    pub fn noisier_than(&self, other: &Self) -> f64 {
+        let lines = self.colour.sigma.iter().zip(&other.colour.sigma);
+        lines.map(|(a, b)| (a / b).ln()).sum::<f64>() / self.colour.sigma.len().max(1) as f64
     }
 }
 
+/// Passes in which colour and residual settle.
+const PASSES: usize = 3;
+
 /// Estimates the noise of an observation.
 pub fn screen(data: &Observation, candidates: &Candidates) -> Screen {
-    let span = span(data, candidates);
-    let n = data.rows();
-    let mut colour = Colour::white(n, 1.0);
-    let mut result = (0, Vec::new(), Vec::new());
-    for _pass in 0..3 {
-        let (basis, left) = project(&span, &candidates.reading, &colour);
-        let free: Vec<f64> = (0..n)
-            .map(|k| (1.0 - basis.row(k).norm_squared()).max(0.0))
-            .collect();
-        let coefficients: Vec<f64> = left.iter().zip(&colour.sigma).map(|(r, s)| r * s).collect();
-        colour = Colour::estimate(&coefficients, &free);
-        result = (basis.ncols(), coefficients, free);
-    }
-    let (dimension, coefficients, free) = result;
-    let (_, left) = project(&span, &candidates.reading, &colour);
-    Screen {
-        tints: tints(&coefficients, &free, &colour),
-        colour,
-        saturated: left.norm_squared(),
-        dimension,
-    }
+    let white = Colour::white(data.rows(), 1.0);
+    Screen::of(span(data, candidates), candidates, white)
 }
 
 /// The plausible colours of a residual that the span has `1 − free` of.
