@@ -32,6 +32,9 @@ pub const MOST_ROWS: usize = 6000;
 /// reading wild.
 const WILD: f64 = 3.5;
 
+/// The same beside a fitted model, in robust standard deviations of the distance itself.
+const LONE: f64 = 6.5;
+
 impl Observation {
     /// Prepares the first sensor of a file, averaged down to at most `most` rows.
     pub fn of(file: &LoadCycle, most: usize) -> Self {
@@ -65,6 +68,20 @@ impl Observation {
             block,
             wild,
         }
+    }
+
+    /// Replaces readings that stand alone in the residual (reading − model) of a model that fits them;
+    /// says whether there were any.
+    pub fn repair_about(&mut self, residual: &[f64]) -> bool {
+        let lone = outliers::lone(residual, LONE);
+        for i in &lone {
+            self.reading[*i] += outliers::neighbours(residual, *i) - residual[*i];
+        }
+        let found = !lone.is_empty();
+        self.wild.extend(lone);
+        self.wild.sort_unstable();
+        self.wild.dedup();
+        found
     }
 
     /// Number of readings.

@@ -74,11 +74,11 @@ const AMBIGUOUS: f64 = 0.03;
 /// Probability of a set against the same set less one cause, below which that cause is not named.
 const NEEDED: f64 = 0.9;
 /// Structure counts as left when a test is below this p-value ...
-const SIGNIFICANT: f64 = 1e-6;
+const SIGNIFICANT: f64 = 5e-5;
 /// ... and the unexplained share exceeds this.
 const MATTERS: f64 = 0.1;
 /// With more than this share unexplained the causes found are not the story.
-const NOT_THE_STORY: f64 = 0.2;
+const NOT_THE_STORY: f64 = 0.13;
 /// Steps of a lattice above this many times the noise at high frequency are coarse: their rounding,
 /// step/√12, is then half of it or more.
 const COARSE: f64 = 1.73;
@@ -120,13 +120,17 @@ pub fn diagnose(file: &LoadCycle, settings: &Settings) -> Diagnosis {
 }
 
 fn compare<'a>(file: &'a LoadCycle, settings: &Settings) -> Case<'a> {
-    let data = Observation::of(file, settings.rows);
-    let candidates = Candidates::new(&shapes(&settings.library), &data);
+    let mut data = Observation::of(file, settings.rows);
+    let mut candidates = Candidates::new(&shapes(&settings.library), &data);
     let mut comparison = Comparison::new(screen(&data, &candidates), &candidates, &data);
+    let wild = data.repair_about(&comparison.residual(&data));
+    if wild {
+        candidates.read_again(&data);
+    }
     // what the coarse span missed of the best sets was taken for noise: look again without it
     let curves = comparison.curves();
     let second = comparison.screen.widened(&curves, &candidates);
-    if comparison.screen.noisier_than(&second) > QUIETER {
+    if wild || comparison.screen.noisier_than(&second) > QUIETER {
         comparison = Comparison::new(second, &candidates, &data);
     }
     let floor = comparison.screen.colour.floor();
@@ -189,12 +193,27 @@ impl Comparison {
         }
     }
 
-    /// The colour that suits the best set.
-    fn suited(&self) -> Colour {
+    /// The most probable set.
+    fn best(&self) -> &Refined {
         let best = self.posterior.sets.first().and_then(|set| set.2);
-        let suited = best.map_or(&self.plain, |i| &self.refined[i]);
+        best.map_or(&self.plain, |i| &self.refined[i])
+    }
+
+    /// Reading less what the most probable set predicts.
+    fn residual(&self, data: &Observation) -> Vec<f64> {
+        let best = self.best();
+        let predicted = best.model.predict(&best.optimum.p, &data.scene);
+        data.reading
+            .iter()
+            .zip(&predicted)
+            .map(|(y, f)| y - f)
+            .collect()
+    }
+
+    /// The colour that suits the most probable set.
+    fn suited(&self) -> Colour {
         Tints::new(&self.screen.colour, &self.screen.tints, &self.plain.optimum)
-            .best(&suited.optimum)
+            .best(&self.best().optimum)
             .clone()
     }
 
