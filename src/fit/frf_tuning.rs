@@ -7,8 +7,8 @@ use super::frf_match::{FrfMatch, frf_match};
 use super::frf_model::{Kind, Measured, Pose};
 pub use super::frf_residuals::Residuals;
 use super::frf_residuals::{residual_basis, with_residuals};
+use super::frf_starts::starts;
 use crate::ground::problem::{Outcome, Problem};
-use crate::ground::random::Random;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
@@ -42,7 +42,7 @@ pub struct Tuning {
     pub poses: Vec<Pose>,
     /// Residual terms.
     pub residuals: Residuals,
-    /// Number of starts; the first is at the first guesses.
+    /// Number of starts (`frf_starts`); the first is at the first guesses.
     pub starts: usize,
 }
 
@@ -72,11 +72,7 @@ pub(super) struct Linearised {
 pub fn tune(task: &Tuning) -> Outcome<Tuned> {
     check(task)?;
     let kinds: Vec<Kind> = task.parameters.iter().map(|p| p.kind).collect();
-    let mut random = Random::new(11);
-    let starts: Vec<Vec<f64>> = (0..task.starts.max(1))
-        .map(|i| start(task, i, &mut random))
-        .collect();
-    let descents = starts
+    let descents = starts(task, &kinds)
         .into_par_iter()
         .map(|start| descend(task, &kinds, start));
     let runs: Vec<(Vec<f64>, f64)> = descents.collect::<Vec<_>>().into_iter().flatten().collect();
@@ -137,19 +133,6 @@ fn pairs(task: &Tuning) -> impl Iterator<Item = (&Pose, &Measured)> {
 
 fn rows(task: &Tuning) -> usize {
     pairs(task).map(|(_, pair)| 2 * pair.frf.len()).sum()
-}
-
-/// Logarithms of the first guesses, or of values drawn within a factor of 10 about them.
-fn start(task: &Tuning, number: usize, random: &mut Random) -> Vec<f64> {
-    let guess = |p: &Parameter| {
-        let spread = if number == 0 {
-            0.0
-        } else {
-            random.uniform(-2.3, 2.3)
-        };
-        (p.start.ln() + spread).clamp(p.bounds[0].ln(), p.bounds[1].ln())
-    };
-    task.parameters.iter().map(guess).collect()
 }
 
 /// Levenberg-Marquardt, steps cut at the bounds.
