@@ -53,7 +53,8 @@ pub struct Tuned {
     pub values: Vec<f64>,
     /// What the data say about each of them.
     pub uncertainty: Uncertainty,
-    /// Weighted sum of squares over the degrees of freedom; 1 is noise alone.
+    /// Weighted sum of squares over the degrees of freedom, an exponential window counted: 1 is noise
+    /// alone.
     pub reduced_chi_square: f64,
     /// Per pose and measured pair, before and after.
     pub matches: Vec<Vec<[FrfMatch; 2]>>,
@@ -83,7 +84,7 @@ pub fn tune(task: &Tuning) -> Outcome<Tuned> {
         .filter(|run| run.1 <= 1.01 * cost + 1e-12)
         .count();
     let at = linearise(task, &kinds, theta).ok_or_else(singular)?;
-    let freedom = (rows(task) as f64 - task.parameters.len() as f64).max(1.0);
+    let freedom = freedom(task);
     let values: Vec<f64> = theta.iter().map(|t| t.exp()).collect();
     let reduced = at.cost / freedom;
     let rivals: Vec<&[f64]> = runs
@@ -93,7 +94,7 @@ pub fn tune(task: &Tuning) -> Outcome<Tuned> {
         .collect();
     Ok(Tuned {
         uncertainty: uncertainty(task, theta, &at, &rivals, (reduced, freedom)),
-        reduced_chi_square: at.cost / freedom,
+        reduced_chi_square: reduced,
         matches: matches(task, &kinds, &values),
         agreeing_starts: agreeing as f64 / runs.len() as f64,
         values,
@@ -133,6 +134,17 @@ fn pairs(task: &Tuning) -> impl Iterator<Item = (&Pose, &Measured)> {
 
 fn rows(task: &Tuning) -> usize {
     pairs(task).map(|(_, pair)| 2 * pair.frf.len()).sum()
+}
+
+/// Independent real numbers measured, less what was fitted to them. Under an exponential window
+/// neighbouring lines repeat each other: the weights count each for its share only, and so does this.
+fn freedom(task: &Tuning) -> f64 {
+    let of = |pair: &Measured| {
+        2.0 * pair.frf.len() as f64 / pair.lines_per_independent_one()
+            - task.residuals.terms() as f64
+    };
+    let measured: f64 = pairs(task).map(|(_, pair)| of(pair)).sum();
+    (measured - task.parameters.len() as f64).max(1.0)
 }
 
 /// Levenberg-Marquardt, steps cut at the bounds.
