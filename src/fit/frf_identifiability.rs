@@ -9,6 +9,9 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 const IDENTIFIABLE: f64 = 0.35;
 /// Standard deviation of the logarithm of a combination that the data fix.
 const FIXED: f64 = 0.1;
+/// Relative standard deviation that no calibration of hammer and sensors is better than. It is the same
+/// on all lines, so that no number of lines averages it out.
+const CALIBRATION: f64 = 0.001;
 /// Exponents below which a factor is left out of a combination, as long as it stays fixed without.
 const SMALL: [f64; 4] = [0.1, 0.03, 0.01, 0.0];
 
@@ -77,8 +80,8 @@ pub(super) fn uncertainty(
     let statement = |i: usize| {
         let apart = rivals.iter().map(|rival| (rival[i] - theta[i]).abs());
         let apart = apart.fold(0.0, f64::max) / t95(freedom);
-        let deviation = covariance[(i, i)].sqrt() + apart;
-        let alone = data_only[(i, i)].sqrt() + apart < IDENTIFIABLE;
+        let deviation = calibrated(covariance[(i, i)]) + apart;
+        let alone = calibrated(data_only[(i, i)]) + apart < IDENTIFIABLE;
         statement(task, theta, i, deviation, alone, freedom)
     };
     Uncertainty {
@@ -86,6 +89,11 @@ pub(super) fn uncertainty(
         fixed: combinations(&data, scale, &data_only),
         ln_covariance: covariance,
     }
+}
+
+/// Standard deviation from the variance of a logarithm, what calibrations leave included.
+fn calibrated(variance: f64) -> f64 {
+    variance.sqrt().hypot(CALIBRATION)
 }
 
 /// Inverse of a semidefinite matrix; directions without information get a deviation of 1000.
@@ -141,7 +149,7 @@ fn combinations(data: &DMatrix<f64>, scale: f64, covariance: &DMatrix<f64>) -> V
 fn shortened(vector: &DVector<f64>, covariance: &DMatrix<f64>) -> Option<Combination> {
     let without = |least: f64| {
         let large = vector.map(|w| if w.abs() > least { w } else { 0.0 });
-        let ln_std = large.dot(&(covariance * &large)).sqrt();
+        let ln_std = calibrated(large.dot(&(covariance * &large)));
         let weights = large.iter().copied().enumerate();
         Combination {
             weights: weights.filter(|(_, w)| *w != 0.0).collect(),
