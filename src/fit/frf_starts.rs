@@ -1,7 +1,8 @@
 //! Where the searches of a tuning begin: at the first guesses, and at what the simplex of Nelder and
 //! Mead (1965, crate `argmin`) makes of values drawn about them. The simplex needs no derivatives and
 //! sees the logarithms of amplitudes on a few lines: a wide valley, where least squares on the complex
-//! FRF sees a narrow one beside every peak.
+//! FRF sees a narrow one beside every peak. Far from the truth that saves more iterations than it
+//! costs; where the first guesses are right already it costs a tenth of a second.
 
 use super::frf_model::{Kind, Measured, Pose};
 use super::frf_tuning::Tuning;
