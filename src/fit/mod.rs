@@ -14,6 +14,7 @@ pub mod frf_measured;
 pub mod frf_model;
 pub mod frf_residuals;
 pub mod frf_robot;
+mod frf_starts;
 pub mod frf_tuning;
 pub mod identified_robot;
 pub mod imposed;

@@ -40,6 +40,14 @@ struct Arguments {
     /// Robot (built-in name or file) instead of the identified one or the one the files name
     #[arg(long, value_name = "ROBOT")]
     robot: Option<String>,
+    /// Pose of the files that state none, as universal files do: joint angles in degrees, A1 first
+    #[arg(
+        long,
+        value_name = "Q1,..,Q6",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    joints_deg: Option<Vec<f64>>,
     /// Print one JSON document instead of the account
     #[arg(long)]
     json: bool,
