@@ -2,6 +2,7 @@
 //! all of them answer in the same form.
 
 pub mod answer;
+pub mod campaign;
 pub mod gain;
 pub mod load_cycle;
 pub mod sentence;

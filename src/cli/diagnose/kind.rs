@@ -4,6 +4,7 @@ use super::load_cycle;
 use crate::findings::Answer;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::workspace::kind_of;
+use crate::robot::Robot;
 use crate::sheet::chart::Chart;
 use serde_json::{Map, Value};
 use std::path::Path;
@@ -33,6 +34,18 @@ pub trait Diagnosed: Send + Sync {
     fn remaining(&self) -> Vec<Chart>;
     /// The extended model as a file; `None` where nothing was extended.
     fn model(&self) -> Outcome<Option<String>>;
+    /// The robot it was simulated with, for tests of the whole robot.
+    fn robot(&self) -> Option<&Robot> {
+        None
+    }
+    /// That robot with the physical causes that were found.
+    fn extended(&self) -> Option<&Robot> {
+        None
+    }
+    /// The same measurement diagnosed with another robot.
+    fn under(&self, _robot: &Robot) -> Option<Box<dyn Diagnosed>> {
+        None
+    }
     /// What this kind adds to the common JSON.
     fn more(&self) -> Map<String, Value> {
         Map::new()

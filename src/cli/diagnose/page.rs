@@ -58,7 +58,8 @@ fn why(mut page: Page, answer: &Answer) -> Page {
     page
 }
 
-fn tone(verdict: Verdict) -> Tone {
+/// How a verdict is meant.
+pub fn tone(verdict: Verdict) -> Tone {
     match verdict {
         Verdict::Sufficient => Tone::Good,
         Verdict::Explained => Tone::Neutral,
