@@ -3,6 +3,7 @@
 
 pub mod answer;
 pub mod gain;
+pub mod joint_motion;
 pub mod load_cycle;
 pub mod sentence;
 

@@ -1,5 +1,6 @@
 //! `ident diagnose`: what the simulation gets wrong, and why.
 
+mod joint_motion;
 mod json;
 mod kind;
 mod load_cycle;
@@ -162,7 +163,8 @@ fn account(one: &One) -> String {
         source.path.display(),
         answer.verdict.name()
     );
-    let said = sentences(answer);
+    let mut said = sentences(answer);
+    said.extend(one.found.remarks());
     said.iter().fold(head, |all, s| all + &text::indented(s, 2))
 }
 
