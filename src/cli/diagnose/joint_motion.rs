@@ -24,7 +24,9 @@ struct Motion {
 pub fn diagnosed(path: &Path) -> Outcome<Box<dyn Diagnosed>> {
     let file = JointMotion::read(path)?;
     let named = file.facts.robot.as_deref();
-    let robot = named.map(|name| robot::load(name, Some(path))).transpose()?;
+    let robot = named
+        .map(|name| robot::load(name, Some(path)))
+        .transpose()?;
     let found = diagnose(&file, robot.as_ref().map(|r| &r.robot));
     Ok(Box::new(Motion { file, found }))
 }
@@ -124,8 +126,14 @@ impl Motion {
         let curves = |panel: Panel, x: &[f64]| {
             panel
                 .with(Series::line("measured", over(x, &data.twist, scale)).emphasised())
-                .with(Series::dotted("present simulation", over(x, &joint.simulated, scale)))
-                .with(Series::dashed("with the named causes", over(x, &joint.explained, scale)))
+                .with(Series::dotted(
+                    "present simulation",
+                    over(x, &joint.simulated, scale),
+                ))
+                .with(Series::dashed(
+                    "with the named causes",
+                    over(x, &joint.explained, scale),
+                ))
         };
         Chart::new(
             format!("{}-{}-twist", self.stem(), joint.site.to_lowercase()),
@@ -160,7 +168,11 @@ impl Motion {
             let left = joint.residual();
             let largest = left.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
             let (scale, unit) = prefix(largest, "rad");
-            let load = joint.data.torque.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
+            let load = joint
+                .data
+                .torque
+                .iter()
+                .fold(0.0_f64, |m, y| m.max(y.abs()));
             let (load_scale, load_unit) = prefix(load, "N·m");
             let torque = joint.data.torque.iter();
             let points = torque.zip(&left).map(|(t, y)| [t * load_scale, y * scale]);

@@ -14,8 +14,7 @@ pub fn page(result: &dyn Diagnosed, stem: &str) -> Page {
     let subtitle = format!("{}, from {}", result.about(), name.to_string_lossy());
     let mut page = Page::new(format!("Diagnosis of {stem}"), subtitle);
     page.synthetic = source.synthetic;
-    page = page
-        .with(Block::verdict(tone(answer.verdict), sentence(answer)));
+    page = page.with(Block::verdict(tone(answer.verdict), sentence(answer)));
     for remark in result.remarks() {
         page = page.with(Block::text(remark));
     }

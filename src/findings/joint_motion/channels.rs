@@ -5,7 +5,7 @@ use crate::measurement::joint_motion::JointRecord;
 use crate::signal::outliers;
 
 /// Rows beyond which neighbours are averaged.
-const MOST_ROWS: usize = 2600;
+const MOST_ROWS: usize = 3200;
 /// Width over which speed, acceleration and torque are smoothed, s.
 const SMOOTHING_S: f64 = 0.02;
 /// Distance from its neighbours, in robust standard deviations, that makes a lone reading wild.

@@ -82,9 +82,8 @@ const SIGN_WIDTHS: [f64; 3] = [0.005, 0.03, 0.1];
 
 fn friction(data: &Channels) -> Vec<Atom> {
     let top = data.top_speed().max(f64::MIN_POSITIVE);
-    let smooth = SIGN_WIDTHS.map(|w| -> Vec<f64> {
-        data.speed.iter().map(|v| (v / (w * top)).tanh()).collect()
-    });
+    let smooth = SIGN_WIDTHS
+        .map(|w| -> Vec<f64> { data.speed.iter().map(|v| (v / (w * top)).tanh()).collect() });
     let mut all = smooth.to_vec();
     all.push(held_sign(&data.speed, 0.01 * top));
     let both_ways = |c: &Vec<f64>| share(c, |v| v > 0.5) > 0.04 && share(c, |v| v < -0.5) > 0.04;
@@ -115,9 +114,8 @@ const GAP_WIDTHS: [f64; 3] = [0.01, 0.04, 0.12];
 
 fn gaps(data: &Channels) -> Vec<Atom> {
     let scale = largest(&data.torque).max(f64::MIN_POSITIVE);
-    let both = |t: &[f64]| {
-        share(t, |v| v > 0.05 * scale) > 0.04 && share(t, |v| v < -0.05 * scale) > 0.04
-    };
+    let both =
+        |t: &[f64]| share(t, |v| v > 0.05 * scale) > 0.04 && share(t, |v| v < -0.05 * scale) > 0.04;
     let transmitted = super::stiffness::transmitted(data);
     let mut all = Vec::new();
     for torque in [&data.torque, &transmitted].into_iter().filter(|t| both(t)) {
@@ -130,20 +128,29 @@ fn gaps(data: &Channels) -> Vec<Atom> {
 }
 
 /// Shares of the torque's range over which elastic hysteresis saturates.
-const LOOP_WIDTHS: [f64; 4] = [0.06, 0.15, 0.35, 0.7];
+const LOOP_WIDTHS: [f64; 5] = [0.03, 0.08, 0.2, 0.45, 0.9];
 
+/// Single loops, and means of two and three of neighbouring widths: a smooth spread of sliders.
 fn loops(data: &Channels) -> Vec<Atom> {
     let (low, high) = range(&data.torque);
-    let column = |w: f64| {
-        let width = (w * (high - low)).max(f64::MIN_POSITIVE);
+    let scale = (high - low).max(f64::MIN_POSITIVE);
+    let single: Vec<Vec<f64>> = LOOP_WIDTHS
+        .iter()
+        .map(|w| slid(&data.torque, w * scale))
+        .collect();
+    let tried = 3 * LOOP_WIDTHS.len() - 3;
+    let mean = |of: &[Vec<f64>]| {
+        let at = |i: usize| of.iter().map(|c| c[i]).sum::<f64>() / of.len() as f64;
         Atom::one(
             Kind::Hysteresis,
-            slid(&data.torque, width),
-            w,
-            LOOP_WIDTHS.len(),
+            (0..data.rows()).map(at).collect(),
+            0.0,
+            tried,
         )
     };
-    LOOP_WIDTHS.map(column).to_vec()
+    (1..=3)
+        .flat_map(|many| single.windows(many).map(mean))
+        .collect()
 }
 
 /// Smallest and largest value.
@@ -168,25 +175,44 @@ fn slid(torque: &[f64], width: f64) -> Vec<f64> {
     torque.iter().map(lag).collect()
 }
 
-/// Instants at which a zero may have jumped.
-const INSTANTS: usize = 40;
+/// Instants of an even grid at which a zero may have jumped.
+const INSTANTS: usize = 10;
+/// Sharpest instants of a residual that are tried besides.
+const SHARPEST: usize = 3;
 
-/// Instants of steps, finer around `near` if given.
 fn steps(data: &Channels) -> Vec<Atom> {
-    let n = data.rows();
-    let at = |k: usize| n * (k + 1) / (INSTANTS + 1);
+    let at = |k: usize| data.rows() * (k + 1) / (INSTANTS + 1);
     (0..INSTANTS).map(|k| step(data, at(k))).collect()
+}
+
+/// Steps where the means of a residual before and after differ most.
+pub fn sharp_steps(data: &Channels, residual: &[f64]) -> Vec<Atom> {
+    let (n, w) = (residual.len(), (residual.len() / 40).max(4));
+    let mut sums = vec![0.0];
+    residual
+        .iter()
+        .for_each(|r| sums.push(sums[sums.len() - 1] + r));
+    let jump = |i: usize| (sums[i + w] - 2.0 * sums[i] + sums[i - w]).abs();
+    let mut order: Vec<usize> = (w..n - w).collect();
+    order.sort_by(|a, b| jump(*b).total_cmp(&jump(*a)));
+    let mut kept: Vec<usize> = Vec::new();
+    for row in order {
+        if kept.len() < SHARPEST && kept.iter().all(|k| k.abs_diff(row) > 2 * w) {
+            kept.push(row);
+        }
+    }
+    kept.into_iter().map(|row| step(data, row)).collect()
 }
 
 /// A zero that jumps at a row.
 pub fn step(data: &Channels, row: usize) -> Atom {
     let column = (0..data.rows()).map(|i| if i < row { 0.0 } else { 1.0 });
-    Atom::one(Kind::Offset, column.collect(), row as f64, INSTANTS)
+    Atom::one(Kind::Offset, column.collect(), row as f64, data.rows() / 20)
 }
 
-/// Rows between neighbouring candidates for a step.
-pub fn step_spacing(data: &Channels) -> usize {
-    data.rows().div_ceil(INSTANTS + 1)
+/// Rows about a candidate for a step in which the best is sought.
+pub fn step_reach(data: &Channels) -> usize {
+    data.rows() / 80
 }
 
 fn position(data: &Channels) -> Atom {

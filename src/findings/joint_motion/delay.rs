@@ -29,9 +29,17 @@ pub fn delay(
 ) -> Delay {
     let has = |kind| chosen.iter().any(|a| a.kind == kind);
     let extra = |kind: Kind| atoms.iter().find(|a| a.kind == kind && !has(kind));
-    let plain: Vec<&Atom> = chosen.iter().copied().filter(|a| a.kind != Kind::Rate).collect();
+    let plain: Vec<&Atom> = chosen
+        .iter()
+        .copied()
+        .filter(|a| a.kind != Kind::Rate)
+        .collect();
     let mut accounts = vec![plain.clone()];
-    for more in [vec![Kind::Coulomb], vec![Kind::Position], vec![Kind::Coulomb, Kind::Position]] {
+    for more in [
+        vec![Kind::Coulomb],
+        vec![Kind::Position],
+        vec![Kind::Coulomb, Kind::Position],
+    ] {
         let mut account = plain.clone();
         account.extend(more.into_iter().filter_map(extra));
         accounts.push(account);
@@ -40,7 +48,11 @@ pub fn delay(
     let corrected = |[v, t]: &[f64; 2]| -v + (-t).max(0.0) * friction.viscous;
     let values: Vec<f64> = estimates.iter().map(corrected).collect();
     let value = mean(&values);
-    let spread = values.iter().map(|v| (v - value) * (v - value)).sum::<f64>() / 3.0;
+    let spread = values
+        .iter()
+        .map(|v| (v - value) * (v - value))
+        .sum::<f64>()
+        / 3.0;
     Delay {
         value,
         std: spread.sqrt().hypot(stderr(data, noise, &plain)),
@@ -54,7 +66,9 @@ fn rate(data: &Channels, account: &[&Atom]) -> [f64; 2] {
     let base = base(data);
     let mut columns: Vec<&[f64]> = vec![&data.speed, &data.torque];
     columns.extend([base[0].as_slice(), base[2].as_slice()]);
-    let more = account.iter().flat_map(|a| a.columns.iter().map(Vec::as_slice));
+    let more = account
+        .iter()
+        .flat_map(|a| a.columns.iter().map(Vec::as_slice));
     columns.extend(more);
     let rows: Vec<usize> = (0..data.rows()).collect();
     let a = amplitudes(&columns, &data.twist, &rows);

@@ -17,10 +17,22 @@ pub fn place(residual: &[f64], data: &Channels) -> &'static str {
     };
     let all = square(&|_| true).max(f64::MIN_POSITIVE);
     let places: [(&str, f64); 4] = [
-        ("largest in fast motion", square(&|i| data.speed[i].abs() > 0.6 * top)),
-        ("largest in slow motion and at rest", square(&|i| data.speed[i].abs() < 0.1 * top)),
-        ("largest at high torque", square(&|i| data.torque[i].abs() > 0.7 * load)),
-        ("largest near zero torque", square(&|i| data.torque[i].abs() < 0.15 * load)),
+        (
+            "largest in fast motion",
+            square(&|i| data.speed[i].abs() > 0.6 * top),
+        ),
+        (
+            "largest in slow motion and at rest",
+            square(&|i| data.speed[i].abs() < 0.1 * top),
+        ),
+        (
+            "largest at high torque",
+            square(&|i| data.torque[i].abs() > 0.7 * load),
+        ),
+        (
+            "largest near zero torque",
+            square(&|i| data.torque[i].abs() < 0.15 * load),
+        ),
     ];
     let best = places.iter().max_by(|a, b| a.1.total_cmp(&b.1));
     best.filter(|b| b.1 > 1.4 * all)
@@ -29,7 +41,10 @@ pub fn place(residual: &[f64], data: &Channels) -> &'static str {
 
 /// What is seen in a residual that no cause explains: the silent terms that were found in it.
 pub fn left(silent: &[(&Atom, f64)], ratio: Option<f64>) -> Option<String> {
-    let said: Vec<String> = silent.iter().map(|(atom, size)| of_atom(atom, *size, ratio)).collect();
+    let said: Vec<String> = silent
+        .iter()
+        .map(|(atom, size)| of_atom(atom, *size, ratio))
+        .collect();
     (!said.is_empty()).then(|| said.join(" and "))
 }
 

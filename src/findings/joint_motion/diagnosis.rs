@@ -62,7 +62,11 @@ fn answer(joints: &[JointFinding]) -> Answer {
     let all = pooled(&missed);
     let share = (pooled(&left).powi(2) - noise_rms.powi(2)) / all.powi(2).max(f64::MIN_POSITIVE);
     let mut causes: Vec<Cause> = joints.iter().flat_map(|j| j.named.causes.clone()).collect();
-    causes.sort_by(|a, b| b.gain.reduction_percent.total_cmp(&a.gain.reduction_percent));
+    causes.sort_by(|a, b| {
+        b.gain
+            .reduction_percent
+            .total_cmp(&a.gain.reduction_percent)
+    });
     let worst = joints.iter().max_by(|a, b| left(a).total_cmp(&left(b)));
     Answer {
         verdict: verdict(joints),

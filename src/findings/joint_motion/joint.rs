@@ -1,14 +1,14 @@
 //! The diagnosis of one joint: from its record to what is named and what is left.
 
 use super::channels::{Channels, rms};
-use super::columns::{Atom, Kind, atoms, base, step, step_spacing};
+use super::columns::{Atom, Kind, atoms, base, sharp_steps, step, step_reach};
 use super::delay::{Delay, delay};
 use super::evidence::{Evidence, Set, kinds};
 use super::named::{self, Named};
 use super::noise::Noise;
 use super::ripple::ripples;
 use super::stiffness::{Compliance, Friction, compliance, friction};
-use super::unseen::{amplitudes, gain, held_out, residual};
+use super::unseen::{Split, amplitudes, gain, held_out, residual};
 use super::{description, next};
 use crate::findings::answer::{Candidate, Group};
 use crate::findings::gain::Gain;
@@ -19,8 +19,10 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 const AMBIGUOUS: f64 = 0.05;
 /// Probability of a set against the same set less one cause, below which that cause is not named.
 const NEEDED: f64 = 0.9;
-/// Share of the discrepancy's variance that a cause must explain to be named.
+/// Share of the variance of what torque and inertia leave that a cause must explain to be named.
 const MATTERS: f64 = 0.01;
+/// The same for a jump of a zero and a ripple, which slow structure and meshing teeth imitate in part.
+const INSTRUMENT_MATTERS: f64 = 0.12;
 /// Structure counts as left when a test is below this p-value and its share above the other.
 const SIGNIFICANT: f64 = 1e-6;
 const SHARE_LEFT: f64 = 0.1;
@@ -108,6 +110,7 @@ impl<'a> Case<'a> {
         let data = Channels::of(record);
         let mut atoms = atoms(&data);
         let rough = rough_residual(&data, &atoms);
+        atoms.extend(sharp_steps(&data, &rough));
         atoms.extend(ripples(&data, &rough, record.ratio));
         let noise = Noise::of(&data, &atoms);
         let evidence = Evidence::new(&data, &atoms, &noise);
@@ -128,12 +131,16 @@ impl<'a> Case<'a> {
 
     /// The instant of a jump to the row: the grid's error looks like a second cause.
     fn refine_step(&mut self) {
-        let best = self.sets.first().map(|s| s.1.atoms.clone()).unwrap_or_default();
+        let best = self
+            .sets
+            .first()
+            .map(|s| s.1.atoms.clone())
+            .unwrap_or_default();
         let Some(rough) = best.iter().find(|i| self.atoms[**i].kind == Kind::Offset) else {
             return;
         };
         let others: Vec<usize> = best.iter().copied().filter(|i| i != rough).collect();
-        let (row, reach) = (self.atoms[*rough].shape as usize, step_spacing(&self.data));
+        let (row, reach) = (self.atoms[*rough].shape as usize, step_reach(&self.data));
         let errors = |at: usize| {
             let atom = step(&self.data, at);
             let mut columns = self.columns(&others);
@@ -156,7 +163,10 @@ impl<'a> Case<'a> {
     /// Columns of zero, torque and acceleration, and of a set of atoms.
     pub fn columns(&self, indices: &[usize]) -> Vec<&[f64]> {
         let mut columns: Vec<&[f64]> = vec![self.evidence.ones()];
-        columns.extend([self.data.torque.as_slice(), self.data.acceleration.as_slice()]);
+        columns.extend([
+            self.data.torque.as_slice(),
+            self.data.acceleration.as_slice(),
+        ]);
         let own = indices.iter().flat_map(|i| self.atoms[*i].columns.iter());
         columns.extend(own.map(Vec::as_slice));
         columns
@@ -173,7 +183,13 @@ impl<'a> Case<'a> {
         let at = 3 + before.map(|i| self.atoms[*i].columns.len()).sum::<usize>();
         let columns = &self.atoms[index].columns;
         let own: Vec<f64> = (0..self.data.rows())
-            .map(|i| columns.iter().enumerate().map(|(k, c)| a[at + k] * c[i]).sum())
+            .map(|i| {
+                columns
+                    .iter()
+                    .enumerate()
+                    .map(|(k, c)| a[at + k] * c[i])
+                    .sum()
+            })
             .collect();
         let mean = super::channels::mean(&own);
         rms(&own.iter().map(|v| v - mean).collect::<Vec<f64>>())
@@ -189,10 +205,18 @@ impl<'a> Case<'a> {
 
     /// The most probable set, less the causes that gain nothing on unseen data.
     fn choose(&self) -> Vec<usize> {
-        let mut chosen = self.sets.first().map(|s| s.1.atoms.clone()).unwrap_or_default();
+        let mut chosen = self
+            .sets
+            .first()
+            .map(|s| s.1.atoms.clone())
+            .unwrap_or_default();
         loop {
-            let unreal = chosen.iter().copied().find(|i| !self.is_real(&chosen, *i));
-            match unreal {
+            let loss = |i: &usize| self.score(&chosen) - self.score(&without(&chosen, *i));
+            let unreal = chosen
+                .iter()
+                .copied()
+                .filter(|i| !self.is_real(&chosen, *i));
+            match unreal.min_by(|a, b| loss(a).total_cmp(&loss(b))) {
                 None => return chosen,
                 Some(index) => chosen.retain(|i| *i != index),
             }
@@ -203,13 +227,27 @@ impl<'a> Case<'a> {
         if self.atoms[index].kind.is_silent() {
             return true;
         }
-        let rest: Vec<usize> = chosen.iter().copied().filter(|i| *i != index).collect();
-        let share = (self.size(chosen, index) / rms(&self.data.twist)).powi(2);
-        share > MATTERS && self.is_needed(chosen, &rest) && self.gain(chosen, &rest).is_real()
+        let rest = without(chosen, index);
+        let share = (self.size(chosen, index) / self.unsprung()).powi(2);
+        let matters = match self.atoms[index].kind {
+            Kind::Offset | Kind::Ripple => INSTRUMENT_MATTERS,
+            _ => MATTERS,
+        };
+        share > matters && self.is_needed(chosen, &rest) && self.gain(chosen, index).is_real()
+    }
+
+    /// Rms of the twist that torque and inertia leave.
+    fn unsprung(&self) -> f64 {
+        let columns = self.columns(&[]);
+        let a = amplitudes(&columns, &self.data.twist, &self.all());
+        rms(&residual(&columns, &a, &self.data.twist))
     }
 
     fn score(&self, indices: &[usize]) -> f64 {
-        let found = self.sets.iter().find(|s| s.0 == kinds(indices, &self.atoms));
+        let found = self
+            .sets
+            .iter()
+            .find(|s| s.0 == kinds(indices, &self.atoms));
         found.map_or(f64::MIN, |s| s.1.score)
     }
 
@@ -217,18 +255,30 @@ impl<'a> Case<'a> {
         self.score(chosen) - self.score(rest) > (NEEDED / (1.0 - NEEDED)).ln()
     }
 
-    /// Gain of a set over a smaller one on pieces of time that were not fitted.
-    pub fn gain(&self, chosen: &[usize], rest: &[usize]) -> Gain {
-        gain(
-            &held_out(&self.columns(rest), &self.data),
-            &held_out(&self.columns(chosen), &self.data),
-        )
+    /// Gain of one atom of a set on long pieces of time that were not fitted. What the gear does may
+    /// show in few places: then on short pieces, if the long ones do not show it.
+    pub fn gain(&self, chosen: &[usize], index: usize) -> Gain {
+        let rest = without(chosen, index);
+        let on = |split: Split| {
+            let errors = |set: &[usize]| held_out(&self.columns(set), &self.data, split);
+            gain(&errors(&rest), &errors(chosen), split)
+        };
+        let long = on(Split::Long);
+        let gear = matches!(
+            self.atoms[index].kind,
+            Kind::Backlash | Kind::Hysteresis | Kind::Coulomb
+        );
+        if long.is_real() || !gear {
+            return long;
+        }
+        let short = on(Split::Short);
+        if short.is_real() { short } else { long }
     }
 
     /// Kinds that can stand in for one of the chosen, with their probability against it.
     pub fn stand_ins(&self, chosen: &[usize], index: usize) -> Vec<(Kind, f64)> {
         let own = self.score(chosen);
-        let others: Vec<usize> = chosen.iter().copied().filter(|i| *i != index).collect();
+        let others = without(chosen, index);
         let rest = kinds(&others, &self.atoms);
         let mut found = Vec::new();
         for (with, set) in &self.sets {
@@ -277,11 +327,24 @@ impl<'a> Case<'a> {
         let columns = self.columns(&loud);
         let a = amplitudes(&columns, &self.data.twist, &self.all());
         let left = residual(&columns, &a, &self.data.twist);
-        let explained: Vec<f64> = self.data.twist.iter().zip(&left).map(|(y, l)| y - l).collect();
+        let explained: Vec<f64> = self
+            .data
+            .twist
+            .iter()
+            .zip(&left)
+            .map(|(y, l)| y - l)
+            .collect();
         let simulated = self.simulated();
-        let missed: Vec<f64> = self.data.twist.iter().zip(&simulated).map(|(y, s)| y - s).collect();
+        let missed: Vec<f64> = self
+            .data
+            .twist
+            .iter()
+            .zip(&simulated)
+            .map(|(y, s)| y - s)
+            .collect();
         let noise_rms = self.noise.colour.rms.min(rms(&left));
-        let share_left = ((rms(&left).powi(2) - noise_rms * noise_rms) / rms(&missed).powi(2)).clamp(0.0, 1.0);
+        let share_left =
+            ((rms(&left).powi(2) - noise_rms * noise_rms) / rms(&missed).powi(2)).clamp(0.0, 1.0);
         let p_value = self.lack_of_fit(&loud);
         JointFinding {
             site: self.record.site(),
@@ -304,8 +367,15 @@ impl<'a> Case<'a> {
     }
 
     fn describe(&self, chosen: &[usize]) -> Option<String> {
-        let silent: Vec<usize> = chosen.iter().copied().filter(|i| self.atoms[*i].kind.is_silent()).collect();
-        let sized: Vec<(&Atom, f64)> = silent.iter().map(|i| (&self.atoms[*i], self.size(chosen, *i))).collect();
+        let silent: Vec<usize> = chosen
+            .iter()
+            .copied()
+            .filter(|i| self.atoms[*i].kind.is_silent())
+            .collect();
+        let sized: Vec<(&Atom, f64)> = silent
+            .iter()
+            .map(|i| (&self.atoms[*i], self.size(chosen, *i)))
+            .collect();
         description::left(&sized, self.record.ratio)
     }
 
@@ -327,7 +397,10 @@ impl<'a> Case<'a> {
     fn lack_of_fit(&self, set: &[usize]) -> f64 {
         let nats = self.evidence.set(set, &self.atoms).map_or(0.0, |s| s.nats);
         let excess = self.evidence.base - 2.0 * nats - self.noise.saturated;
-        let used: usize = 3 + set.iter().map(|i| self.atoms[*i].columns.len()).sum::<usize>();
+        let used: usize = 3 + set
+            .iter()
+            .map(|i| self.atoms[*i].columns.len())
+            .sum::<usize>();
         let freedom = self.noise.dimension.saturating_sub(used).max(1) as f64;
         ChiSquared::new(freedom).map_or(1.0, |d| d.sf(excess.max(0.0)))
     }
@@ -340,7 +413,9 @@ impl<'a> Case<'a> {
             .iter()
             .take(4)
             .map(|(kinds, set)| {
-                let names = kinds.iter().map(|k| format!("{} {site}", named::spoken(*k)));
+                let names = kinds
+                    .iter()
+                    .map(|k| format!("{} {site}", named::spoken(*k)));
                 (names.collect(), (set.score - top).exp() / total, set.nats)
             })
             .collect()
@@ -357,9 +432,19 @@ impl<'a> Case<'a> {
     }
 }
 
+/// A set less one of its atoms.
+pub(super) fn without(set: &[usize], index: usize) -> Vec<usize> {
+    set.iter().copied().filter(|i| *i != index).collect()
+}
+
 /// What zero, torque, acceleration, speed, friction and slow structure leave.
 fn rough_residual(data: &Channels, atoms: &[Atom]) -> Vec<f64> {
-    let plain = |kind| matches!(kind, Kind::Rate | Kind::Coulomb | Kind::Backlash | Kind::Position);
+    let plain = |kind| {
+        matches!(
+            kind,
+            Kind::Rate | Kind::Coulomb | Kind::Backlash | Kind::Position
+        )
+    };
     let mut columns = base(data);
     columns.extend(
         atoms

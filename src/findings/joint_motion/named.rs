@@ -1,9 +1,11 @@
 //! From the atoms of a set to causes with a name, a site, parameters and a gain.
 
 use super::columns::Kind;
+use super::columns::Kind::Hysteresis;
 use super::delay::Delay;
 use super::joint::Case;
 use super::stiffness::Compliance;
+use super::unseen::{Split, gain, held_out};
 use crate::findings::answer::{Cause, Group};
 use crate::findings::gain::Gain;
 use crate::fit::parameter::Z95;
@@ -19,13 +21,34 @@ pub struct Named {
 
 /// Effects of this kind of measurement, each with one sentence.
 const SUMMARIES: &[(&str, &str)] = &[
-    ("time_skew", "The encoders of motor and link are not read at the same instant."),
-    ("backlash", "A free gap in the gear: the link is loose while the torque changes sign."),
-    ("hysteresis", "The gear gives and takes back on different curves."),
-    ("coulomb_friction", "Dry friction between motor and spring takes torque that never reaches the link."),
-    ("viscous_friction", "Friction in proportion to the speed takes torque that never reaches the link."),
-    ("stiffness", "The stiffness that the simulation uses is not the joint's."),
-    ("encoder_ripple", "An encoder errs periodically over its turn."),
+    (
+        "time_skew",
+        "The encoders of motor and link are not read at the same instant.",
+    ),
+    (
+        "backlash",
+        "A free gap in the gear: the link is loose while the torque changes sign.",
+    ),
+    (
+        "hysteresis",
+        "The gear gives and takes back on different curves.",
+    ),
+    (
+        "coulomb_friction",
+        "Dry friction between motor and spring takes torque that never reaches the link.",
+    ),
+    (
+        "viscous_friction",
+        "Friction in proportion to the speed takes torque that never reaches the link.",
+    ),
+    (
+        "stiffness",
+        "The stiffness that the simulation uses is not the joint's.",
+    ),
+    (
+        "encoder_ripple",
+        "An encoder errs periodically over its turn.",
+    ),
     ("sensor_offset", "The zero of an encoder is off, or jumps."),
 ];
 
@@ -50,9 +73,9 @@ pub fn spoken(kind: Kind) -> &'static str {
 
 /// A declared delay counts as known to within this share of itself.
 const DECLARED: f64 = 0.25;
-/// Ratios of the friction that the torque shows to what the twist asks for: below, it is no friction;
-/// between, it may be; within the second and third, it is.
-const FRICTION_FITS: [f64; 3] = [0.3, 0.6, 1.7];
+/// Ratios of the friction that the torque shows to what the twist asks for: below the first it is no
+/// friction, between the second and the third it is, elsewhere it may be.
+const FRICTION_FITS: [f64; 3] = [0.1, 0.6, 1.7];
 
 /// Names everything that was chosen for a joint.
 pub(super) fn name(
@@ -63,8 +86,7 @@ pub(super) fn name(
 ) -> Named {
     let mut named = Named::default();
     for index in chosen.iter().filter(|i| !case.atoms[**i].kind.is_silent()) {
-        let rest: Vec<usize> = chosen.iter().copied().filter(|i| i != index).collect();
-        let gain = case.gain(chosen, &rest);
+        let gain = case.gain(chosen, *index);
         match (case.atoms[*index].kind, delay) {
             (Kind::Rate, Some(delay)) => name_rate(case, delay, compliance, gain, &mut named),
             (kind, _) => name_other(case, chosen, *index, kind, compliance, gain, &mut named),
@@ -75,7 +97,13 @@ pub(super) fn name(
     named
 }
 
-fn name_rate(case: &Case, delay: Delay, compliance: Option<Compliance>, gain: Gain, named: &mut Named) {
+fn name_rate(
+    case: &Case,
+    delay: Delay,
+    compliance: Option<Compliance>,
+    gain: Gain,
+    named: &mut Named,
+) {
     let declared = case.record.delay.unwrap_or(0.0).abs();
     if declared > 0.0 && delay.value.abs() < (DECLARED * declared).max(Z95 * delay.std) {
         return;
@@ -89,10 +117,14 @@ fn name_rate(case: &Case, delay: Delay, compliance: Option<Compliance>, gain: Ga
     };
     let one = |effect, parameters| cause(case, effect, parameters, gain);
     match delay.rate > 0.0 {
-        true if (least..most).contains(&ratio) => named.causes.push(one("viscous_friction", viscous)),
+        true if (least..most).contains(&ratio) => {
+            named.causes.push(one("viscous_friction", viscous))
+        }
         true if ratio >= no => {
             let effects = vec!["viscous_friction", "time_skew"];
-            named.groups.push(case.group(effects, (Kind::Rate, Kind::Rate), gain));
+            named
+                .groups
+                .push(case.group(effects, (Kind::Rate, Kind::Rate), gain));
         }
         _ => named.causes.push(one("time_skew", skew)),
     }
@@ -143,22 +175,33 @@ fn name_other(
             Some(c) => vec![("torque", a[0] / c.value, "N·m")],
             None => vec![("twist", a[0], "rad")],
         },
-        Kind::Ripple => vec![("amplitude", a[0].hypot(a[1]), "rad"), ("per_turn_of_the_link", shape, "1")],
-        Kind::Offset => vec![("jump", a[0], "rad"), ("instant", case.data.time[shape as usize], "s")],
+        Kind::Ripple => vec![
+            ("amplitude", a[0].hypot(a[1]), "rad"),
+            ("per_turn_of_the_link", shape, "1"),
+        ],
+        Kind::Offset => vec![
+            ("jump", a[0], "rad"),
+            ("instant", case.data.time[shape as usize], "s"),
+        ],
         _ => vec![("width", 2.0 * a[0], "rad")],
     };
-    named.causes.push(cause(case, spoken(kind), parameters, gain));
+    named
+        .causes
+        .push(cause(case, spoken(kind), parameters, gain));
 }
 
 /// The stiffness, where the data fix it and it is not the one the simulation uses.
 fn stiffness(case: &Case, chosen: &[usize], compliance: Option<Compliance>) -> Option<Cause> {
     let (nominal, found) = (case.nominal.stiffness?, compliance?);
+    if chosen.iter().any(|i| case.atoms[*i].kind == Hysteresis) {
+        return None; // a loop has no one stiffness
+    }
     let log = (1.0 / (found.value * nominal)).ln();
     let std = (found.std / found.value).hypot(case.nominal.rel_std);
     if log.abs() < Z95 * std {
         return None;
     }
-    let after = super::unseen::held_out(&case.columns(chosen), &case.data);
+    let after = held_out(&case.columns(chosen), &case.data, Split::Long);
     let excess = 1.0 / nominal - found.value;
     let middle = super::channels::mean(&case.data.torque);
     let before: Vec<f64> = after
@@ -166,7 +209,7 @@ fn stiffness(case: &Case, chosen: &[usize], compliance: Option<Compliance>) -> O
         .zip(&case.data.torque)
         .map(|(a, t)| a + excess * (t - middle))
         .collect();
-    let gain = super::unseen::gain(&before, &after);
+    let gain = gain(&before, &after, Split::Long);
     let k = 1.0 / found.value;
     gain.is_real()
         .then(|| cause(case, "stiffness", vec![("stiffness", k, "N·m/rad")], gain))

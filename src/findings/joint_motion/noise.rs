@@ -88,11 +88,7 @@ fn span(data: &Channels, atoms: &[Atom]) -> Vec<Vec<f64>> {
 }
 
 /// An orthonormal basis of the whitened span, and what it leaves of the whitened reading.
-fn project(
-    span: &[Vec<f64>],
-    reading: &[f64],
-    colour: &Colour,
-) -> (DMatrix<f64>, DVector<f64>) {
+fn project(span: &[Vec<f64>], reading: &[f64], colour: &Colour) -> (DMatrix<f64>, DVector<f64>) {
     let white = |c: &[f64]| {
         let mut c = c.to_vec();
         colour.whiten(&mut c);

@@ -12,7 +12,14 @@ pub fn parameters(joint: &JointFinding) -> Vec<Identified> {
     if let Some(delay) = joint.delay.filter(|_| skewed) {
         let whole = delay.value + joint.declared.unwrap_or(0.0);
         let meaning = "how much later than the motor encoder the link encoder is read";
-        all.push(Identified::new("delay", &joint.site, whole, "s", delay.std, meaning));
+        all.push(Identified::new(
+            "delay",
+            &joint.site,
+            whole,
+            "s",
+            delay.std,
+            meaning,
+        ));
     }
     let meaning = "torque on the link side of the gear per twist";
     let stiffness = |value: f64, std: f64| {
@@ -33,7 +40,9 @@ pub fn remarks(joints: &[JointFinding]) -> Vec<String> {
     said.extend(joints.iter().filter_map(leftover));
     let wild: usize = joints.iter().map(|j| j.data.wild).sum();
     if wild > 0 {
-        said.push(format!("{wild} lone wild readings were replaced by their neighbours."));
+        said.push(format!(
+            "{wild} lone wild readings were replaced by their neighbours."
+        ));
     }
     said
 }
@@ -55,7 +64,9 @@ fn common_delay(joints: &[JointFinding]) -> Option<String> {
     let ends = |k: usize| delays.iter().filter_map(move |d| Some(d.ci95?[k]));
     let agree = ends(0).fold(f64::MIN, f64::max) <= ends(1).fold(f64::MAX, f64::min);
     let why = match delays.len() > 1 && agree {
-        true => "; the intervals (95 %) share a value, as one read-out for all of them would make it",
+        true => {
+            "; the intervals (95 %) share a value, as one read-out for all of them would make it"
+        }
         false => " (95 %)",
     };
     Some(format!(
@@ -95,5 +106,8 @@ fn stiffnesses(joints: &[JointFinding]) -> Vec<String> {
 
 fn leftover(joint: &JointFinding) -> Option<String> {
     let seen = joint.description.as_ref()?;
-    Some(format!("Seen at {} beside that, and not named: {seen}.", joint.site))
+    Some(format!(
+        "Seen at {} beside that, and not named: {seen}.",
+        joint.site
+    ))
 }

@@ -23,7 +23,7 @@ const FEW_PER_TURN: f64 = 64.0;
 /// Highest order per turn of the motor that is taken for a motor encoder's.
 const FEW_PER_MOTOR_TURN: f64 = 8.0;
 /// Ratio of the sizes in slow and in fast motion within which a ripple is steady.
-const STEADY: f64 = 1.18;
+const STEADY: f64 = 1.2;
 /// Ratio of fast to slow speeds that allows the comparison.
 const CONTRAST: f64 = 2.5;
 
@@ -61,10 +61,11 @@ fn taken(found: &[Atom], order: f64, angle: &[f64]) -> bool {
         .any(|a| (a.shape - order).abs() < resolution(angle))
 }
 
-/// Highest order that the rows resolve: three samples per period at top speed.
+/// Highest order that is sought: one sample per period at top speed. Speeds vary, so that orders beyond
+/// half the sampling rate are not mistaken for others.
 fn highest(angle: &[f64]) -> f64 {
     let steps: Vec<f64> = angle.windows(2).map(|w| w[1] - w[0]).collect();
-    TAU / (3.0 * largest(&steps)).max(f64::MIN_POSITIVE)
+    TAU / largest(&steps).max(f64::MIN_POSITIVE)
 }
 
 /// Orders (rad per rad) of the largest peaks of the spectrum over the angle.
@@ -121,10 +122,12 @@ fn whose(
         let turns = (order / r).round();
         (1.0..=FEW_PER_MOTOR_TURN).contains(&turns) && (order - turns * r).abs() < near
     });
-    let few = order <= FEW_PER_TURN;
-    match few || ((of_motor || ratio.is_none()) && !is_unsteady(data, residual, angle, order, rows))
-        || is_steady(data, residual, angle, order, rows)
-    {
+    let few = order <= FEW_PER_TURN + near;
+    let [slow, fast, contrast] = sizes(data, residual, angle, order, rows);
+    let even = slow < STEADY * fast && fast < STEADY * slow;
+    // slow and fast motion must both have been seen, unless the order speaks for itself
+    let seen = contrast > CONTRAST;
+    match few || (of_motor && (even || !seen)) || (even && seen) {
         true => Kind::Ripple,
         false => Kind::Mesh,
     }
@@ -146,14 +149,4 @@ fn sizes(data: &Channels, residual: &[f64], angle: &[f64], order: f64, rows: &[u
     let speed =
         |of: &[usize]| of.iter().map(|i| data.speed[*i].abs()).sum::<f64>() / of.len() as f64;
     [size(slow), size(fast), speed(fast) / speed(slow)]
-}
-
-fn is_steady(d: &Channels, residual: &[f64], angle: &[f64], order: f64, rows: &[usize]) -> bool {
-    let [slow, fast, contrast] = sizes(d, residual, angle, order, rows);
-    contrast > CONTRAST && slow < STEADY * fast && fast < STEADY * slow
-}
-
-fn is_unsteady(d: &Channels, residual: &[f64], angle: &[f64], order: f64, rows: &[usize]) -> bool {
-    let [slow, fast, contrast] = sizes(d, residual, angle, order, rows);
-    contrast > CONTRAST && (slow > STEADY * fast || fast > STEADY * slow)
 }

@@ -84,7 +84,9 @@ pub fn compliance(
     let spread = spread(data, &nuisances, value);
     let std = stderr.hypot(spread);
     if std > TIGHT * value {
-        return Err("pieces of the record and the terms for friction and angle do not agree on one");
+        return Err(
+            "pieces of the record and the terms for friction and angle do not agree on one",
+        );
     }
     if value * rms(&own) < STANDS_OUT * left(data, &fullest) {
         return Err("the torque's own part of the twist does not stand out from what is left");
@@ -126,7 +128,11 @@ fn whitened(data: &Channels, noise: &Noise, nuisance: &[Vec<f64>]) -> (f64, f64,
     let torque = without(&basis, noise.whiten(&data.torque));
     let twist = without(&basis, noise.whiten(&data.twist));
     let square = torque.norm_squared().max(f64::MIN_POSITIVE);
-    let mut own: Vec<f64> = torque.iter().zip(&noise.colour.sigma).map(|(t, s)| t * s).collect();
+    let mut own: Vec<f64> = torque
+        .iter()
+        .zip(&noise.colour.sigma)
+        .map(|(t, s)| t * s)
+        .collect();
     noise.cosine.restore(&mut own);
     (-torque.dot(&twist) / square, 1.0 / square.sqrt(), own)
 }
@@ -167,7 +173,11 @@ fn spread(data: &Channels, nuisances: &[Vec<Vec<f64>>], value: f64) -> f64 {
 /// Compliance by plain least squares on some rows, and the sum of squares of the torque's own part.
 fn plain(data: &Channels, nuisance: &[Vec<f64>], rows: &[usize]) -> (f64, f64) {
     let columns = slices(nuisance);
-    let own = residual(&columns, &amplitudes(&columns, &data.torque, rows), &data.torque);
+    let own = residual(
+        &columns,
+        &amplitudes(&columns, &data.torque, rows),
+        &data.torque,
+    );
     let (mut tt, mut ty) = (f64::MIN_POSITIVE, 0.0);
     for i in rows {
         tt += own[*i] * own[*i];

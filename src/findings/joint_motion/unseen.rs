@@ -4,10 +4,10 @@ use super::channels::Channels;
 use crate::findings::gain::Gain;
 use nalgebra::{DMatrix, DVector};
 
-/// Pieces of the record, each predicted from the others.
-const PIECES: usize = 10;
+/// Folds, each predicted from the others.
+const FOLDS: usize = 10;
 /// 97.5 % point of Student's t for nine degrees of freedom over that of the normal distribution.
-const FEW_PIECES: f64 = 2.262 / crate::fit::parameter::Z95;
+const FEW_FOLDS: f64 = 2.262 / crate::fit::parameter::Z95;
 
 /// Least squares of a reading on columns over some rows; columns of no size get no amplitude.
 pub fn amplitudes(columns: &[&[f64]], reading: &[f64], rows: &[usize]) -> Vec<f64> {
@@ -36,7 +36,12 @@ pub fn amplitudes(columns: &[&[f64]], reading: &[f64], rows: &[usize]) -> Vec<f6
         sum / scale[a]
     });
     match normal.cholesky() {
-        Some(root) => (0..m).map(|j| j).zip(root.solve(&right).iter()).map(|(j, x)| x / scale[j]).collect(),
+        Some(root) => root
+            .solve(&right)
+            .iter()
+            .zip(&scale)
+            .map(|(x, s)| x / s)
+            .collect(),
         None => vec![0.0; m],
     }
 }
@@ -50,13 +55,33 @@ pub fn residual(columns: &[&[f64]], amplitudes: &[f64], reading: &[f64]) -> Vec<
     left
 }
 
-/// Prediction error of every row, each piece of time predicted from the others.
-pub fn held_out(columns: &[&[f64]], data: &Channels) -> Vec<f64> {
+/// How time is cut for holding out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Split {
+    /// Long pieces: what is named must carry over to motion that was not seen.
+    Long,
+    /// Short pieces, dealt out in turn: for what shows in few places.
+    Short,
+}
+
+impl Split {
+    /// The fold of a row among `n`.
+    fn fold(self, row: usize, n: usize) -> usize {
+        let pieces = match self {
+            Self::Long => FOLDS,
+            Self::Short => 5 * FOLDS,
+        };
+        row * pieces / n % FOLDS
+    }
+}
+
+/// Prediction error of every row, each fold predicted from the others.
+pub fn held_out(columns: &[&[f64]], data: &Channels, split: Split) -> Vec<f64> {
     let n = data.rows();
     let mut error = vec![0.0; n];
-    for piece in 0..PIECES {
-        let inside = n * piece / PIECES..n * (piece + 1) / PIECES;
-        let rest: Vec<usize> = (0..n).filter(|i| !inside.contains(i)).collect();
+    for fold in 0..FOLDS {
+        let (inside, rest): (Vec<usize>, Vec<usize>) =
+            (0..n).partition(|i| split.fold(*i, n) == fold);
         let a = amplitudes(columns, &data.twist, &rest);
         for i in inside {
             let fitted: f64 = columns.iter().zip(&a).map(|(c, a)| c[i] * a).sum();
@@ -66,28 +91,26 @@ pub fn held_out(columns: &[&[f64]], data: &Channels) -> Vec<f64> {
     error
 }
 
-/// Gain from errors before and after; its interval by leaving out each piece in turn (jackknife).
-pub fn gain(before: &[f64], after: &[f64]) -> Gain {
+/// Gain from errors before and after; its interval by leaving out each fold in turn (jackknife).
+pub fn gain(before: &[f64], after: &[f64], split: Split) -> Gain {
     let n = before.len();
     let sums = |errors: &[f64]| -> Vec<f64> {
-        (0..PIECES)
-            .map(|p| {
-                let inside = &errors[n * p / PIECES..n * (p + 1) / PIECES];
-                inside.iter().map(|e| e * e).sum()
-            })
-            .collect()
+        let mut sums = vec![0.0; FOLDS];
+        for (i, e) in errors.iter().enumerate() {
+            sums[split.fold(i, n)] += e * e;
+        }
+        sums
     };
     let (b, a) = (sums(before), sums(after));
     let total = |s: &[f64]| s.iter().sum::<f64>().max(f64::MIN_POSITIVE);
-    let log = |skip: Option<usize>| {
-        let less = |s: &[f64]| total(s) - skip.map_or(0.0, |p| s[p]);
-        let ratio = less(&b).max(f64::MIN_POSITIVE) / less(&a).max(f64::MIN_POSITIVE);
-        0.5 * ratio.ln()
+    let log = |skip: usize| {
+        let less = |s: &[f64]| (total(s) - s[skip]).max(f64::MIN_POSITIVE);
+        0.5 * (less(&b) / less(&a)).ln()
     };
-    let parts: Vec<f64> = (0..PIECES).map(|p| log(Some(p))).collect();
+    let parts: Vec<f64> = (0..FOLDS).map(log).collect();
     let middle = super::channels::mean(&parts);
     let spread: f64 = parts.iter().map(|g| (g - middle) * (g - middle)).sum();
-    let variance = spread * (PIECES - 1) as f64 / PIECES as f64;
+    let variance = spread * (FOLDS - 1) as f64 / FOLDS as f64;
     let root = |s: &[f64]| (total(s) / n as f64).sqrt();
-    Gain::of(root(&b), root(&a), FEW_PIECES * variance.sqrt())
+    Gain::of(root(&b), root(&a), FEW_FOLDS * variance.sqrt())
 }
