@@ -208,7 +208,7 @@ fn with_the_skew_declared_nothing_is_invented() {
         let declared = format!("# encoder_delay_s = {delay}\n");
         for part in [&rows[..], &rows[..1250], &rows[1250..]] {
             let found = diagnosed(&facts, &declared, &header, part);
-            assert_eq!(said(&found), [String::new(); 0], "{delay}");
+            assert!(said(&found).is_empty(), "{delay}: {:?}", said(&found));
             no_stiffness(&found);
         }
     }

@@ -198,7 +198,7 @@ pub fn hidden(name: &'static str, r: &mut Random, k: f64, load: f64) -> Hidden {
         },
         "encoder_ripple" => {
             let order = match r.below(3) {
-                0 => f64::from(8 + r.below(40) as i32),
+                0 => f64::from(16 + r.below(40) as i32),
                 1 => -f64::from(1 + r.below(2) as i32),
                 _ => f64::from(64 << r.below(3)),
             };

@@ -125,7 +125,7 @@ impl Motion {
         let speed: Vec<f64> = data.speed.iter().map(|v| v.to_degrees()).collect();
         let curves = |panel: Panel, x: &[f64]| {
             panel
-                .with(Series::line("measured", over(x, &data.twist, scale)).emphasised())
+                .with(Series::line("measured", over(x, &data.twist, scale)))
                 .with(Series::dotted(
                     "present simulation",
                     over(x, &joint.simulated, scale),

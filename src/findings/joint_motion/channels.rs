@@ -7,7 +7,7 @@ use crate::signal::outliers;
 /// Rows beyond which neighbours are averaged.
 const MOST_ROWS: usize = 3200;
 /// Width over which speed, acceleration and torque are smoothed, s.
-const SMOOTHING_S: f64 = 0.02;
+const SMOOTHING_S: f64 = 0.035;
 /// Distance from its neighbours, in robust standard deviations, that makes a lone reading wild.
 const WILD: f64 = 6.0;
 

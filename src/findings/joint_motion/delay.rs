@@ -15,8 +15,8 @@ pub struct Delay {
     pub std: f64,
     /// What the twist has in proportion to the speed, friction in the torque included, s.
     pub rate: f64,
-    /// The part of it that friction in the torque channel would make, s.
-    pub friction: f64,
+    /// The part of it that friction in the torque channel would make, s, and its standard error.
+    pub friction: [f64; 2],
 }
 
 /// Estimates it with `chosen` beside the speed; other accounts add friction and slow structure.
@@ -45,7 +45,7 @@ pub fn delay(
         accounts.push(account);
     }
     let estimates: Vec<[f64; 2]> = accounts.iter().map(|a| rate(data, a)).collect();
-    let corrected = |[v, t]: &[f64; 2]| -v + (-t).max(0.0) * friction.viscous;
+    let corrected = |[v, t]: &[f64; 2]| -v + (-t).max(0.0) * friction.viscous.max(0.0);
     let values: Vec<f64> = estimates.iter().map(corrected).collect();
     let value = mean(&values);
     let spread = values
@@ -57,7 +57,7 @@ pub fn delay(
         value,
         std: spread.sqrt().hypot(stderr(data, noise, &plain)),
         rate: estimates[0][0],
-        friction: (-estimates[0][1]).max(0.0) * friction.viscous,
+        friction: [friction.viscous, friction.viscous_std].map(|f| f * (-estimates[0][1]).max(0.0)),
     }
 }
 

@@ -5,6 +5,7 @@
 //! add) → ripple (periodic in an angle) → noise (its colour) → search (sets of causes by evidence) →
 //! unseen (gain on pieces of time held out) → stiffness (is it fixed at all?) → verdict.
 
+mod case;
 mod channels;
 mod columns;
 mod delay;

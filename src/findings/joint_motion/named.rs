@@ -1,9 +1,9 @@
 //! From the atoms of a set to causes with a name, a site, parameters and a gain.
 
+use super::case::Case;
 use super::columns::Kind;
 use super::columns::Kind::Hysteresis;
 use super::delay::Delay;
-use super::joint::Case;
 use super::stiffness::Compliance;
 use super::unseen::{Split, gain, held_out};
 use crate::findings::answer::{Cause, Group};
@@ -73,9 +73,9 @@ pub fn spoken(kind: Kind) -> &'static str {
 
 /// A declared delay counts as known to within this share of itself.
 const DECLARED: f64 = 0.25;
-/// Ratios of the friction that the torque shows to what the twist asks for: below the first it is no
-/// friction, between the second and the third it is, elsewhere it may be.
-const FRICTION_FITS: [f64; 3] = [0.1, 0.6, 1.7];
+/// What the torque must show of a friction at least, relative to what the twist asks for: its own
+/// error and this share of itself are forgiven.
+const FRICTION_SHARE: f64 = 0.3;
 
 /// Names everything that was chosen for a joint.
 pub(super) fn name(
@@ -108,25 +108,25 @@ fn name_rate(
     if declared > 0.0 && delay.value.abs() < (DECLARED * declared).max(Z95 * delay.std) {
         return;
     }
-    let ratio = delay.friction / delay.rate;
-    let [no, least, most] = FRICTION_FITS;
     let skew = vec![("delay", delay.value + case.record.delay.unwrap_or(0.0), "s")];
     let viscous = match compliance {
         Some(c) => vec![("coefficient", delay.rate / c.value, "N·m·s/rad")],
         None => vec![("twist_per_speed", delay.rate, "s")],
     };
     let one = |effect, parameters| cause(case, effect, parameters, gain);
-    match delay.rate > 0.0 {
-        true if (least..most).contains(&ratio) => {
-            named.causes.push(one("viscous_friction", viscous))
-        }
-        true if ratio >= no => {
+    let [shown, error] = delay.friction;
+    let forgiven = (2.0 * error).max(FRICTION_SHARE * delay.rate);
+    let is_friction = (shown - delay.rate).abs() < forgiven;
+    let is_none = shown.abs() < forgiven;
+    match (delay.rate > 0.0, is_friction, is_none) {
+        (true, true, false) => named.causes.push(one("viscous_friction", viscous)),
+        (false, ..) | (true, false, true) => named.causes.push(one("time_skew", skew)),
+        _ => {
             let effects = vec!["viscous_friction", "time_skew"];
             named
                 .groups
                 .push(case.group(effects, (Kind::Rate, Kind::Rate), gain));
         }
-        _ => named.causes.push(one("time_skew", skew)),
     }
 }
 

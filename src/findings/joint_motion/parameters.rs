@@ -106,8 +106,9 @@ fn stiffnesses(joints: &[JointFinding]) -> Vec<String> {
 
 fn leftover(joint: &JointFinding) -> Option<String> {
     let seen = joint.description.as_ref()?;
-    Some(format!(
-        "Seen at {} beside that, and not named: {seen}.",
-        joint.site
-    ))
+    let size = match joint.is_left {
+        true => "Seen",
+        false => "Too small to count, but seen",
+    };
+    Some(format!("{size} at {} and not named: {seen}.", joint.site))
 }

@@ -5,6 +5,7 @@
 
 use super::channels::{Channels, largest};
 use super::columns::{Atom, Kind, periodic, range};
+use super::unseen::amplitudes;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
@@ -36,6 +37,7 @@ pub fn ripples(data: &Channels, residual: &[f64], ratio: Option<f64>) -> Vec<Ato
             if taken(&found, order, angle) {
                 continue;
             }
+            let order = refined(angle, residual, &rows, order);
             let own = whose(data, residual, angle, order, &rows, per_turn.or(ratio));
             found.push(periodic(own, angle, order, BINS / 8));
         }
@@ -96,6 +98,26 @@ fn peaks(angle: &[f64], residual: &[f64], rows: &[usize]) -> Vec<f64> {
     kept.into_iter().map(order).collect()
 }
 
+/// The order near a peak that fits the rows best: rows dwell unevenly over the angle, and shift peaks.
+fn refined(angle: &[f64], residual: &[f64], rows: &[usize], order: f64) -> f64 {
+    let misfit = |order: f64| {
+        let wave = periodic(Kind::Ripple, angle, order, 1).columns;
+        let columns: Vec<&[f64]> = wave.iter().map(Vec::as_slice).collect();
+        let a = amplitudes(&columns, residual, rows);
+        let left = |i: &usize| (residual[*i] - a[0] * wave[0][*i] - a[1] * wave[1][*i]).powi(2);
+        rows.iter().map(left).sum::<f64>()
+    };
+    let mut best = order;
+    for width in [0.1, 0.02] {
+        let step = width * resolution(angle);
+        let around = (-5..=5).map(|k| best + f64::from(k) * step);
+        let tried: Vec<(f64, f64)> = around.map(|o| (misfit(o), o)).collect();
+        let least = tried.iter().min_by(|a, b| a.0.total_cmp(&b.0));
+        best = least.map_or(best, |t| t.1);
+    }
+    best
+}
+
 fn spectrum(angle: &[f64], residual: &[f64], rows: &[usize], low: f64, width: f64) -> Vec<f64> {
     let mut bins = vec![Complex64::new(0.0, 0.0); PADDED];
     for i in rows {
@@ -127,7 +149,11 @@ fn whose(
     let even = slow < STEADY * fast && fast < STEADY * slow;
     // slow and fast motion must both have been seen, unless the order speaks for itself
     let seen = contrast > CONTRAST;
-    match few || (of_motor && (even || !seen)) || (even && seen) {
+    let steady = match seen {
+        true => even,
+        false => of_motor,
+    };
+    match few || steady {
         true => Kind::Ripple,
         false => Kind::Mesh,
     }

@@ -22,10 +22,14 @@ pub struct Friction {
     pub dry: f64,
     /// Viscous.
     pub viscous: f64,
+    /// Standard error of the viscous one.
+    pub viscous_std: f64,
 }
 
 /// Share of the top speed over which dry friction changes its sign.
 const SIGN_WIDTH: f64 = 0.03;
+/// Pieces of the record that are left out in turn for the error of a friction.
+const PIECES: usize = 8;
 /// Largest relative standard deviation of a compliance that is printed.
 const TIGHT: f64 = 0.1;
 /// The torque's own part of the twist must stand so far above what is left.
@@ -47,11 +51,19 @@ pub fn friction(data: &Channels) -> Friction {
     let wave = |f: fn(f64) -> f64| data.motor.iter().map(|q| f(*q)).collect::<Vec<f64>>();
     let (sine, cosine) = (wave(f64::sin), wave(f64::cos));
     let columns: [&[f64]; 6] = [&sign, &speed, &ones, &data.acceleration, &sine, &cosine];
-    let rows: Vec<usize> = (0..data.rows()).collect();
-    let a = amplitudes(&columns, &data.torque, &rows);
+    let n = data.rows();
+    let on = |skip: usize| {
+        let rows: Vec<usize> = (0..n).filter(|i| i * PIECES / n != skip).collect();
+        amplitudes(&columns, &data.torque, &rows)
+    };
+    let whole = on(PIECES);
+    let parts: Vec<f64> = (0..PIECES).map(|skip| on(skip)[1]).collect();
+    let middle = super::channels::mean(&parts);
+    let spread: f64 = parts.iter().map(|v| (v - middle) * (v - middle)).sum();
     Friction {
-        dry: a[0].max(0.0),
-        viscous: a[1].max(0.0),
+        dry: whole[0].max(0.0),
+        viscous: whole[1],
+        viscous_std: (spread * (PIECES - 1) as f64 / PIECES as f64).sqrt(),
     }
 }
 
@@ -59,7 +71,8 @@ pub fn friction(data: &Channels) -> Friction {
 pub fn transmitted(data: &Channels) -> Vec<f64> {
     let friction = friction(data);
     let [sign, speed] = friction_columns(data);
-    let less = |i: usize| data.torque[i] - friction.dry * sign[i] - friction.viscous * speed[i];
+    let less =
+        |i: usize| data.torque[i] - friction.dry * sign[i] - friction.viscous.max(0.0) * speed[i];
     (0..data.rows()).map(less).collect()
 }
 
