@@ -19,8 +19,8 @@ const AMBIGUOUS: f64 = 0.05;
 const NEEDED: f64 = 0.9;
 /// Share of the variance of what torque and inertia leave that a cause must explain to be named.
 const MATTERS: f64 = 0.01;
-/// The same for a jump of a zero and a ripple, which slow structure and meshing teeth imitate in part.
-const INSTRUMENT_MATTERS: f64 = 0.12;
+/// Share of the variance of what all other causes leave that a jump of a zero or a ripple must explain.
+const INSTRUMENT_MATTERS: f64 = 0.4;
 
 /// Everything that is known of a joint before causes are named.
 pub(super) struct Case<'a> {
@@ -168,17 +168,26 @@ impl<'a> Case<'a> {
             return true;
         }
         let rest = without(chosen, index);
-        let share = (self.size(chosen, index) / self.unsprung()).powi(2);
-        let matters = match self.atoms[index].kind {
-            Kind::Offset | Kind::Ripple => INSTRUMENT_MATTERS,
-            _ => MATTERS,
-        };
-        share > matters && self.is_needed(chosen, &rest) && self.gain(chosen, index).is_real()
+        self.matters(chosen, &rest, index)
+            && self.is_needed(chosen, &rest)
+            && self.gain(chosen, index).is_real()
     }
 
-    /// Rms of the twist that torque and inertia leave.
-    fn unsprung(&self) -> f64 {
-        let columns = self.columns(&[]);
+    /// Whether an atom is large: beside what torque and inertia leave, or, for what slow structure
+    /// imitates in part, beside what the rest of the set leaves.
+    fn matters(&self, chosen: &[usize], rest: &[usize], index: usize) -> bool {
+        match self.atoms[index].kind {
+            Kind::Offset | Kind::Ripple => {
+                let left = self.left(chosen) / self.left(rest).max(f64::MIN_POSITIVE);
+                1.0 - left * left > INSTRUMENT_MATTERS
+            }
+            _ => (self.size(chosen, index) / self.left(&[])).powi(2) > MATTERS,
+        }
+    }
+
+    /// Rms of the twist that torque, inertia and a set leave.
+    fn left(&self, set: &[usize]) -> f64 {
+        let columns = self.columns(set);
         let a = amplitudes(&columns, &self.data.twist, &self.all());
         rms(&residual(&columns, &a, &self.data.twist))
     }
