@@ -19,6 +19,7 @@ pub mod frf_tuning;
 pub mod identified_robot;
 pub mod imposed;
 pub mod inspection;
+pub mod joint_motion_store;
 pub mod least_squares;
 pub mod normal;
 pub mod observation;

@@ -193,7 +193,7 @@ impl LoadCycle {
 }
 
 /// Time must not run backwards; missing cells do not count.
-fn check_time(table: &Table) -> Outcome<()> {
+pub(super) fn check_time(table: &Table) -> Outcome<()> {
     let Some((column, time)) = table.column("time").and_then(|c| Some((c, c.numbers()?))) else {
         return Ok(());
     };
@@ -476,7 +476,7 @@ fn take(table: &mut Table, stem: &str, factor: f64) -> Vec<f64> {
     values
 }
 
-fn dialect(table: &Table) -> String {
+pub(super) fn dialect(table: &Table) -> String {
     let delimiter = match table.delimiter {
         '\t' => "tab".to_string(),
         other => format!("`{other}`"),

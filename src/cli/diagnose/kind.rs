@@ -1,6 +1,6 @@
 //! The kinds of measurement that can be diagnosed. A new kind is one file and one line in [`KINDS`].
 
-use super::load_cycle;
+use super::{joint_motion, load_cycle};
 use crate::findings::Answer;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::workspace::kind_of;
@@ -46,6 +46,10 @@ pub trait Diagnosed: Send + Sync {
     fn under(&self, _robot: &Robot) -> Option<Box<dyn Diagnosed>> {
         None
     }
+    /// What a reader should know beside the causes, one sentence each.
+    fn remarks(&self) -> Vec<String> {
+        Vec::new()
+    }
     /// What this kind adds to the common JSON.
     fn more(&self) -> Map<String, Value> {
         Map::new()
@@ -56,7 +60,10 @@ pub trait Diagnosed: Send + Sync {
 pub type Diagnose = fn(&Path) -> Outcome<Box<dyn Diagnosed>>;
 
 /// Every kind, by its name in the front matter.
-pub const KINDS: &[(&str, Diagnose)] = &[("load-cycle", load_cycle::diagnosed)];
+pub const KINDS: &[(&str, Diagnose)] = &[
+    ("load-cycle", load_cycle::diagnosed),
+    ("joint-motion", joint_motion::diagnosed),
+];
 
 /// The kind of a file, and how it is diagnosed. A file that states none is read as a load cycle,
 /// whose reader says what is missing.

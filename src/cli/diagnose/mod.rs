@@ -1,6 +1,7 @@
 //! `ident diagnose`: what the simulation gets wrong, and why.
 
 mod campaign;
+mod joint_motion;
 mod json;
 mod kind;
 mod load_cycle;
@@ -211,7 +212,8 @@ fn account(one: &One) -> String {
         source.path.display(),
         answer.verdict.name()
     );
-    let said = sentences(answer);
+    let mut said = sentences(answer);
+    said.extend(one.found.remarks());
     said.iter().fold(head, |all, s| all + &text::indented(s, 2))
 }
 
