@@ -296,7 +296,7 @@ impl Case<'_> {
                 &self.screen.colour,
                 split,
             );
-            gain(&before, &after, &self.data)
+            gain(&before, &after, &self.data).reachable(self.screen.colour.rms)
         };
         let cycles = on(Split::Cycles);
         if self.is_real(&cycles) {
