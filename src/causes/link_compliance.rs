@@ -1,7 +1,7 @@
 //! A link bends.
 
-use super::contract::{Card, Cause, Sight};
-use super::places::{Said, add_axes, added, said_axes};
+use super::contract::{Blame, Card, Cause, Sight};
+use super::places::{Said, add_axes, added, drive_compliance, number_in, said_axes};
 use crate::effects::Family;
 use crate::robot::Robot;
 
@@ -12,24 +12,42 @@ const CARD: Card = Card {
     name: "link_compliance",
     family: Family::Physics,
     summary: "A link bends or twists, and the model holds it rigid.",
-    equation: "rotations about three axes in the middle of the link, compliance added",
+    equation: "rotations about three axes at the near end, in the middle or at the far end of the link, compliance added",
     source: "virtual axes as in sources 000 and 002, Table 1",
     shows: &[
         (
             Sight::Workspace,
-            "error that turns with that link and grows with the distance from its middle",
+            "error that turns with that link and grows with the distance from where it bends",
         ),
         (
             Sight::Hammer,
-            "modes in which the parts before and behind the middle of the link move apart",
+            "modes in which the parts before and behind the bend of the link move apart",
         ),
     ],
     amounts: &[
-        added("about_x", "compliance about x, with every joint at zero"),
-        added("about_y", "compliance about y, with every joint at zero"),
-        added("about_z", "compliance about z, with every joint at zero"),
+        added(
+            "about_x",
+            "compliance about x in the middle, with every joint at zero",
+        ),
+        added(
+            "about_y",
+            "compliance about y in the middle, with every joint at zero",
+        ),
+        added(
+            "about_z",
+            "compliance about z in the middle, with every joint at zero",
+        ),
+        added("near_x", "compliance about x at the near end"),
+        added("near_y", "compliance about y at the near end"),
+        added("near_z", "compliance about z at the near end"),
+        added("far_x", "compliance about x at the far end"),
+        added("far_y", "compliance about y at the far end"),
+        added("far_z", "compliance about z at the far end"),
     ],
 };
+
+/// Where along the link the three triples of amounts act, as a share of its length.
+const ALONG: [f64; 3] = [0.5, 0.0, 1.0];
 
 impl Cause for LinkCompliance {
     fn card(&self) -> &'static Card {
@@ -40,17 +58,36 @@ impl Cause for LinkCompliance {
         (1..robot.dof()).map(|i| format!("link{i}")).collect()
     }
 
+    fn blame(&self) -> Blame {
+        Blame::Structure
+    }
+
+    fn scale(&self, robot: &Robot, site: &str) -> Vec<f64> {
+        let i = number_in(site, "link").unwrap_or(1);
+        let near = drive_compliance(robot, i);
+        let far = drive_compliance(robot, i + 1);
+        vec![(near * far).sqrt(); 9]
+    }
+
+    fn forms(&self) -> Vec<Vec<usize>> {
+        let one = (0..9).map(|k| vec![k]);
+        let all = (0..3).map(|at| (3 * at..3 * at + 3).collect());
+        one.chain(all).collect()
+    }
+
     fn alter(&self, robot: &mut Robot, site: &str, amounts: &[f64]) {
-        let number: Option<usize> = site.strip_prefix("link").and_then(|n| n.parse().ok());
+        let number = number_in(site, "link");
         let Some(i) = number.filter(|i| *i >= 1 && *i < robot.dof()) else {
             return;
         };
         let (from, to) = (robot.joints[i - 1].point, robot.joints[i].point);
-        let middle = [0, 1, 2].map(|k| 0.5 * (from[k] + to[k]));
-        add_axes(robot, site, i, middle, amounts);
+        for (own, along) in amounts.chunks(3).zip(ALONG) {
+            let at = [0, 1, 2].map(|k| from[k] + along * (to[k] - from[k]));
+            add_axes(robot, site, i, at, own);
+        }
     }
 
     fn said(&self, _robot: &Robot, _site: &str, amounts: &[f64]) -> Said {
-        said_axes(amounts)
+        amounts.chunks(3).flat_map(said_axes).collect()
     }
 }

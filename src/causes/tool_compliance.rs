@@ -1,7 +1,7 @@
 //! The tool or its mount bends.
 
-use super::contract::{Card, Cause, Sight};
-use super::places::{Said, add_axes, added, said_axes};
+use super::contract::{Blame, Card, Cause, Sight};
+use super::places::{Said, add_axes, added, drive_compliance, said_axes};
 use crate::effects::Family;
 use crate::robot::Robot;
 
@@ -31,8 +31,22 @@ impl Cause for ToolCompliance {
     }
 
     fn sites(&self, robot: &Robot) -> Vec<String> {
-        let free = robot.elastic.iter().all(|axis| axis.after < robot.dof());
-        free.then(|| "tool".to_string()).into_iter().collect()
+        let lever = [0, 1, 2].map(|k| robot.tool.tcp[k] - robot.tool.flange[k]);
+        let reaches = lever.iter().any(|x| x.abs() > 1e-6);
+        reaches.then(|| "tool".to_string()).into_iter().collect()
+    }
+
+    fn blame(&self) -> Blame {
+        Blame::Structure
+    }
+
+    /// A tool is short: it takes more radians to be seen than an arm.
+    fn scale(&self, robot: &Robot, _site: &str) -> Vec<f64> {
+        vec![5.0 * drive_compliance(robot, robot.dof()); 3]
+    }
+
+    fn forms(&self) -> Vec<Vec<usize>> {
+        vec![vec![0], vec![1], vec![2], vec![0, 1, 2]]
     }
 
     fn alter(&self, robot: &mut Robot, site: &str, amounts: &[f64]) {

@@ -4,7 +4,7 @@
 use crate::ground::spatial::{M3, V3};
 use crate::motion::kinematics::{column, place, tcp};
 use crate::motion::statics::springs;
-use crate::motion::{Work, elastic};
+use crate::motion::{Chain, Work, elastic, gravity_torque};
 use crate::robot::Robot;
 
 /// One place whose compliance acts as one number: a drive, a bearing (two equal axes), a virtual axis.
@@ -85,5 +85,83 @@ impl Response {
     pub fn matrix(&self, point: usize) -> M3 {
         let own = self.compliances();
         [0, 1, 2].map(|direction| self.slope(point, direction, &own))
+    }
+}
+
+/// A drive with lost motion, as every point loads it.
+#[derive(Debug, Clone)]
+struct Gap {
+    /// From stop to stop, rad.
+    size: f64,
+    /// Translation of the tool at every point, m/rad, base frame.
+    levers: Vec<V3>,
+    /// Torque of the weight on the axis at every point, N·m.
+    weights: Vec<f64>,
+}
+
+/// The force steps as the model predicts them: compliance, and jumps where a torque changes sign.
+#[derive(Debug, Clone)]
+pub struct Deflection {
+    /// Movement of the tool per newton at every point, m/N: one vector per direction of the force.
+    pub slopes: Vec<M3>,
+    gaps: Vec<Gap>,
+}
+
+impl Deflection {
+    /// Of a robot at the joint angles of each point, rad.
+    pub fn of(robot: &Robot, points: &[Vec<f64>]) -> Self {
+        let chain = elastic(robot);
+        let mut work = Work::new(&chain);
+        let mut slopes = Vec::with_capacity(points.len());
+        let loose = springs(&chain).filter(|(_, spring)| spring.gap() > 0.0);
+        let loose: Vec<(usize, f64)> = loose.map(|(i, spring)| (i, spring.gap())).collect();
+        let mut gaps: Vec<Gap> = loose.iter().map(|(_, size)| Gap::new(*size)).collect();
+        for angles in points {
+            let q = chain.spread(angles);
+            place(&chain, &mut work, &q);
+            slopes.push(crate::motion::statics::compliance(&chain, &work));
+            for ((hinge, _), gap) in loose.iter().zip(&mut gaps) {
+                gap.meet(&chain, &mut work, *hinge, &q);
+            }
+        }
+        Self { slopes, gaps }
+    }
+
+    /// Whether force and displacement are in proportion.
+    pub fn is_linear(&self) -> bool {
+        self.gaps.is_empty()
+    }
+
+    /// Displacement of the tool beyond that in proportion to the force, m, base frame: every gap
+    /// stands at the stop that force (N, along `direction`) and weight press it to.
+    pub fn jump(&self, point: usize, direction: usize, force: f64) -> V3 {
+        let mut sum = [0.0; 3];
+        for gap in &self.gaps {
+            let lever = gap.levers[point];
+            let torque = lever[direction] * force + gap.weights[point];
+            let side = (torque / STOP).clamp(-1.0, 1.0);
+            (0..3).for_each(|k| sum[k] += 0.5 * gap.size * side * lever[k]);
+        }
+        sum
+    }
+}
+
+/// A gap is crossed within this torque to either side, N·m: no drive moves without any.
+const STOP: f64 = 5.0;
+
+impl Gap {
+    fn new(size: f64) -> Self {
+        Self {
+            size,
+            levers: Vec::new(),
+            weights: Vec::new(),
+        }
+    }
+
+    fn meet(&mut self, chain: &Chain, work: &mut Work, hinge: usize, q: &[f64]) {
+        let weight = gravity_torque(chain, work, q)[hinge];
+        let at = tcp(chain, work).point;
+        self.levers.push(column(work, hinge, at).0);
+        self.weights.push(-weight);
     }
 }

@@ -5,6 +5,7 @@ pub mod answer;
 pub mod gain;
 pub mod load_cycle;
 pub mod sentence;
+pub mod workspace;
 
 pub use answer::{Answer, Cause, Group, Verdict};
 pub use load_cycle::{Diagnosis, Settings, diagnose};

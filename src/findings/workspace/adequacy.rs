@@ -1,0 +1,78 @@
+//! Is anything left that the noise does not explain?
+
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+/// What is left after a set of causes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Adequacy {
+    /// Probability that chance leaves so much in the slopes.
+    pub slopes: f64,
+    /// Probability that chance leaves so much beyond the straight lines.
+    pub levels: f64,
+    /// Share of the error's variance above the noise that is left.
+    pub share: f64,
+    /// Squares left beyond the lines over what noise leaves.
+    pub bent: f64,
+}
+
+/// A sum of squares in variances of the noise, with its degrees of freedom.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Squares {
+    /// The sum.
+    pub sum: f64,
+    /// Degrees of freedom.
+    pub freedom: f64,
+}
+
+impl Squares {
+    /// Probability of more by chance.
+    pub fn chance(self) -> f64 {
+        let law = ChiSquared::new(self.freedom.max(1.0));
+        law.map_or(1.0, |law| law.sf(self.sum.max(0.0)))
+    }
+
+    fn excess(self) -> f64 {
+        (self.sum - self.freedom).max(0.0)
+    }
+}
+
+/// Slopes left that chance explains with less than this are structure ...
+const SLOPES: f64 = 1e-4;
+/// ... and levels, whose noise may be slow, with less than this ...
+const LEVELS: f64 = 1e-8;
+/// ... and this much above the noise ...
+const BENT: f64 = 1.6;
+/// ... if this share of the error is left.
+const MATTERS: f64 = 0.06;
+
+impl Adequacy {
+    /// Of what is left in slopes and levels, against what there was before.
+    pub fn of(slopes: Squares, levels: Squares, before: f64) -> Self {
+        let left = slopes.excess() + levels.excess();
+        let noise = slopes.freedom + levels.freedom;
+        Self {
+            slopes: slopes.chance(),
+            levels: levels.chance(),
+            share: left / (before - noise).max(left).max(1.0),
+            bent: levels.sum / levels.freedom.max(1.0),
+        }
+    }
+
+    /// Whether force and displacement are out of proportion.
+    pub fn is_bent(&self) -> bool {
+        self.levels < LEVELS && self.bent > BENT
+    }
+
+    /// Whether structure is left.
+    pub fn is_left(&self) -> bool {
+        (self.slopes < SLOPES || self.is_bent()) && self.share > MATTERS
+    }
+
+    /// Probability that chance leaves so much.
+    pub fn p_value(&self) -> f64 {
+        match self.is_bent() {
+            true => self.levels,
+            false => self.slopes,
+        }
+    }
+}

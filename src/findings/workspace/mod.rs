@@ -1,0 +1,17 @@
+//! Workspace tests: deflection is linear in the compliances, so the evidence of every set of causes
+//! is a closed form, and all of them can be compared.
+
+mod adequacy;
+mod diagnosis;
+mod field;
+mod limits;
+mod next;
+mod patterns;
+mod posterior;
+mod search;
+mod seats;
+mod strangers;
+mod unseen;
+
+pub use diagnosis::{WorkspaceDiagnosis, diagnose};
+pub use limits::Limit;

@@ -1,0 +1,153 @@
+//! Who may be blamed, where, and how readily.
+
+use super::patterns::{Pattern, Scene};
+use super::strangers::{STRANGERS, is_stranger};
+use crate::causes::contract::{Blame, Cause, Sight};
+use crate::causes::seen_by;
+use crate::fit::force_shapes::Shapes;
+
+/// A cause at a site.
+#[derive(Clone)]
+pub struct Seat {
+    /// The cause.
+    pub cause: &'static dyn Cause,
+    /// Where it sits.
+    pub site: String,
+    /// No cause of the library.
+    pub stranger: bool,
+    /// Column of its first amount; the others follow.
+    pub first: usize,
+}
+
+/// One form in which a seat may act.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Form {
+    /// Index of the seat.
+    pub seat: usize,
+    /// Its columns.
+    pub columns: Vec<usize>,
+    /// Logarithm of its share among the forms of the seat.
+    pub weight: f64,
+}
+
+/// One amount at its place.
+#[derive(Debug, Clone)]
+pub struct Column {
+    /// What a unit of it does.
+    pub pattern: Pattern,
+    /// Standard deviation before the data.
+    pub prior: f64,
+    /// Lowest value.
+    pub low: f64,
+}
+
+/// Everybody who may be blamed.
+#[derive(Clone)]
+pub struct Seats {
+    /// The seats.
+    pub seats: Vec<Seat>,
+    /// Their forms.
+    pub forms: Vec<Form>,
+    /// The amounts of all seats.
+    pub columns: Vec<Column>,
+    /// Whether no bearing of the model tilts.
+    rigid_bearings: bool,
+}
+
+/// An amount spreads over this many ordinary sizes before the data.
+const SPREAD: f64 = 1.5;
+
+impl Seats {
+    /// All causes that a workspace test would show, and the strangers.
+    pub fn of(scene: &Scene, shapes: &Shapes) -> Self {
+        let mut all = Self {
+            seats: Vec::new(),
+            forms: Vec::new(),
+            columns: Vec::new(),
+            rigid_bearings: scene.robot.joints.iter().all(|j| j.tilt.is_none()),
+        };
+        let library = seen_by(Sight::Workspace);
+        for cause in library.chain(STRANGERS.iter().copied()) {
+            for site in cause.sites_at(scene.robot, scene.points.len()) {
+                all.seat(cause, site, scene, shapes);
+            }
+        }
+        all
+    }
+
+    fn seat(&mut self, cause: &'static dyn Cause, site: String, scene: &Scene, shapes: &Shapes) {
+        let (seat, first) = (self.seats.len(), self.columns.len());
+        let scales = cause.scale(scene.robot, &site);
+        for (index, amount) in cause.card().amounts.iter().enumerate() {
+            let scale = scales[index].abs().max(1e-12);
+            self.columns.push(Column {
+                pattern: scene.pattern(cause, &site, (index, scale), shapes),
+                prior: SPREAD * scale,
+                low: amount.bounds[0],
+            });
+        }
+        let forms = cause.forms();
+        let weight = -(forms.len() as f64).ln();
+        self.forms.extend(forms.into_iter().map(|form| Form {
+            seat,
+            columns: form.iter().map(|k| first + k).collect(),
+            weight,
+        }));
+        self.seats.push(Seat {
+            stranger: is_stranger(cause),
+            cause,
+            site,
+            first,
+        });
+    }
+
+    /// Takes the patterns of the instruments anew, about another reference.
+    pub fn read_again(&mut self, scene: &Scene, shapes: &Shapes) {
+        for seat in &self.seats {
+            if seat.cause.blame() != Blame::Instrument {
+                continue;
+            }
+            for index in 0..seat.cause.card().amounts.len() {
+                let column = &mut self.columns[seat.first + index];
+                let step = (index, column.prior / SPREAD);
+                column.pattern = scene.pattern(seat.cause, &seat.site, step, shapes);
+            }
+        }
+    }
+
+    /// Logarithm of the odds of these seats before the data: instruments before parameters before
+    /// structure, and one part forgotten makes another of its kind likely.
+    pub fn odds(&self, seats: &[usize]) -> f64 {
+        let mut total = 0.0;
+        let bare = self.rigid_bearings;
+        for (at, seat) in seats.iter().enumerate() {
+            let own = &self.seats[*seat];
+            let name = own.cause.card().name;
+            let again = |s: &usize| self.seats[*s].cause.card().name == name;
+            let again = own.cause.blame() == Blame::Structure && seats[..at].iter().any(again);
+            total += match (own.stranger, again) {
+                (true, _) => STRANGE,
+                (false, true) if bare && name == "missing_tilt" => LIKELY,
+                (false, true) => AGAIN,
+                (false, false) => odds(own),
+            };
+        }
+        total
+    }
+}
+
+const STRANGE: f64 = -5.5;
+const AGAIN: f64 = -2.5;
+/// A model in which no bearing tilts at all most likely lacks more than one.
+const LIKELY: f64 = -0.4;
+
+fn odds(seat: &Seat) -> f64 {
+    let all_sensors = seat.site == "sensor" && seat.cause.card().name == "sensor_gain";
+    match seat.cause.blame() {
+        // several sensors hardly ever share an error that one load cell explains
+        Blame::Instrument if all_sensors => -6.5,
+        Blame::Instrument => -4.5,
+        Blame::Parameter => -4.7,
+        Blame::Structure => -5.0,
+    }
+}

@@ -1,0 +1,283 @@
+//! Force steps to their last shape: the line of every set-up with the noise that all set-ups share,
+//! and what the line leaves, averaged over the cycles level by level. A clearance or a loop shows there.
+
+use super::force_steps::{Line, Reading, Setup, SetupSteps, by_setup, setups, straight, weighted};
+use crate::ground::spatial::V3;
+use crate::measurement::workspace_test::WorkspaceTest;
+
+/// What the line of one component in one set-up leaves.
+struct Rest {
+    readings: Vec<Reading>,
+    kept: Vec<f64>,
+    /// Cell of each reading: forces of one level and one branch.
+    cells: Vec<usize>,
+    count: Vec<f64>,
+    cycles: usize,
+    component: usize,
+    point: usize,
+    direction: usize,
+}
+
+/// A workspace test, reduced.
+pub struct Shapes {
+    /// The line of every set-up, with the noise that all set-ups share.
+    pub setups: Vec<Setup>,
+    /// Standard deviation of a reading by component, m.
+    pub noise: [f64; 3],
+    rests: Vec<Rest>,
+}
+
+/// One level and branch of one set-up and component.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Level {
+    /// Index of the point.
+    pub point: usize,
+    /// Direction of the force.
+    pub direction: usize,
+    /// Component of the displacement.
+    pub component: usize,
+    /// Mean force, N.
+    pub force: f64,
+    /// Readings averaged.
+    pub count: f64,
+    /// Whether the force rises there.
+    pub rising: bool,
+}
+
+/// Levels of a half cycle that are told apart.
+const LEVELS: f64 = 20.0;
+/// Degrees of freedom below which the scatter between cycles is not trusted.
+const FREEDOM: f64 = 12.0;
+
+impl Shapes {
+    /// Of a test.
+    pub fn of(test: &WorkspaceTest) -> Self {
+        let noise = test.facts.sensor_noise;
+        let mut rests = Vec::new();
+        let mut left = Vec::new();
+        for own in by_setup(test) {
+            for component in 0..3 {
+                let readings = own.readings(component);
+                let Some(fit) = straight(&readings, own.cycles.len(), noise) else {
+                    continue;
+                };
+                left.push(fit.residuals);
+                rests.push(Rest::new(readings, fit.kept, &own, component));
+            }
+        }
+        let mut shapes = Self {
+            setups: setups(test),
+            noise: [0.0; 3],
+            rests,
+        };
+        shapes.share_noise(&left);
+        shapes
+    }
+
+    /// Every set-up gets the noise of all: thirty readings say little of their own scatter.
+    fn share_noise(&mut self, left: &[Vec<f64>]) {
+        let mut sums = [[0.0; 2]; 3];
+        let mut slopes = [0.0; 2];
+        for (rest, left) in self.rests.iter().zip(left) {
+            let own = rest.scatter(left);
+            (0..2).for_each(|k| sums[rest.component][k] += own[k]);
+        }
+        let lines = |k: usize| self.setups.iter().filter_map(move |s| s.lines[k]);
+        for (k, sum) in sums.iter().enumerate() {
+            let own: f64 = lines(k).map(|l| l.rows as f64 * l.scatter.powi(2)).sum();
+            let rows: f64 = lines(k).map(|l| l.rows as f64).sum();
+            self.noise[k] = match sum[1] >= FREEDOM {
+                true => (sum[0] / sum[1]).sqrt(),
+                false => (own / rows.max(1.0)).sqrt(),
+            };
+        }
+        for (rest, left) in self.rests.iter().zip(left) {
+            let own = rest.slope_scatter(left, self.noise[rest.component]);
+            (0..2).for_each(|k| slopes[k] += own[k]);
+        }
+        let widen = match slopes[1] >= FREEDOM {
+            true => (slopes[0] / slopes[1]).sqrt().max(1.0),
+            false => 1.0,
+        };
+        let noise = self.noise;
+        let lines = self.setups.iter_mut().flat_map(|s| s.lines.iter_mut());
+        for (i, line) in lines.enumerate() {
+            if let Some(line) = line {
+                share(line, noise[i % 3], widen);
+            }
+        }
+    }
+
+    /// Every level, set-up by set-up.
+    pub fn levels(&self) -> Vec<Level> {
+        self.rests.iter().flat_map(Rest::levels).collect()
+    }
+
+    /// What the lines leave at every level, in standard deviations of the mean there.
+    pub fn left(&self) -> Vec<f64> {
+        let own = |rest: &Rest| rest.project(&rest.readings, self.noise[rest.component]).1;
+        self.rests.iter().flat_map(own).collect()
+    }
+
+    /// A displacement over force (m, by point, direction and force in N) seen in the same way: the
+    /// slopes that its lines would have, m/N, and what they would leave, in the units of [`Shapes::left`].
+    pub fn seen(&self, of: impl Fn(usize, usize, f64) -> V3) -> (Vec<[Option<f64>; 3]>, Vec<f64>) {
+        let mut slopes = vec![[None; 3]; self.setups.len()];
+        let mut left = Vec::new();
+        for rest in &self.rests {
+            let moved = |r: &Reading| Reading {
+                displacement: of(rest.point, rest.direction, r.force)[rest.component],
+                ..*r
+            };
+            let readings: Vec<Reading> = rest.readings.iter().map(moved).collect();
+            let (slope, own) = rest.project(&readings, self.noise[rest.component]);
+            let here = |s: &Setup| s.point == rest.point && s.direction == rest.direction;
+            if let Some(i) = self.setups.iter().position(here) {
+                slopes[i][rest.component] = slope;
+            }
+            left.extend(own);
+        }
+        (slopes, left)
+    }
+
+    /// Degrees of freedom of [`Shapes::left`]: every line and every intercept has taken one.
+    pub fn freedom(&self) -> f64 {
+        let own =
+            |rest: &Rest| (rest.count.iter().filter(|n| **n > 0.0).count() as f64 - 2.0).max(0.0);
+        self.rests.iter().map(own).sum()
+    }
+
+    /// Readings left out as wild.
+    pub fn wild(&self) -> usize {
+        let lines = self.setups.iter().flat_map(|s| s.lines);
+        lines.flatten().map(|line| line.wild).sum()
+    }
+}
+
+fn share(line: &mut Line, noise: f64, widen: f64) {
+    let per_newton = line.stderr / line.scatter.max(f64::MIN_POSITIVE);
+    if noise > 0.0 && per_newton.is_finite() && line.scatter > 0.0 {
+        line.stderr = per_newton * noise * widen;
+    }
+    line.freedom = f64::INFINITY;
+}
+
+impl Rest {
+    fn new(readings: Vec<Reading>, kept: Vec<f64>, own: &SetupSteps, component: usize) -> Self {
+        let largest = readings.iter().fold(0.0_f64, |m, r| m.max(r.force.abs()));
+        let level = |force: f64| (force / largest.max(f64::MIN_POSITIVE) * LEVELS).round() as i64;
+        let rising = |i: usize| {
+            let before = i
+                .checked_sub(1)
+                .filter(|j| readings[*j].cycle == readings[i].cycle);
+            match before {
+                Some(j) => readings[i].force > readings[j].force,
+                None => readings
+                    .get(i + 1)
+                    .is_some_and(|next| next.force > readings[i].force),
+            }
+        };
+        let keys: Vec<(i64, bool)> = (0..readings.len())
+            .map(|i| (level(readings[i].force), rising(i)))
+            .collect();
+        let mut distinct = keys.clone();
+        distinct.sort_unstable();
+        distinct.dedup();
+        let find = |key: &(i64, bool)| distinct.binary_search(key).unwrap_or(0);
+        let cells: Vec<usize> = keys.iter().map(find).collect();
+        let mut count = vec![0.0; distinct.len()];
+        cells
+            .iter()
+            .zip(&kept)
+            .for_each(|(cell, w)| count[*cell] += w);
+        Self {
+            readings,
+            kept,
+            cells,
+            count,
+            cycles: own.cycles.len(),
+            component,
+            point: own.point,
+            direction: own.direction,
+        }
+    }
+
+    /// Mean over the readings of every cell.
+    fn means(&self, values: impl Fn(usize) -> f64) -> Vec<f64> {
+        let mut sums = vec![0.0; self.count.len()];
+        for (i, (cell, w)) in self.cells.iter().zip(&self.kept).enumerate() {
+            sums[*cell] += w * values(i);
+        }
+        let mean = |(sum, n): (&f64, &f64)| if *n > 0.0 { sum / n } else { 0.0 };
+        sums.iter().zip(&self.count).map(mean).collect()
+    }
+
+    /// Slope, and what the line leaves in the cells in standard deviations.
+    fn project(&self, readings: &[Reading], noise: f64) -> (Option<f64>, Vec<f64>) {
+        let Some((fit, left)) = weighted(readings, &self.kept, self.cycles) else {
+            return (None, vec![0.0; self.count.len()]);
+        };
+        let means = self.means(|i| left[i]);
+        let scaled = means.iter().zip(&self.count);
+        let noise = noise.max(f64::MIN_POSITIVE);
+        (
+            Some(fit.slope),
+            scaled.map(|(m, n)| m * n.sqrt() / noise).collect(),
+        )
+    }
+
+    /// Squares about the means of the cells, and their degrees of freedom.
+    fn scatter(&self, left: &[f64]) -> [f64; 2] {
+        let means = self.means(|i| left[i]);
+        let square = |(i, cell): (usize, &usize)| self.kept[i] * (left[i] - means[*cell]).powi(2);
+        let squares: f64 = self.cells.iter().enumerate().map(square).sum();
+        let freedom: f64 = self.count.iter().map(|n| (n - 1.0).max(0.0)).sum();
+        [squares, (freedom - (self.cycles as f64 - 1.0)).max(0.0)]
+    }
+
+    /// Squares of the slopes of single cycles about the common one, in units of their variance from
+    /// `noise`, and their degrees of freedom: slow noise moves slopes more than its scatter says.
+    fn slope_scatter(&self, left: &[f64], noise: f64) -> [f64; 2] {
+        let mut squares = 0.0;
+        for cycle in 0..self.cycles {
+            let own = |(i, r): (usize, &Reading)| {
+                (r.cycle == cycle).then_some(Reading {
+                    displacement: left[i],
+                    ..*r
+                })
+            };
+            let all = self.readings.iter().enumerate();
+            let readings: Vec<Reading> = all.clone().filter_map(own).collect();
+            let kept = all.filter(|(_, r)| r.cycle == cycle);
+            let kept: Vec<f64> = kept.map(|(i, _)| self.kept[i]).collect();
+            if let Some((fit, _)) = weighted(&readings, &kept, self.cycles) {
+                let variance = (noise * noise / fit.force_squares).max(f64::MIN_POSITIVE);
+                squares += fit.slope.powi(2) / variance;
+            }
+        }
+        match self.cycles > 1 && noise > 0.0 {
+            true => [squares, self.cycles as f64 - 1.0],
+            false => [0.0; 2],
+        }
+    }
+
+    fn levels(&self) -> Vec<Level> {
+        let force = self.means(|i| self.readings[i].force);
+        let mut rising = vec![false; self.count.len()];
+        for (i, cell) in self.cells.iter().enumerate() {
+            let next = self.readings.get(i + 1).map(|r| r.force);
+            let before = i.checked_sub(1).map(|j| self.readings[j].force);
+            let own = self.readings[i].force;
+            rising[*cell] |= before.map_or(next.is_some_and(|n| n > own), |b| own > b);
+        }
+        let level = |(i, count): (usize, &f64)| Level {
+            point: self.point,
+            direction: self.direction,
+            component: self.component,
+            force: force[i],
+            count: *count,
+            rising: rising[i],
+        };
+        self.count.iter().enumerate().map(level).collect()
+    }
+}
