@@ -7,6 +7,7 @@ use super::refine::{Refined, refine, refine_from};
 use super::scales::{self, ScaleFinding};
 use super::search::search;
 use super::structure;
+use super::tints::Tints;
 use super::unseen::{Split, gain, held_out};
 use super::{lattice, next};
 use crate::effects::{Composite, EFFECTS, Effect, Family, shapes};
@@ -16,7 +17,7 @@ use crate::findings::gain::Gain;
 use crate::fit::candidates::Candidates;
 use crate::fit::imposed::is_imposed;
 use crate::fit::least_squares::Problem;
-use crate::fit::normal::Normal;
+use crate::fit::normal::{Found, Normal};
 use crate::fit::observation::Observation;
 use crate::fit::screen::{Screen, screen};
 use crate::measurement::load_cycle::LoadCycle;
@@ -68,7 +69,7 @@ impl Default for Settings {
 }
 
 /// A stand-in with at least this share of the winner's probability cannot be ruled out.
-const AMBIGUOUS: f64 = 0.05;
+const AMBIGUOUS: f64 = 0.03;
 /// Probability of a set against the same set less one cause, below which that cause is not named.
 const NEEDED: f64 = 0.9;
 /// Structure counts as left when a test is below this p-value ...
@@ -118,33 +119,40 @@ fn compare<'a>(file: &'a LoadCycle, settings: &Settings) -> Case<'a> {
     let candidates = Candidates::new(&shapes(&settings.library), &data);
     let screen = screen(&data, &candidates);
     let normal = Normal::new(&candidates, &screen.colour);
-    let found = search(&candidates, &normal, REFINED_PAIRS);
-    let refined: Vec<Refined> = found
-        .iter()
-        .map(|f| refine(f, &candidates, &data, &screen.colour, normal.base, 12))
-        .collect();
-    let ceiling = 0.5 * (normal.base - screen.saturated).max(0.0);
-    let posterior = Posterior::new(&refined, data.rows(), temper(ceiling));
     let start = [data.scene.load_scale / data.scene.deflection_scale];
-    let plain = refine_from(
-        Composite::new(&[]),
-        &start,
-        &data,
-        &screen.colour,
-        normal.base,
-        12,
-    );
+    let spring = Composite::new(&[]);
+    let plain = refine_from(spring, &start, &data, &screen.colour, normal.base, 12);
+    let tints = Tints::new(&screen.colour, &screen.tints, &plain.optimum);
+    let temper = temper(0.5 * (normal.base - screen.saturated).max(0.0));
+    let nothing = tints.evidence(&plain.optimum);
+    let weighed = |found: &Found| {
+        let mut set = refine(found, &candidates, &data, &screen.colour, normal.base, 12);
+        set.nats = (tints.evidence(&set.optimum) - nothing) / temper;
+        set
+    };
+    let found = search(&candidates, &normal, REFINED_PAIRS);
+    let refined: Vec<Refined> = found.iter().map(weighed).collect();
+    let posterior = Posterior::new(&refined, data.rows(), temper);
     let step = lattice::step(&file.deflection).filter(|s| *s > COARSE * screen.colour.floor());
-    Case {
+    let best = posterior.sets.first().and_then(|set| set.2);
+    let suited = best.map_or(&plain, |i| &refined[i]);
+    let colour = tints.best(&suited.optimum).clone();
+    let mut case = Case {
         file,
         step,
+        screen: screen.recoloured(colour, &data, &candidates),
         data,
-        screen,
         refined,
         posterior,
-        base: normal.base,
+        base: 0.0,
         plain,
+    };
+    case.plain = case.again(&case.plain);
+    case.base = case.plain.optimum.chi2;
+    if let Some(i) = best {
+        case.refined[i] = case.again(&case.refined[i]);
     }
+    case
 }
 
 /// Causes and groups as they are named.
@@ -228,6 +236,12 @@ impl Case<'_> {
         let rest: Vec<&'static str> = set.causes.iter().copied().filter(|c| *c != cause).collect();
         let (with, without) = (self.posterior.of(&set.causes), self.posterior.of(&rest));
         with > NEEDED * (with + without)
+    }
+
+    /// A set refined once more, with the colour of the noise that suits the best set.
+    fn again(&self, set: &Refined) -> Refined {
+        let (model, p) = (set.model.clone(), &set.optimum.p);
+        refine_from(model, p, &self.data, &self.screen.colour, self.base, 12)
     }
 
     /// The set less one cause, refined.
