@@ -1,6 +1,7 @@
 //! The drive of one axis has lost motion.
 
 use super::contract::{Amount, Blame, Card, Cause, Sight};
+use super::places::Said;
 use crate::effects::Family;
 use crate::robot::Robot;
 
@@ -17,14 +18,24 @@ const CARD: Card = Card {
         Sight::Workspace,
         "a jump where the torque on that axis changes its sign; none while weight preloads it",
     )],
-    amounts: &[Amount {
-        name: "gap",
+    amounts: &[
+        gap("gap", "lost motion from stop to stop"),
+        gap(
+            "gap_held",
+            "the same where friction holds the axis at the stop that it left last",
+        ),
+    ],
+};
+
+const fn gap(name: &'static str, meaning: &'static str) -> Amount {
+    Amount {
+        name,
         unit: "rad",
-        meaning: "lost motion from stop to stop",
+        meaning,
         bounds: [0.0, 0.02],
         starts: &[2e-4],
-    }],
-};
+    }
+}
 
 impl Cause for Backlash {
     fn card(&self) -> &'static Card {
@@ -40,9 +51,22 @@ impl Cause for Backlash {
         Blame::Structure
     }
 
+    fn forms(&self) -> Vec<Vec<usize>> {
+        vec![vec![0], vec![1]]
+    }
+
+    fn remembers(&self, amounts: &[f64]) -> bool {
+        amounts[1] > 0.0
+    }
+
+    fn said(&self, _robot: &Robot, _site: &str, amounts: &[f64]) -> Said {
+        vec![("gap", amounts.iter().sum(), "rad")]
+    }
+
     fn alter(&self, robot: &mut Robot, site: &str, amounts: &[f64]) {
         if let Some((_, spring)) = robot.springs_mut().find(|(name, _)| name == site) {
-            spring.backlash.push(amounts[0].max(0.0));
+            let gaps = amounts.iter().copied();
+            spring.backlash.extend(gaps.filter(|gap| *gap > 0.0));
         }
     }
 }

@@ -117,6 +117,11 @@ pub trait Cause: Sync {
         vec![(0..self.card().amounts.len()).collect()]
     }
 
+    /// Whether without load it stays where the load before has left it.
+    fn remembers(&self, _amounts: &[f64]) -> bool {
+        false
+    }
+
     /// Physics: changes the robot.
     fn alter(&self, _robot: &mut Robot, _site: &str, _amounts: &[f64]) {}
 

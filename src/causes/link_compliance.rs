@@ -12,7 +12,7 @@ const CARD: Card = Card {
     name: "link_compliance",
     family: Family::Physics,
     summary: "A link bends or twists, and the model holds it rigid.",
-    equation: "rotations about three axes at the near end, in the middle or at the far end of the link, compliance added",
+    equation: "rotations about three axes at one place along the link, from its near to its far end, compliance added",
     source: "virtual axes as in sources 000 and 002, Table 1",
     shows: &[
         (
@@ -43,11 +43,26 @@ const CARD: Card = Card {
         added("far_x", "compliance about x at the far end"),
         added("far_y", "compliance about y at the far end"),
         added("far_z", "compliance about z at the far end"),
+        added("quarter_x", "compliance about x at a quarter of the length"),
+        added("quarter_y", "compliance about y at a quarter of the length"),
+        added("quarter_z", "compliance about z at a quarter of the length"),
+        added(
+            "three_quarters_x",
+            "compliance about x at three quarters of the length",
+        ),
+        added(
+            "three_quarters_y",
+            "compliance about y at three quarters of the length",
+        ),
+        added(
+            "three_quarters_z",
+            "compliance about z at three quarters of the length",
+        ),
     ],
 };
 
-/// Where along the link the three triples of amounts act, as a share of its length.
-const ALONG: [f64; 3] = [0.5, 0.0, 1.0];
+/// Where along the link the triples of amounts act, as a share of its length.
+const ALONG: [f64; 5] = [0.5, 0.0, 1.0, 0.25, 0.75];
 
 impl Cause for LinkCompliance {
     fn card(&self) -> &'static Card {
@@ -66,13 +81,15 @@ impl Cause for LinkCompliance {
         let i = number_in(site, "link").unwrap_or(1);
         let near = drive_compliance(robot, i);
         let far = drive_compliance(robot, i + 1);
-        vec![(near * far).sqrt(); 9]
+        vec![(near * far).sqrt(); 3 * ALONG.len()]
     }
 
     fn forms(&self) -> Vec<Vec<usize>> {
-        let one = (0..9).map(|k| vec![k]);
-        let all = (0..3).map(|at| (3 * at..3 * at + 3).collect());
-        one.chain(all).collect()
+        let count = 3 * ALONG.len();
+        let one = (0..count).map(|k| vec![k]);
+        let two = (0..count).map(|k| vec![k, 3 * (k / 3) + (k + 1) % 3]);
+        let all = (0..ALONG.len()).map(|at| (3 * at..3 * at + 3).collect());
+        one.chain(two).chain(all).collect()
     }
 
     fn alter(&self, robot: &mut Robot, site: &str, amounts: &[f64]) {

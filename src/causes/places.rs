@@ -1,7 +1,7 @@
 //! What causes do to the places of a robot.
 
 use super::contract::Amount;
-use crate::ground::spatial::V3;
+use crate::ground::spatial::{IDENTITY, M3, V3};
 use crate::robot::model::ElasticAxis;
 use crate::robot::{Robot, Spring};
 
@@ -83,12 +83,22 @@ pub fn number_in(site: &str, stem: &str) -> Option<usize> {
 /// Adds elastic axes about x, y and z through `point` (base axes, every joint at zero), behind the
 /// body that joint `after` moves.
 pub fn add_axes(robot: &mut Robot, site: &str, after: usize, point: V3, amounts: &[f64]) {
+    add_axes_along(robot, site, (after, point), &IDENTITY, amounts);
+}
+
+/// [`add_axes`] about the columns of `frame` instead of x, y and z.
+pub fn add_axes_along(
+    robot: &mut Robot,
+    site: &str,
+    (after, point): (usize, V3),
+    frame: &M3,
+    amounts: &[f64],
+) {
     for (k, amount) in amounts.iter().enumerate().take(3) {
         let Some(spring) = added_spring(*amount) else {
             continue;
         };
-        let mut axis = [0.0; 3];
-        axis[k] = 1.0;
+        let axis = [0, 1, 2].map(|row| frame[row][k]);
         let name = free_name(robot, &format!("{site}-{}", ["x", "y", "z"][k]));
         robot.elastic.push(ElasticAxis {
             name,

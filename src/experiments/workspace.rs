@@ -1,9 +1,9 @@
 //! The workspace test as the model predicts it: how far the tool moves per newton at every point,
 //! site by site. Deflection is linear in the compliances: C = Σ Jᵥ Jᵥᵀ / k (Abele et al. 2008).
 
-use crate::ground::spatial::{M3, V3};
-use crate::motion::kinematics::{column, place, tcp};
-use crate::motion::statics::springs;
+use crate::ground::spatial::{M3, V3, add, rotate, sub};
+use crate::motion::kinematics::{column, hinge_point, hinge_rotation, place, tcp};
+use crate::motion::statics::{compliance, springs};
 use crate::motion::{Chain, Work, elastic, gravity_torque};
 use crate::robot::Robot;
 
@@ -119,12 +119,48 @@ impl Deflection {
         for angles in points {
             let q = chain.spread(angles);
             place(&chain, &mut work, &q);
-            slopes.push(crate::motion::statics::compliance(&chain, &work));
+            slopes.push(compliance(&chain, &work));
             for ((hinge, _), gap) in loose.iter().zip(&mut gaps) {
                 gap.meet(&chain, &mut work, *hinge, &q);
             }
         }
         Self { slopes, gaps }
+    }
+
+    /// The same with the displacement read elsewhere: at a point (m, base frame, every joint at zero)
+    /// fixed to the body behind joint `after`, or to the foundation for 0. Without jumps.
+    pub fn seen_at(robot: &Robot, points: &[Vec<f64>], after: usize, at: V3) -> Self {
+        let chain = elastic(robot);
+        let mut work = Work::new(&chain);
+        let behind = match after {
+            0 => robot.elastic.iter().filter(|axis| axis.after == 0).count(),
+            _ => chain.drives.get(after - 1).map_or(0, |drive| drive + 1),
+        };
+        let zero = chain.points_at_zero();
+        let slopes = points.iter().map(|angles| {
+            place(&chain, &mut work, &chain.spread(angles));
+            let tool = tcp(&chain, &work).point;
+            let here = match behind.checked_sub(1) {
+                Some(last) => {
+                    let arm = rotate(&hinge_rotation(&work, last), sub(at, zero[last]));
+                    add(hinge_point(&work, last), arm)
+                }
+                None => at,
+            };
+            let mut slope = [[0.0; 3]; 3];
+            for (i, spring) in springs(&chain).filter(|(i, _)| *i < behind) {
+                let (pushed, moved) = (column(&work, i, tool).0, column(&work, i, here).0);
+                for (direction, own) in slope.iter_mut().enumerate() {
+                    let turn = pushed[direction] / spring.stiffness;
+                    (0..3).for_each(|k| own[k] += moved[k] * turn);
+                }
+            }
+            slope
+        });
+        Self {
+            slopes: slopes.collect(),
+            gaps: Vec::new(),
+        }
     }
 
     /// Whether force and displacement are in proportion.
@@ -133,13 +169,18 @@ impl Deflection {
     }
 
     /// Displacement of the tool beyond that in proportion to the force, m, base frame: every gap
-    /// stands at the stop that force (N, along `direction`) and weight press it to.
-    pub fn jump(&self, point: usize, direction: usize, force: f64) -> V3 {
+    /// stands at the stop that force (N, along `direction`) and weight press it to; with too little
+    /// to press it, between the stops, or at the one where the force `before` has left it.
+    pub fn jump(&self, point: usize, direction: usize, force: f64, before: Option<f64>) -> V3 {
         let mut sum = [0.0; 3];
         for gap in &self.gaps {
             let lever = gap.levers[point];
-            let torque = lever[direction] * force + gap.weights[point];
-            let side = (torque / STOP).clamp(-1.0, 1.0);
+            let torque = |force: f64| lever[direction] * force + gap.weights[point];
+            let side = match before {
+                Some(before) if torque(force).abs() < STOP => torque(before) / STOP,
+                _ => torque(force) / STOP,
+            };
+            let side = side.clamp(-1.0, 1.0);
             (0..3).for_each(|k| sum[k] += 0.5 * gap.size * side * lever[k]);
         }
         sum

@@ -24,6 +24,12 @@ pub struct Shapes {
     pub setups: Vec<Setup>,
     /// Standard deviation of a reading by component, m.
     pub noise: [f64; 3],
+    /// Slow noise moves slopes and bends so many times as much as the scatter says.
+    pub widen: f64,
+    /// How far the zero of a component wanders from cycle to cycle, in standard deviations of a reading.
+    pub wander: [f64; 3],
+    /// Noise that the data sheet states, m.
+    stated: Option<f64>,
     rests: Vec<Rest>,
 }
 
@@ -46,6 +52,8 @@ pub struct Level {
 
 /// Levels of a half cycle that are told apart.
 const LEVELS: f64 = 20.0;
+/// Scatter this many times that of neighbours is shape.
+const SHAPE: f64 = 2.0;
 /// Degrees of freedom below which the scatter between cycles is not trusted.
 const FREEDOM: f64 = 12.0;
 
@@ -68,6 +76,9 @@ impl Shapes {
         let mut shapes = Self {
             setups: setups(test),
             noise: [0.0; 3],
+            widen: 1.0,
+            stated: noise,
+            wander: [0.0; 3],
             rests,
         };
         shapes.share_noise(&left);
@@ -88,9 +99,10 @@ impl Shapes {
             let rows: f64 = lines(k).map(|l| l.rows as f64).sum();
             self.noise[k] = match sum[1] >= FREEDOM {
                 true => (sum[0] / sum[1]).sqrt(),
-                false => (own / rows.max(1.0)).sqrt(),
+                false => self.without_repeats((own / rows.max(1.0)).sqrt(), k),
             };
         }
+        self.wander = self.wandering();
         for (rest, left) in self.rests.iter().zip(left) {
             let own = rest.slope_scatter(left, self.noise[rest.component]);
             (0..2).for_each(|k| slopes[k] += own[k]);
@@ -99,6 +111,7 @@ impl Shapes {
             true => (slopes[0] / slopes[1]).sqrt().max(1.0),
             false => 1.0,
         };
+        self.widen = widen;
         let noise = self.noise;
         let lines = self.setups.iter_mut().flat_map(|s| s.lines.iter_mut());
         for (i, line) in lines.enumerate() {
@@ -106,6 +119,49 @@ impl Shapes {
                 share(line, noise[i % 3], widen);
             }
         }
+    }
+
+    /// Noise of a component whose levels are not repeated: the scatter about the lines, unless
+    /// neighbours agree so much better, and the data sheet with them, that the rest is shape.
+    fn without_repeats(&self, scatter: f64, component: usize) -> f64 {
+        let own = self.rests.iter().filter(|rest| rest.component == component);
+        let (squares, count) = own.fold((0.0, 0.0), |(s, n), rest| {
+            let (own, rows) = rest.steps();
+            (s + own, n + rows)
+        });
+        let short = (0.5 * squares / f64::max(count, 1.0)).sqrt();
+        let short = short.max(self.stated.unwrap_or(scatter));
+        match scatter > SHAPE * short {
+            true => short,
+            false => scatter,
+        }
+    }
+
+    /// Bends of simple form in what the lines leave (in the units of [`Shapes::left`]): the squares of
+    /// the even part, of the cubic part and of the loop, in variances of the noise, and their number.
+    pub fn bends(&self, left: &[f64]) -> ([f64; 3], f64) {
+        let (mut sums, mut at) = ([0.0; 3], 0);
+        for rest in &self.rests {
+            let own = rest.bends(&left[at..at + rest.count.len()]);
+            (0..3).for_each(|k| sums[k] += (own[k] / self.widen).powi(2));
+            at += rest.count.len();
+        }
+        (sums, self.rests.len() as f64)
+    }
+
+    fn wandering(&self) -> [f64; 3] {
+        let mut sums = [[0.0; 2]; 3];
+        for rest in &self.rests {
+            if let Some((fit, _)) = weighted(&rest.readings, &rest.kept, rest.cycles) {
+                let own = rest.zeros(fit.slope);
+                (0..2).for_each(|k| sums[rest.component][k] += own[k]);
+            }
+        }
+        let rms = |k: usize| match sums[k][1] > 0.0 && self.noise[k] > 0.0 {
+            true => (sums[k][0] / sums[k][1]).sqrt() / self.noise[k],
+            false => 0.0,
+        };
+        [rms(0), rms(1), rms(2)]
     }
 
     /// Every level, set-up by set-up.
@@ -119,17 +175,21 @@ impl Shapes {
         self.rests.iter().flat_map(own).collect()
     }
 
-    /// A displacement over force (m, by point, direction and force in N) seen in the same way: the
-    /// slopes that its lines would have, m/N, and what they would leave, in the units of [`Shapes::left`].
-    pub fn seen(&self, of: impl Fn(usize, usize, f64) -> V3) -> (Vec<[Option<f64>; 3]>, Vec<f64>) {
+    /// A displacement over force (m, by point, direction, force in N and the force before it in the
+    /// same cycle) seen in the same way: the slopes that its lines would have, m/N, and what they would leave, in the units of [`Shapes::left`].
+    pub fn seen(
+        &self,
+        of: impl Fn(usize, usize, f64, Option<f64>) -> V3,
+    ) -> (Vec<[Option<f64>; 3]>, Vec<f64>) {
         let mut slopes = vec![[None; 3]; self.setups.len()];
         let mut left = Vec::new();
         for rest in &self.rests {
-            let moved = |r: &Reading| Reading {
-                displacement: of(rest.point, rest.direction, r.force)[rest.component],
+            let moved = |(i, r): (usize, &Reading)| Reading {
+                displacement: of(rest.point, rest.direction, r.force, rest.before(i))
+                    [rest.component],
                 ..*r
             };
-            let readings: Vec<Reading> = rest.readings.iter().map(moved).collect();
+            let readings: Vec<Reading> = rest.readings.iter().enumerate().map(moved).collect();
             let (slope, own) = rest.project(&readings, self.noise[rest.component]);
             let here = |s: &Setup| s.point == rest.point && s.direction == rest.direction;
             if let Some(i) = self.setups.iter().position(here) {
@@ -200,6 +260,81 @@ impl Rest {
             point: own.point,
             direction: own.direction,
         }
+    }
+
+    /// Squares of the change from one reading to the next beyond the line, and how many there are.
+    fn steps(&self) -> (f64, f64) {
+        let Some((_, left)) = weighted(&self.readings, &self.kept, self.cycles) else {
+            return (0.0, 0.0);
+        };
+        let kept = |i: &usize| {
+            let same = self.readings[*i].cycle == self.readings[i - 1].cycle;
+            same && self.kept[*i] * self.kept[i - 1] > 0.0
+        };
+        let changes = (1..left.len()).filter(kept);
+        let changes: Vec<f64> = changes.map(|i| (left[i] - left[i - 1]).powi(2)).collect();
+        (changes.iter().sum(), changes.len() as f64)
+    }
+
+    /// Shares of the even part, of the cubic part and of the loop in what the line leaves.
+    fn bends(&self, left: &[f64]) -> [f64; 3] {
+        let levels = self.levels();
+        let largest = levels.iter().fold(1e-300, |m: f64, l| m.max(l.force.abs()));
+        let root: Vec<f64> = self.count.iter().map(|n| n.sqrt()).collect();
+        let shape = |of: fn(f64, f64) -> f64| -> Vec<f64> {
+            let side = |l: &Level| if l.rising { 1.0 } else { -1.0 };
+            let value = |(l, n): (&Level, &f64)| n * of(l.force / largest, side(l));
+            levels.iter().zip(&root).map(value).collect()
+        };
+        let wanted = [
+            shape(|_, _| 1.0),
+            shape(|f, _| f),
+            shape(|f, _| f.abs()),
+            shape(|f, _| f * f * f),
+            shape(|_, side| side),
+        ];
+        let mut basis: Vec<Vec<f64>> = Vec::new();
+        for mut own in wanted {
+            let size = dot(&own, &own).sqrt();
+            for before in &basis {
+                let share = dot(&own, before);
+                own.iter_mut()
+                    .zip(before)
+                    .for_each(|(o, b)| *o -= share * b);
+            }
+            let rest = dot(&own, &own).sqrt();
+            let scale = if rest > 1e-6 * size { 1.0 / rest } else { 0.0 };
+            basis.push(own.iter().map(|o| o * scale).collect());
+        }
+        [2, 3, 4].map(|k| dot(&basis[k], left))
+    }
+
+    /// The force before a reading in its cycle.
+    fn before(&self, i: usize) -> Option<f64> {
+        let before = i.checked_sub(1).map(|j| self.readings[j]);
+        before
+            .filter(|b| b.cycle == self.readings[i].cycle)
+            .map(|b| b.force)
+    }
+
+    /// Squares of the zeros of the cycles about their mean, m², and how many are free.
+    fn zeros(&self, slope: f64) -> [f64; 2] {
+        let mut sums = vec![[0.0; 2]; self.cycles];
+        for (i, r) in self.readings.iter().enumerate() {
+            let zero = r.displacement - slope * r.force;
+            let own = &mut sums[r.cycle];
+            own[0] += self.kept[i] * zero;
+            own[1] += self.kept[i];
+        }
+        let means: Vec<f64> = sums
+            .iter()
+            .filter(|s| s[1] > 0.0)
+            .map(|s| s[0] / s[1])
+            .collect();
+        let n = means.len() as f64;
+        let mean = means.iter().sum::<f64>() / n.max(1.0);
+        let squares = means.iter().map(|m| (m - mean).powi(2)).sum();
+        [squares, (n - 1.0).max(0.0)]
     }
 
     /// Mean over the readings of every cell.
@@ -280,4 +415,8 @@ impl Rest {
         };
         self.count.iter().enumerate().map(level).collect()
     }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -82,19 +82,10 @@ impl Field {
         }
     }
 
-    /// What the data say of these columns together.
-    pub fn amounts(&self, columns: &[usize]) -> Amounts {
-        self.with_prior(columns, 1.0)
-    }
-
-    /// The same with priors that many times as wide: nothing pulls towards zero.
-    pub fn free_amounts(&self, columns: &[usize], width: f64) -> Amounts {
-        self.with_prior(columns, width)
-    }
-
-    fn with_prior(&self, columns: &[usize], width: f64) -> Amounts {
+    /// What the data say of columns together whose priors are so many times as wide.
+    pub fn amounts(&self, columns: &[usize], width: impl Fn(usize) -> f64) -> Amounts {
         let n = columns.len();
-        let spread = |i: usize| width * self.prior[columns[i]];
+        let spread = |i: usize| width(i) * self.prior[columns[i]];
         // in units of the prior, H = I + T G T
         let mut h = vec![0.0; n * n];
         let mut g = vec![0.0; n];

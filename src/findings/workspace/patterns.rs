@@ -32,12 +32,19 @@ pub struct Scene<'a> {
     pub reference: Vec<M3>,
     /// Axes of the tool at the points, base frame, as columns.
     pub tool: Vec<M3>,
+    /// Where the displacement is read if not at the tool: behind which joint, and where at zero.
+    sensor: Option<(usize, V3)>,
 }
 
 impl<'a> Scene<'a> {
     /// Of a robot, with the simulated slopes as reference.
     pub fn of(robot: &'a Robot, points: &'a [Vec<f64>]) -> Self {
-        let base = Deflection::of(robot, points);
+        Self::seen_at(robot, points, None)
+    }
+
+    /// The same with the displacement read elsewhere.
+    pub fn seen_at(robot: &'a Robot, points: &'a [Vec<f64>], sensor: Option<(usize, V3)>) -> Self {
+        let base = deflection(robot, points, sensor);
         let chain = rigid(robot);
         let mut work = Work::new(&chain);
         let mut pose = |q: &Vec<f64>| forward_kinematics(&chain, &mut work, &chain.spread(q));
@@ -47,6 +54,7 @@ impl<'a> Scene<'a> {
             reference: base.slopes.clone(),
             tool: points.iter().map(|q| pose(q).rotation).collect(),
             base,
+            sensor,
         }
     }
 
@@ -76,15 +84,17 @@ impl<'a> Scene<'a> {
     ) -> Pattern {
         let mut robot = self.robot.clone();
         cause.alter(&mut robot, site, amounts);
-        let moved = Deflection::of(&robot, self.points);
+        let moved = deflection(&robot, self.points, self.sensor);
         let pairs = moved.slopes.iter().zip(&self.base.slopes);
         let mut slopes: Vec<M3> = pairs.map(|(a, b)| difference(a, b, step)).collect();
         if moved.is_linear() {
             let left = Vec::new();
             return Pattern { slopes, left };
         }
-        let jump = |p: usize, d: usize, f: f64| {
-            let (a, b) = (moved.jump(p, d, f), self.base.jump(p, d, f));
+        let remembers = cause.remembers(amounts);
+        let jump = |p: usize, d: usize, f: f64, before: Option<f64>| {
+            let before = before.filter(|_| remembers);
+            let (a, b) = (moved.jump(p, d, f, before), self.base.jump(p, d, f, None));
             std::array::from_fn(|k| (a[k] - b[k]) / step)
         };
         let (lines, left) = shapes.seen(jump);
@@ -114,6 +124,13 @@ impl<'a> Scene<'a> {
             slopes: (0..self.points.len()).map(of).collect(),
             left: Vec::new(),
         }
+    }
+}
+
+fn deflection(robot: &Robot, points: &[Vec<f64>], sensor: Option<(usize, V3)>) -> Deflection {
+    match sensor {
+        None => Deflection::of(robot, points),
+        Some((after, at)) => Deflection::seen_at(robot, points, after, at),
     }
 }
 

@@ -22,7 +22,7 @@ pub struct Set {
 }
 
 /// Forms that pairs are built from.
-const LEADERS: usize = 60;
+const LEADERS: usize = 50;
 /// Sets of one length that grow by one.
 const BEAM: usize = 8;
 /// Longest set.
@@ -88,7 +88,11 @@ impl Book<'_> {
             return f64::MIN;
         }
         let columns: Vec<usize> = own.iter().flat_map(|f| f.columns.clone()).collect();
-        let amounts = self.field.amounts(&columns);
+        let widths: Vec<f64> = own
+            .iter()
+            .flat_map(|f| std::iter::repeat_n(f.width, f.columns.len()))
+            .collect();
+        let amounts = self.field.amounts(&columns, |i| widths[i]);
         let weight: f64 = own.iter().map(|form| form.weight).sum();
         let score = amounts.evidence + weight + self.seats.odds(&seats);
         self.tried.insert(forms.clone(), score);
@@ -175,7 +179,8 @@ impl Book<'_> {
     fn narrow(&self) -> Vec<(usize, usize, f64)> {
         let mut found = Vec::new();
         for (f, form) in self.seats.forms.iter().enumerate() {
-            if let [column] = form.columns[..] {
+            if let ([column], true) = (&form.columns[..], form.width >= 1.0) {
+                let column = *column;
                 found.push((f, column, 1.0));
                 if self.field.low(column) < 0.0 {
                     found.push((f, column, -1.0));

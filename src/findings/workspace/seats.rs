@@ -28,6 +28,8 @@ pub struct Form {
     pub columns: Vec<usize>,
     /// Logarithm of its share among the forms of the seat.
     pub weight: f64,
+    /// Its strength: spreads of the amounts before the data, times this.
+    pub width: f64,
 }
 
 /// One amount at its place.
@@ -39,6 +41,10 @@ pub struct Column {
     pub prior: f64,
     /// Lowest value.
     pub low: f64,
+    /// Of an instrument.
+    pub instrument: bool,
+    /// Of no cause of the library.
+    pub stranger: bool,
 }
 
 /// Everybody who may be blamed.
@@ -54,6 +60,8 @@ pub struct Seats {
     rigid_bearings: bool,
 }
 
+/// A cause may be strong or weak: each form is compared in both.
+const WIDTHS: [f64; 2] = [1.0, 0.2];
 /// An amount spreads over this many ordinary sizes before the data.
 const SPREAD: f64 = 1.5;
 
@@ -84,15 +92,20 @@ impl Seats {
                 pattern: scene.pattern(cause, &site, (index, scale), shapes),
                 prior: SPREAD * scale,
                 low: amount.bounds[0],
+                instrument: cause.blame() == Blame::Instrument,
+                stranger: is_stranger(cause),
             });
         }
         let forms = cause.forms();
-        let weight = -(forms.len() as f64).ln();
-        self.forms.extend(forms.into_iter().map(|form| Form {
-            seat,
-            columns: form.iter().map(|k| first + k).collect(),
-            weight,
-        }));
+        let weight = -((forms.len() * WIDTHS.len()) as f64).ln();
+        for width in WIDTHS {
+            self.forms.extend(forms.iter().map(|form| Form {
+                seat,
+                columns: form.iter().map(|k| first + k).collect(),
+                weight,
+                width,
+            }));
+        }
         self.seats.push(Seat {
             stranger: is_stranger(cause),
             cause,
@@ -127,6 +140,7 @@ impl Seats {
             let again = own.cause.blame() == Blame::Structure && seats[..at].iter().any(again);
             total += match (own.stranger, again) {
                 (true, _) => STRANGE,
+                (false, false) if bare && name == "missing_tilt" => SUSPECT,
                 (false, true) if bare && name == "missing_tilt" => LIKELY,
                 (false, true) => AGAIN,
                 (false, false) => odds(own),
@@ -136,10 +150,12 @@ impl Seats {
     }
 }
 
-const STRANGE: f64 = -5.5;
+const STRANGE: f64 = -6.0;
 const AGAIN: f64 = -2.5;
 /// A model in which no bearing tilts at all most likely lacks more than one.
-const LIKELY: f64 = -0.4;
+const LIKELY: f64 = -0.2;
+/// ... and is suspect from the start.
+const SUSPECT: f64 = -2.0;
 
 fn odds(seat: &Seat) -> f64 {
     let all_sensors = seat.site == "sensor" && seat.cause.card().name == "sensor_gain";
@@ -147,7 +163,7 @@ fn odds(seat: &Seat) -> f64 {
         // several sensors hardly ever share an error that one load cell explains
         Blame::Instrument if all_sensors => -6.5,
         Blame::Instrument => -4.5,
-        Blame::Parameter => -4.7,
-        Blame::Structure => -5.0,
+        Blame::Parameter => -4.5,
+        Blame::Structure => -5.2,
     }
 }

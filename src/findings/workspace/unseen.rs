@@ -1,8 +1,6 @@
 //! Does a cause help where it was not fitted? Whole points are left out in turn, and predicted.
 
 use crate::findings::gain::Gain;
-use crate::fit::force_steps::quantile;
-use crate::fit::parameter::Z95;
 use nalgebra::{DMatrix, DVector};
 
 /// Readings with everything linear that may explain them, row by row in standard deviations.
@@ -15,16 +13,41 @@ pub struct Rows<'a> {
     pub prior: Vec<f64>,
 }
 
+/// What is left of every row when all are fitted.
+pub fn fitted(rows: &Rows) -> Vec<f64> {
+    let d = &rows.columns;
+    let mut normal = d.tr_mul(d);
+    for (i, prior) in rows.prior.iter().enumerate() {
+        normal[(i, i)] += prior.powi(-2);
+    }
+    let solved = normal
+        .cholesky()
+        .map(|root| root.solve(&d.tr_mul(rows.readings)));
+    let left = solved.map_or(rows.readings.clone(), |x| rows.readings - d * x);
+    left.iter().copied().collect()
+}
+
 /// What is left of every row that is predicted from the rows of the other folds; rows without a
 /// fold are always fitted, and come back as NaN.
-pub fn held_out(rows: &Rows, folds: &[Option<usize>]) -> Vec<f64> {
+pub struct HeldOut {
+    /// With the amounts of the causes alone, the springs as they are: what an extended robot predicts.
+    pub carried: Vec<f64>,
+    /// With the springs moved within their spread too.
+    pub refitted: Vec<f64>,
+}
+
+/// Predicts every fold from the others; the first `springs` columns are those of the springs.
+pub fn held_out(rows: &Rows, folds: &[Option<usize>], springs: usize) -> HeldOut {
     let d = &rows.columns;
     let mut normal = d.tr_mul(d);
     for (i, prior) in rows.prior.iter().enumerate() {
         normal[(i, i)] += prior.powi(-2);
     }
     let gradient = d.tr_mul(rows.readings);
-    let mut out = vec![f64::NAN; folds.len()];
+    let mut out = HeldOut {
+        carried: vec![f64::NAN; folds.len()],
+        refitted: vec![f64::NAN; folds.len()],
+    };
     let count = folds.iter().flatten().max().map_or(0, |m| m + 1);
     for fold in 0..count {
         let own: Vec<usize> = (0..folds.len())
@@ -37,45 +60,40 @@ pub fn held_out(rows: &Rows, folds: &[Option<usize>]) -> Vec<f64> {
         let Some(root) = rest.cholesky() else {
             continue;
         };
-        let left = read - &part * root.solve(&right);
-        own.iter().zip(left.iter()).for_each(|(i, r)| out[*i] = *r);
+        let mut solved = root.solve(&right);
+        let refitted = &read - &part * &solved;
+        solved.rows_mut(0, springs).fill(0.0);
+        let carried = read - part * solved;
+        for (at, i) in own.iter().enumerate() {
+            out.refitted[*i] = refitted[at];
+            out.carried[*i] = carried[at];
+        }
     }
     out
 }
 
 /// Gain from what is left before and after; `unit` is the standard deviation of an ordinary
-/// reading. The interval is that of leaving out one fold at a time (jackknife).
-pub fn gain(before: &[f64], after: &[f64], folds: &[Option<usize>], unit: f64) -> Gain {
-    let count = folds.iter().flatten().max().map_or(0, |m| m + 1);
-    let mut sums = vec![[0.0; 2]; count];
-    let mut rows = 0.0_f64;
-    for (i, fold) in folds.iter().enumerate() {
-        if let (Some(fold), true) = (fold, before[i].is_finite() && after[i].is_finite()) {
-            sums[*fold][0] += before[i].powi(2);
-            sums[*fold][1] += after[i].powi(2);
+/// reading. With s what the cause changes in the predictions and e the noise, Σ(s + e)² − Σe²
+/// scatters by 2|s| about its mean: that is the interval, widened because noise is shared in a set-up.
+pub fn gain(before: &[f64], after: &[f64], unit: f64) -> Gain {
+    let (mut squares, mut moved, mut rows) = ([0.0; 2], 0.0, 0.0_f64);
+    for (b, a) in before.iter().zip(after) {
+        if b.is_finite() && a.is_finite() {
+            squares[0] += b * b;
+            squares[1] += a * a;
+            moved += (b - a).powi(2);
             rows += 1.0;
         }
     }
-    sums.retain(|s| s[0] + s[1] > 0.0);
-    let total = sums
-        .iter()
-        .fold([0.0; 2], |t, s| [t[0] + s[0], t[1] + s[1]]);
-    let ratio = |s: [f64; 2]| 0.5 * (s[0].max(1e-30) / s[1].max(1e-30)).ln();
-    let n = sums.len() as f64;
-    let less: Vec<f64> = sums
-        .iter()
-        .map(|s| ratio([total[0] - s[0], total[1] - s[1]]))
-        .collect();
-    let mean = less.iter().sum::<f64>() / n.max(1.0);
-    let squares: f64 = less.iter().map(|l| (l - mean).powi(2)).sum();
-    let std = match n > 1.0 {
-        true => ((n - 1.0) / n * squares).sqrt() * quantile(n - 1.0) / Z95,
-        false => f64::INFINITY,
-    };
+    let noise = (squares[1] / rows.max(1.0)).max(1.0);
+    let std = SHARED * (moved * noise).sqrt() / squares[0].max(f64::MIN_POSITIVE);
     let rms = |s: f64| unit * (s / rows.max(1.0)).sqrt();
     Gain::of(
-        rms(total[0]),
-        rms(total[1]).max(f64::MIN_POSITIVE),
+        rms(squares[0]),
+        rms(squares[1]).max(f64::MIN_POSITIVE),
         std.min(1e3),
     )
 }
+
+/// Noise of rows that belong together counts this much more than of rows that do not.
+const SHARED: f64 = 1.3;
