@@ -1,6 +1,6 @@
 //! A link bends.
 
-use super::contract::{Blame, Card, Cause, Sight};
+use super::contract::{Amount, Blame, Card, Cause, Sight};
 use super::places::{Said, add_axes, added, drive_compliance, number_in, said_axes};
 use crate::effects::Family;
 use crate::robot::Robot;
@@ -24,45 +24,52 @@ const CARD: Card = Card {
             "modes in which the parts before and behind the bend of the link move apart",
         ),
     ],
-    amounts: &[
-        added(
-            "about_x",
-            "compliance about x in the middle, with every joint at zero",
-        ),
-        added(
-            "about_y",
-            "compliance about y in the middle, with every joint at zero",
-        ),
-        added(
-            "about_z",
-            "compliance about z in the middle, with every joint at zero",
-        ),
-        added("near_x", "compliance about x at the near end"),
-        added("near_y", "compliance about y at the near end"),
-        added("near_z", "compliance about z at the near end"),
-        added("far_x", "compliance about x at the far end"),
-        added("far_y", "compliance about y at the far end"),
-        added("far_z", "compliance about z at the far end"),
-        added("quarter_x", "compliance about x at a quarter of the length"),
-        added("quarter_y", "compliance about y at a quarter of the length"),
-        added("quarter_z", "compliance about z at a quarter of the length"),
-        added(
-            "three_quarters_x",
-            "compliance about x at three quarters of the length",
-        ),
-        added(
-            "three_quarters_y",
-            "compliance about y at three quarters of the length",
-        ),
-        added(
-            "three_quarters_z",
-            "compliance about z at three quarters of the length",
-        ),
-    ],
+    amounts: &AMOUNTS,
 };
 
+macro_rules! turns_at {
+    ($at:literal) => {
+        [
+            added(
+                concat!("x_at_", $at),
+                concat!("compliance about x at ", $at, " of the length"),
+            ),
+            added(
+                concat!("y_at_", $at),
+                concat!("compliance about y at ", $at, " of the length"),
+            ),
+            added(
+                concat!("z_at_", $at),
+                concat!("compliance about z at ", $at, " of the length"),
+            ),
+        ]
+    };
+}
+
+static AMOUNTS: [Amount; 3 * ALONG.len()] = flat([
+    turns_at!("1/2"),
+    turns_at!("0"),
+    turns_at!("1"),
+    turns_at!("1/4"),
+    turns_at!("3/4"),
+    turns_at!("1/8"),
+    turns_at!("3/8"),
+    turns_at!("5/8"),
+    turns_at!("7/8"),
+]);
+
+const fn flat(triples: [[Amount; 3]; ALONG.len()]) -> [Amount; 3 * ALONG.len()] {
+    let mut all = [triples[0][0]; 3 * ALONG.len()];
+    let mut i = 0;
+    while i < all.len() {
+        all[i] = triples[i / 3][i % 3];
+        i += 1;
+    }
+    all
+}
+
 /// Where along the link the triples of amounts act, as a share of its length.
-const ALONG: [f64; 5] = [0.5, 0.0, 1.0, 0.25, 0.75];
+const ALONG: [f64; 9] = [0.5, 0.0, 1.0, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875];
 
 impl Cause for LinkCompliance {
     fn card(&self) -> &'static Card {

@@ -1,7 +1,9 @@
 //! Force steps to their last shape: the line of every set-up with the noise that all set-ups share,
 //! and what the line leaves, averaged over the cycles level by level. A clearance or a loop shows there.
 
-use super::force_steps::{Line, Reading, Setup, SetupSteps, by_setup, setups, straight, weighted};
+use super::force_steps::{
+    Line, Reading, Setup, SetupSteps, WILD, Weighted, by_setup, setups, spread, straight, weighted,
+};
 use crate::ground::spatial::V3;
 use crate::measurement::workspace_test::WorkspaceTest;
 
@@ -62,15 +64,13 @@ impl Shapes {
     pub fn of(test: &WorkspaceTest) -> Self {
         let noise = test.facts.sensor_noise;
         let mut rests = Vec::new();
-        let mut left = Vec::new();
         for own in by_setup(test) {
             for component in 0..3 {
                 let readings = own.readings(component);
                 let Some(fit) = straight(&readings, own.cycles.len(), noise) else {
                     continue;
                 };
-                left.push(fit.residuals);
-                rests.push(Rest::new(readings, fit.kept, &own, component));
+                rests.push(Rest::new(readings, &fit.residuals, &own, component));
             }
         }
         let mut shapes = Self {
@@ -81,15 +81,17 @@ impl Shapes {
             wander: [0.0; 3],
             rests,
         };
-        shapes.share_noise(&left);
+        shapes.take_lines();
+        shapes.share_noise();
         shapes
     }
 
     /// Every set-up gets the noise of all: thirty readings say little of their own scatter.
-    fn share_noise(&mut self, left: &[Vec<f64>]) {
+    fn share_noise(&mut self) {
+        let left: Vec<Vec<f64>> = self.rests.iter().map(Rest::left).collect();
         let mut sums = [[0.0; 2]; 3];
         let mut slopes = [0.0; 2];
-        for (rest, left) in self.rests.iter().zip(left) {
+        for (rest, left) in self.rests.iter().zip(&left) {
             let own = rest.scatter(left);
             (0..2).for_each(|k| sums[rest.component][k] += own[k]);
         }
@@ -103,13 +105,13 @@ impl Shapes {
             };
         }
         self.wander = self.wandering();
-        for (rest, left) in self.rests.iter().zip(left) {
+        for (rest, left) in self.rests.iter().zip(&left) {
             let own = rest.slope_scatter(left, self.noise[rest.component]);
             (0..2).for_each(|k| slopes[k] += own[k]);
         }
         let widen = match slopes[1] >= FREEDOM {
             true => (slopes[0] / slopes[1]).sqrt().max(1.0),
-            false => 1.0,
+            false => self.slowness(),
         };
         self.widen = widen;
         let noise = self.noise;
@@ -118,6 +120,42 @@ impl Shapes {
             if let Some(line) = line {
                 share(line, noise[i % 3], widen);
             }
+        }
+    }
+
+    /// The lines of the readings that were used here.
+    fn take_lines(&mut self) {
+        for rest in &self.rests {
+            let here = |s: &&mut Setup| s.point == rest.point && s.direction == rest.direction;
+            let line = self.setups.iter_mut().find(here);
+            let line = line.and_then(|setup| setup.lines[rest.component].as_mut());
+            if let (Some(line), Some((fit, left))) = (line, rest.line()) {
+                let used: f64 = rest.kept.iter().sum();
+                let squares: f64 = left.iter().zip(&rest.kept).map(|(l, w)| w * l * l).sum();
+                let freedom = (used - 1.0 - rest.cycles as f64).max(1.0);
+                line.slope = fit.slope;
+                line.scatter = (squares / freedom).sqrt();
+                line.stderr = line.scatter / fit.force_squares.sqrt();
+                line.rows = used as usize;
+                line.wild = rest.kept.len() - used as usize;
+            }
+        }
+    }
+
+    /// How much more than its scatter says noise moves a slope when each reading takes after the one
+    /// before it (first-order autoregression), where no repetition shows it.
+    fn slowness(&self) -> f64 {
+        let (mut steps, mut count) = (0.0, 0.0);
+        for rest in &self.rests {
+            let variance = self.noise[rest.component].powi(2).max(f64::MIN_POSITIVE);
+            let (own, rows) = rest.steps();
+            steps += own / variance;
+            count += rows;
+        }
+        let alike = (1.0 - 0.5 * steps / f64::max(count, 1.0)).clamp(0.0, 0.9);
+        match count > 0.0 {
+            true => ((1.0 + alike) / (1.0 - alike)).sqrt(),
+            false => 1.0,
         }
     }
 
@@ -152,7 +190,7 @@ impl Shapes {
     fn wandering(&self) -> [f64; 3] {
         let mut sums = [[0.0; 2]; 3];
         for rest in &self.rests {
-            if let Some((fit, _)) = weighted(&rest.readings, &rest.kept, rest.cycles) {
+            if let Some((fit, _)) = rest.line() {
                 let own = rest.zeros(fit.slope);
                 (0..2).for_each(|k| sums[rest.component][k] += own[k]);
             }
@@ -214,6 +252,34 @@ impl Shapes {
     }
 }
 
+/// Which readings are used: one that the other cycles do not repeat, and that lies off the line by
+/// far, is wild. What all cycles repeat is shape, however far off.
+fn tame(residuals: &[f64], cells: &[usize], count: usize) -> Vec<f64> {
+    let mut own: Vec<Vec<f64>> = vec![Vec::new(); count];
+    residuals
+        .iter()
+        .zip(cells)
+        .for_each(|(r, c)| own[*c].push(*r));
+    let middle = |values: &mut Vec<f64>| {
+        values.sort_by(f64::total_cmp);
+        match values.len() {
+            0 | 1 => 0.0,
+            2 if values[0].abs() < values[1].abs() => values[0],
+            2 => values[1],
+            n => values[n / 2],
+        }
+    };
+    let middles: Vec<f64> = own.iter_mut().map(middle).collect();
+    let limit = WILD * spread(residuals).max(f64::MIN_POSITIVE);
+    let off = |(r, c): (&f64, &usize)| r.abs() > limit && (r - middles[*c]).abs() > limit;
+    let kept = |one| if off(one) { 0.0 } else { 1.0 };
+    let kept: Vec<f64> = residuals.iter().zip(cells).map(kept).collect();
+    match kept.iter().sum::<f64>() > 0.5 * kept.len() as f64 {
+        true => kept,
+        false => vec![1.0; kept.len()],
+    }
+}
+
 fn share(line: &mut Line, noise: f64, widen: f64) {
     let per_newton = line.stderr / line.scatter.max(f64::MIN_POSITIVE);
     if noise > 0.0 && per_newton.is_finite() && line.scatter > 0.0 {
@@ -223,7 +289,7 @@ fn share(line: &mut Line, noise: f64, widen: f64) {
 }
 
 impl Rest {
-    fn new(readings: Vec<Reading>, kept: Vec<f64>, own: &SetupSteps, component: usize) -> Self {
+    fn new(readings: Vec<Reading>, residuals: &[f64], own: &SetupSteps, component: usize) -> Self {
         let largest = readings.iter().fold(0.0_f64, |m, r| m.max(r.force.abs()));
         let level = |force: f64| (force / largest.max(f64::MIN_POSITIVE) * LEVELS).round() as i64;
         let rising = |i: usize| {
@@ -245,6 +311,7 @@ impl Rest {
         distinct.dedup();
         let find = |key: &(i64, bool)| distinct.binary_search(key).unwrap_or(0);
         let cells: Vec<usize> = keys.iter().map(find).collect();
+        let kept = tame(residuals, &cells, distinct.len());
         let mut count = vec![0.0; distinct.len()];
         cells
             .iter()
@@ -264,9 +331,7 @@ impl Rest {
 
     /// Squares of the change from one reading to the next beyond the line, and how many there are.
     fn steps(&self) -> (f64, f64) {
-        let Some((_, left)) = weighted(&self.readings, &self.kept, self.cycles) else {
-            return (0.0, 0.0);
-        };
+        let left = self.left();
         let kept = |i: &usize| {
             let same = self.readings[*i].cycle == self.readings[i - 1].cycle;
             same && self.kept[*i] * self.kept[i - 1] > 0.0
@@ -307,6 +372,17 @@ impl Rest {
             basis.push(own.iter().map(|o| o * scale).collect());
         }
         [2, 3, 4].map(|k| dot(&basis[k], left))
+    }
+
+    /// The line of what was used.
+    fn line(&self) -> Option<(Weighted, Vec<f64>)> {
+        weighted(&self.readings, &self.kept, self.cycles)
+    }
+
+    /// What the line leaves of every reading.
+    fn left(&self) -> Vec<f64> {
+        let line = self.line();
+        line.map_or_else(|| vec![0.0; self.readings.len()], |line| line.1)
     }
 
     /// The force before a reading in its cycle.

@@ -51,7 +51,7 @@ pub struct Stiffness {
 }
 
 /// Readings further from the line than this many robust standard deviations are wild.
-const WILD: f64 = 6.0;
+pub(super) const WILD: f64 = 6.0;
 /// Above this relative standard deviation a slope is no measurement.
 const UNSUPPORTED: f64 = 0.5;
 
@@ -131,11 +131,10 @@ impl Reading {
     }
 }
 
-/// A line with what it leaves of every reading, m, and whether the reading was used.
+/// A line with what it leaves of every reading, m.
 pub(super) struct Straight {
     pub line: Line,
     pub residuals: Vec<f64>,
-    pub kept: Vec<f64>,
 }
 
 /// Robust start, then least squares over what is not wild.
@@ -188,7 +187,6 @@ fn ordinary(
             wild: readings.len() - used,
         },
         residuals,
-        kept: kept.to_vec(),
     })
 }
 
@@ -237,7 +235,7 @@ pub(super) fn weighted(
 }
 
 /// Standard deviation by the median of the magnitudes; the root mean square if that is zero.
-fn spread(residuals: &[f64]) -> f64 {
+pub(super) fn spread(residuals: &[f64]) -> f64 {
     let mut sizes: Vec<f64> = residuals.iter().map(|r| r.abs()).collect();
     sizes.sort_by(f64::total_cmp);
     match sizes.get(sizes.len() / 2) {

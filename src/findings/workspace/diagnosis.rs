@@ -48,14 +48,14 @@ impl std::ops::Deref for WorkspaceDiagnosis {
     }
 }
 
-/// A stand-in with at least this share of the winner's probability cannot be ruled out.
-const AMBIGUOUS: f64 = 0.08;
+/// Candidates that cannot be told apart hold the cause with this probability.
+const SURE: f64 = 0.93;
 /// Probability of a set against the same set less one cause, below which that cause is not named.
 const NEEDED: f64 = 0.9;
 /// No model is right to better than this share of a deflection ...
 const MODEL: f64 = 0.01;
 /// ... and no law to better than this share of the error that it explains.
-const LAW: f64 = 0.03;
+const LAW: f64 = 0.05;
 /// Amounts are reported with priors this many times as wide: without shrinkage.
 const FREE: f64 = 30.0;
 /// With more than this share unexplained the causes found are not the story.
@@ -418,7 +418,8 @@ impl<'a> Case<'a> {
             .iter()
             .filter(|s| !self.seats.seats[**s].stranger)
         {
-            let stand_ins = self.posterior.stand_ins(&chosen.seats, *seat, AMBIGUOUS);
+            let mut rivals = self.posterior.rivals(&chosen.seats, *seat, SURE);
+            rivals.retain(|rival| !self.seats.seats[rival.0].stranger);
             let gain = self.gain_of(chosen, *seat);
             let own = &self.seats.seats[*seat];
             causes.push(Cause {
@@ -434,8 +435,8 @@ impl<'a> Case<'a> {
                 ),
                 gain,
             });
-            if !stand_ins.is_empty() {
-                let members = std::iter::once(*seat).chain(stand_ins.iter().map(|s| s.0));
+            if !rivals.is_empty() {
+                let members = std::iter::once(*seat).chain(rivals.iter().map(|s| s.0));
                 let members: Vec<usize> = members.collect();
                 let of = |s: &usize| &self.seats.seats[*s];
                 let repeatability = self.test.facts.setup_repeatability.unwrap_or(0.0);
@@ -447,7 +448,7 @@ impl<'a> Case<'a> {
                     seats: &self.seats,
                     repeatability,
                 };
-                let sets = std::iter::once(chosen).chain(stand_ins.iter().map(|s| s.1));
+                let sets = std::iter::once(chosen).chain(rivals.iter().map(|s| s.1));
                 let suspects = members
                     .iter()
                     .zip(sets)
@@ -486,7 +487,8 @@ impl<'a> Case<'a> {
     }
 
     fn alternatives(&self, chosen: &Set, seat: usize) -> Vec<(&'static str, String, f64)> {
-        let others = self.posterior.stand_ins(&chosen.seats, seat, 1e-4);
+        let mut others = self.posterior.stand_ins(&chosen.seats, seat);
+        others.retain(|other| other.2 > 1e-4 && !self.seats.seats[other.0].stranger);
         let told = |(s, _, p): &(usize, &Set, f64)| {
             let own = &self.seats.seats[*s];
             (own.cause.card().name, own.site.clone(), *p)

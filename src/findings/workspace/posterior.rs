@@ -34,23 +34,38 @@ impl Posterior {
         with.map(|(_, p)| p).sum()
     }
 
-    /// Seats that can stand for `seat` among `chosen`, the others kept, with at least `share` of the
-    /// probability of the chosen: seat, its set, its probability against the chosen one.
-    pub fn stand_ins(&self, chosen: &[usize], seat: usize, share: f64) -> Vec<(usize, &Set, f64)> {
+    /// Seats that can stand for `seat` among `chosen`, the others kept, each with its set and its
+    /// probability against the chosen one, most probable first.
+    pub fn stand_ins(&self, chosen: &[usize], seat: usize) -> Vec<(usize, &Set, f64)> {
         let own = self.of(chosen);
         let rest: Vec<usize> = chosen.iter().copied().filter(|s| *s != seat).collect();
         let mut found = Vec::new();
-        let mut most = own;
         for (set, p) in &self.sets {
             let mut extra = set.seats.iter().filter(|s| !rest.contains(s));
-            let one = (extra.next(), extra.next());
-            if let (Some(other), None) = one {
-                let same = set.seats.len() == rest.len() + 1 && *other != seat;
-                if same && *p >= share * most {
-                    most = most.max(*p);
+            if let (Some(other), None) = (extra.next(), extra.next()) {
+                if set.seats.len() == rest.len() + 1 && *other != seat {
                     found.push((*other, set, p / (p + own)));
                 }
             }
+        }
+        found
+    }
+
+    /// The stand-ins that together with the chosen one are the cause with probability `sure`, given
+    /// that it is one of them all.
+    pub fn rivals(&self, chosen: &[usize], seat: usize, sure: f64) -> Vec<(usize, &Set)> {
+        let all = self.stand_ins(chosen, seat);
+        let own = self.of(chosen);
+        let total: f64 = own + all.iter().map(|s| self.of(&s.1.seats)).sum::<f64>();
+        let mut held = own;
+        let mut found = Vec::new();
+        for (other, set, _) in all {
+            let p = self.of(&set.seats);
+            if held >= sure * total && p <= own {
+                break;
+            }
+            held += p;
+            found.push((other, set));
         }
         found
     }

@@ -22,7 +22,11 @@ pub struct Set {
 }
 
 /// Forms that pairs are built from.
-const LEADERS: usize = 50;
+const LEADERS: usize = 60;
+/// Forms of one seat that longer sets are built from.
+const FORMS: usize = 4;
+/// Sets whose members are tried in all their forms.
+const REFINED: usize = 16;
 /// Sets of one length that grow by one.
 const BEAM: usize = 8;
 /// Longest set.
@@ -35,6 +39,7 @@ pub fn search(seats: &Seats, field: &Field) -> Vec<Set> {
         field,
         sets: BTreeMap::new(),
         tried: HashMap::new(),
+        kept: Vec::new(),
     };
     book.sets.insert(Vec::new(), nothing());
     let mut singles: Vec<(f64, usize)> = Vec::new();
@@ -42,15 +47,16 @@ pub fn search(seats: &Seats, field: &Field) -> Vec<Set> {
         singles.push((book.add(&[f]), f));
     }
     singles.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let leaders: Vec<usize> = singles.iter().take(LEADERS).map(|s| s.1).collect();
+    book.keep(&singles);
+    let leaders: Vec<usize> = book.kept.iter().take(LEADERS).copied().collect();
     for (at, f) in leaders.iter().enumerate() {
-        let others = (0..seats.forms.len()).filter(|g| !leaders[..=at].contains(g));
-        for g in others.collect::<Vec<_>>() {
+        for g in book.kept[at + 1..].to_vec() {
             book.add(&[*f, g]);
         }
     }
     book.grow();
     book.propose();
+    book.refine();
     let mut sets: Vec<Set> = book.sets.into_values().collect();
     sets.sort_by(|a, b| b.score.total_cmp(&a.score).then(a.seats.cmp(&b.seats)));
     sets
@@ -72,6 +78,8 @@ struct Book<'a> {
     sets: BTreeMap<Vec<usize>, Set>,
     /// Score of every choice of forms.
     tried: HashMap<Vec<usize>, f64>,
+    /// The forms that longer sets are built from, best first.
+    kept: Vec<usize>,
 }
 
 impl Book<'_> {
@@ -111,6 +119,40 @@ impl Book<'_> {
         score
     }
 
+    /// The best forms of every seat, of those compared alone and best first.
+    fn keep(&mut self, singles: &[(f64, usize)]) {
+        let mut count = vec![0; self.seats.seats.len()];
+        for (_, f) in singles {
+            let own = &mut count[self.seats.forms[*f].seat];
+            *own += 1;
+            if *own <= FORMS {
+                self.kept.push(*f);
+            }
+        }
+    }
+
+    /// Tries every form of every member of the best sets.
+    fn refine(&mut self) {
+        for _ in 0..2 {
+            let mut own: Vec<&Set> = self.sets.values().filter(|s| s.seats.len() > 1).collect();
+            own.sort_by(|a, b| b.best.total_cmp(&a.best));
+            let starts: Vec<Vec<usize>> =
+                own.iter().take(REFINED).map(|s| s.forms.clone()).collect();
+            for start in starts {
+                for at in 0..start.len() {
+                    let seat = self.seats.forms[start[at]].seat;
+                    for f in 0..self.seats.forms.len() {
+                        if self.seats.forms[f].seat == seat {
+                            let mut other = start.clone();
+                            other[at] = f;
+                            self.add(&other);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
     /// Grows the best sets by one seat while that gains.
     fn grow(&mut self) {
         for length in 2..LONGEST {
@@ -125,7 +167,7 @@ impl Book<'_> {
             let mut after = f64::MIN;
             for start in starts {
                 let held: Vec<usize> = start.iter().map(|f| self.seats.forms[*f].seat).collect();
-                for f in 0..self.seats.forms.len() {
+                for f in self.kept.clone() {
                     if !held.contains(&self.seats.forms[f].seat) {
                         after = after.max(self.add(&[start.clone(), vec![f]].concat()));
                     }

@@ -138,32 +138,34 @@ impl Seats {
             let name = own.cause.card().name;
             let again = |s: &usize| self.seats[*s].cause.card().name == name;
             let again = own.cause.blame() == Blame::Structure && seats[..at].iter().any(again);
-            total += match (own.stranger, again) {
-                (true, _) => STRANGE,
-                (false, false) if bare && name == "missing_tilt" => SUSPECT,
-                (false, true) if bare && name == "missing_tilt" => LIKELY,
-                (false, true) => AGAIN,
-                (false, false) => odds(own),
+            let places = self.seats.iter().filter(|s| s.cause.card().name == name);
+            let first = odds(own.cause.blame(), own.stranger) - (places.count() as f64).ln();
+            total += match (bare && name == "missing_tilt", again) {
+                (true, false) => SUSPECT - 6.0_f64.ln(),
+                (true, true) => LIKELY,
+                (false, true) => AGAIN.max(first),
+                (false, false) if name == "sensor_gain" && own.site == "sensor" => first + SHARED,
+                (false, false) => first,
             };
         }
         total
     }
 }
 
-const STRANGE: f64 = -6.0;
 const AGAIN: f64 = -2.5;
 /// A model in which no bearing tilts at all most likely lacks more than one.
 const LIKELY: f64 = -0.2;
 /// ... and is suspect from the start.
-const SUSPECT: f64 = -2.0;
+const SUSPECT: f64 = -1.5;
+/// Several sensors hardly ever share an error that one load cell explains.
+const SHARED: f64 = -2.0;
 
-fn odds(seat: &Seat) -> f64 {
-    let all_sensors = seat.site == "sensor" && seat.cause.card().name == "sensor_gain";
-    match seat.cause.blame() {
-        // several sensors hardly ever share an error that one load cell explains
-        Blame::Instrument if all_sensors => -6.5,
-        Blame::Instrument => -4.5,
-        Blame::Parameter => -4.5,
-        Blame::Structure => -5.2,
+/// Logarithm of the odds of a kind of cause, wherever it sits.
+fn odds(blame: Blame, stranger: bool) -> f64 {
+    match (stranger, blame) {
+        (true, _) => -4.6,
+        (_, Blame::Instrument) => -2.6,
+        (_, Blame::Parameter) => -2.8,
+        (_, Blame::Structure) => -3.6,
     }
 }
