@@ -2,14 +2,19 @@
 //! is a closed form, and all of them can be compared.
 
 mod adequacy;
+mod case;
+mod choose;
 mod diagnosis;
 mod field;
 mod limits;
+mod name;
 mod next;
 mod patterns;
 mod posterior;
+mod remains;
 mod search;
 mod seats;
+mod smooth;
 mod strangers;
 mod unseen;
 

@@ -1,11 +1,14 @@
 //! Probabilities of sets and of seats.
 
 use super::search::Set;
+use std::collections::HashMap;
 
 /// Sets with their probabilities, best first.
 pub struct Posterior {
     /// The sets.
     pub sets: Vec<(Set, f64)>,
+    /// Where each stands.
+    index: HashMap<Vec<usize>, usize>,
 }
 
 impl Posterior {
@@ -17,15 +20,17 @@ impl Posterior {
             let p = (s.score - top).exp() / total;
             (s, p)
         };
+        let sets: Vec<(Set, f64)> = sets.into_iter().map(share).collect();
+        let place = |(i, (set, _)): (usize, &(Set, f64))| (set.seats.clone(), i);
         Self {
-            sets: sets.into_iter().map(share).collect(),
+            index: sets.iter().enumerate().map(place).collect(),
+            sets,
         }
     }
 
     /// Probability of exactly these seats (ascending).
     pub fn of(&self, seats: &[usize]) -> f64 {
-        let own = self.sets.iter().find(|(s, _)| s.seats == seats);
-        own.map_or(0.0, |(_, p)| *p)
+        self.index.get(seats).map_or(0.0, |i| self.sets[*i].1)
     }
 
     /// Probability that a seat is among the causes.

@@ -3,6 +3,7 @@
 
 use super::field::Field;
 use super::seats::{Form, Seats};
+use crate::causes::Blame;
 use crate::fit::convex::non_negative;
 use std::collections::{BTreeMap, HashMap};
 
@@ -189,6 +190,9 @@ impl Book<'_> {
         if best.is_none_or(|set| set.seats.len() < 3) {
             return;
         }
+        for of_one_kind in self.kinds() {
+            self.prune(of_one_kind);
+        }
         let narrow = self.narrow();
         let columns: Vec<usize> = narrow.iter().map(|n| n.1).collect();
         let (mut gram, gradient) = self.field.quadratic(&columns);
@@ -215,6 +219,26 @@ impl Book<'_> {
             chosen.sort_by(|a, b| b.0.total_cmp(&a.0));
             self.prune(chosen.into_iter().map(|c| c.1).collect());
         }
+    }
+
+    /// The best form of every seat of a part that the model lacks, kind by kind: who forgot one
+    /// bearing may have forgotten all.
+    fn kinds(&self) -> Vec<Vec<usize>> {
+        let mut found: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+        let mut held = Vec::new();
+        for f in &self.kept {
+            let seat = self.seats.forms[*f].seat;
+            let own = &self.seats.seats[seat];
+            let structure = own.cause.blame() == Blame::Structure && !own.stranger;
+            if structure && !held.contains(&seat) {
+                held.push(seat);
+                found.entry(own.cause.card().name).or_default().push(*f);
+            }
+        }
+        found
+            .into_values()
+            .filter(|forms| forms.len() > 1)
+            .collect()
     }
 
     /// One-column forms with a sign: those that may be negative stand in it twice.

@@ -154,7 +154,7 @@ impl Seats {
 
 const AGAIN: f64 = -2.5;
 /// A model in which no bearing tilts at all most likely lacks more than one.
-const LIKELY: f64 = -0.2;
+const LIKELY: f64 = -1.5;
 /// ... and is suspect from the start.
 const SUSPECT: f64 = -1.5;
 /// Several sensors hardly ever share an error that one load cell explains.
@@ -166,6 +166,6 @@ fn odds(blame: Blame, stranger: bool) -> f64 {
         (true, _) => -4.6,
         (_, Blame::Instrument) => -2.6,
         (_, Blame::Parameter) => -2.8,
-        (_, Blame::Structure) => -3.6,
+        (_, Blame::Structure) => -3.4,
     }
 }

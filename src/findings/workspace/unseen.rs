@@ -34,6 +34,8 @@ pub struct HeldOut {
     pub carried: Vec<f64>,
     /// With the springs moved within their spread too.
     pub refitted: Vec<f64>,
+    /// Amounts of the causes fitted without each fold.
+    pub amounts: Vec<Vec<f64>>,
 }
 
 /// Predicts every fold from the others; the first `springs` columns are those of the springs.
@@ -47,6 +49,7 @@ pub fn held_out(rows: &Rows, folds: &[Option<usize>], springs: usize) -> HeldOut
     let mut out = HeldOut {
         carried: vec![f64::NAN; folds.len()],
         refitted: vec![f64::NAN; folds.len()],
+        amounts: Vec::new(),
     };
     let count = folds.iter().flatten().max().map_or(0, |m| m + 1);
     for fold in 0..count {
@@ -58,11 +61,14 @@ pub fn held_out(rows: &Rows, folds: &[Option<usize>], springs: usize) -> HeldOut
         let rest = &normal - part.tr_mul(&part);
         let right = &gradient - part.tr_mul(&read);
         let Some(root) = rest.cholesky() else {
+            out.amounts.push(vec![0.0; d.ncols() - springs]);
             continue;
         };
         let mut solved = root.solve(&right);
         let refitted = &read - &part * &solved;
         solved.rows_mut(0, springs).fill(0.0);
+        out.amounts
+            .push(solved.iter().skip(springs).copied().collect());
         let carried = read - part * solved;
         for (at, i) in own.iter().enumerate() {
             out.refitted[*i] = refitted[at];
