@@ -8,15 +8,20 @@ pub mod contract;
 pub mod places;
 
 mod added_mass;
+mod backlash;
 mod base_compliance;
 mod drive_stiffness;
+mod force_gain;
 mod joint_damping;
 mod link_compliance;
+mod load_misalignment;
 mod missing_tilt;
+mod outlier_point;
+mod sensor_gain;
 mod tilt_stiffness;
 mod tool_compliance;
 
-pub use contract::{Amount, Card, Cause, Sight};
+pub use contract::{Amount, Blame, Card, Cause, Sight};
 
 /// Every cause: physics first, then the instruments.
 pub const CAUSES: &[&dyn Cause] = &[
@@ -28,6 +33,11 @@ pub const CAUSES: &[&dyn Cause] = &[
     &tool_compliance::ToolCompliance,
     &added_mass::AddedMass,
     &joint_damping::JointDamping,
+    &backlash::Backlash,
+    &force_gain::ForceGain,
+    &sensor_gain::SensorGain,
+    &load_misalignment::LoadMisalignment,
+    &outlier_point::OutlierPoint,
 ];
 
 /// The causes that one experiment would show.

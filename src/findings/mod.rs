@@ -7,6 +7,7 @@ pub mod gain;
 pub mod joint_motion;
 pub mod load_cycle;
 pub mod sentence;
+pub mod workspace;
 
 pub use answer::{Answer, Cause, Group, Verdict};
 pub use load_cycle::{Diagnosis, Settings, diagnose};

@@ -7,6 +7,8 @@ pub mod compliance;
 pub mod convex;
 pub mod damping;
 pub mod damping_store;
+mod force_rest;
+pub mod force_shapes;
 pub mod force_steps;
 pub mod frf_identifiability;
 pub mod frf_match;

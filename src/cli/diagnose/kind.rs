@@ -1,6 +1,7 @@
 //! The kinds of measurement that can be diagnosed. A new kind is one file and one line in [`KINDS`].
 
-use super::{joint_motion, load_cycle};
+use super::{joint_motion, load_cycle, workspace};
+
 use crate::findings::Answer;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::workspace::kind_of;
@@ -63,6 +64,7 @@ pub type Diagnose = fn(&Path) -> Outcome<Box<dyn Diagnosed>>;
 pub const KINDS: &[(&str, Diagnose)] = &[
     ("load-cycle", load_cycle::diagnosed),
     ("joint-motion", joint_motion::diagnosed),
+    ("workspace", workspace::diagnosed),
 ];
 
 /// The kind of a file, and how it is diagnosed. A file that states none is read as a load cycle,

@@ -7,6 +7,7 @@ mod kind;
 mod load_cycle;
 mod page;
 mod tables;
+mod workspace;
 
 use super::output::{print, tell};
 use super::progress::Progress;
