@@ -7,13 +7,17 @@
 pub mod contract;
 pub mod places;
 
+mod accelerometer_gain;
+mod accelerometer_misalignment;
 mod added_mass;
 mod base_compliance;
 mod drive_stiffness;
+mod exponential_window;
 mod joint_damping;
 mod link_compliance;
 mod missing_tilt;
 mod tilt_stiffness;
+mod time_skew;
 mod tool_compliance;
 
 pub use contract::{Amount, Card, Cause, Sight};
@@ -28,6 +32,10 @@ pub const CAUSES: &[&dyn Cause] = &[
     &tool_compliance::ToolCompliance,
     &added_mass::AddedMass,
     &joint_damping::JointDamping,
+    &accelerometer_gain::AccelerometerGain,
+    &accelerometer_misalignment::AccelerometerMisalignment,
+    &time_skew::TimeSkew,
+    &exponential_window::ExponentialWindow,
 ];
 
 /// The causes that one experiment would show.

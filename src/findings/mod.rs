@@ -3,6 +3,7 @@
 
 pub mod answer;
 pub mod gain;
+pub mod hammer;
 pub mod load_cycle;
 pub mod sentence;
 

@@ -1,0 +1,14 @@
+//! Hammer tests of the whole robot.
+//!
+//! The way of a hammer test: FRFs of all good hits, seen through a short exponential window (broad
+//! peaks, so that far starts arrive) and through a long one → what is uncertain although nothing is
+//! wrong fits along, with its prior → sets of causes by evidence → what cannot be told apart → gain on
+//! hits that were not fitted → is anything left, does the FRF depend on the force → verdict.
+
+pub mod data;
+pub mod machine;
+pub mod map;
+pub mod nuisance;
+pub mod prediction;
+pub mod search;
+pub mod structure;

@@ -1,0 +1,88 @@
+//! A robot at the pose of the test as matrices, and how its bodies' uncertain numbers change them.
+
+use crate::ground::problem::Outcome;
+use crate::motion::linear::gravity_stiffness;
+use crate::motion::swing::State;
+use crate::motion::{self, Linear, Work, linearise};
+use crate::robot::{Body, Robot};
+use nalgebra::DMatrix;
+
+/// Masses are known to this share, centres of mass to these metres, inertias to that share.
+const BODY: (f64, f64, f64) = (0.02, 0.005, 0.05);
+/// Uncertain numbers of a body: mass, centre, inertia.
+const NUMBERS: usize = 10;
+
+/// The robot with play closed, at rest under its weight.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Structure {
+    /// Its matrices, weight's stiffness included.
+    pub linear: Linear,
+    rest: Vec<f64>,
+}
+
+impl Structure {
+    /// The matrices of `robot` at the joint angles `joints` (rad).
+    ///
+    /// # Errors
+    /// No equilibrium, or nothing elastic.
+    pub fn of(robot: &Robot, joints: &[f64]) -> Outcome<Self> {
+        let chain = motion::elastic(robot);
+        let rest = State::settled(&chain, joints)?.angles();
+        let mut work = Work::new(&chain);
+        let mut linear = linearise(&chain, &mut work, &rest)?;
+        let weight = gravity_stiffness(&chain, &work);
+        let both = linear.stiffness.iter_mut().zip(&weight);
+        both.for_each(|(k, w)| *k += w);
+        Ok(Self { linear, rest })
+    }
+
+    /// What one standard deviation of every uncertain number of every body adds to the mass matrix,
+    /// one row per number: the upper triangle by rows.
+    pub fn bodies(&self, robot: &Robot) -> DMatrix<f64> {
+        let n = self.linear.n;
+        let count = NUMBERS * (robot.dof() + 1);
+        let mut out = DMatrix::zeros(count, n * (n + 1) / 2);
+        for number in 0..count {
+            let mut other = robot.clone();
+            let Some(body) = body(&mut other, number / NUMBERS) else {
+                continue;
+            };
+            disturb(body, number % NUMBERS);
+            let chain = motion::elastic(&other);
+            let Ok(moved) = linearise(&chain, &mut Work::new(&chain), &self.rest) else {
+                continue;
+            };
+            for (place, (i, j)) in triangle(n).enumerate() {
+                out[(number, place)] = moved.mass[i * n + j] - self.linear.mass[i * n + j];
+            }
+        }
+        out
+    }
+}
+
+/// Upper triangle by rows.
+pub fn triangle(n: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..n).flat_map(move |i| (i..n).map(move |j| (i, j)))
+}
+
+fn body(robot: &mut Robot, index: usize) -> Option<&mut Body> {
+    match index < robot.dof() {
+        true => robot.joints[index].link.as_mut(),
+        false => robot.tool.body.as_mut(),
+    }
+}
+
+fn disturb(body: &mut Body, number: usize) {
+    let [xx, yy, zz, ..] = body.inertia;
+    match number {
+        0 => {
+            body.mass *= 1.0 + BODY.0;
+            body.inertia.iter_mut().for_each(|i| *i *= 1.0 + BODY.0);
+        }
+        1..=3 => body.com[number - 1] += BODY.1,
+        4..=6 => body.inertia[number - 4] *= 1.0 + BODY.2,
+        7 => body.inertia[3] += BODY.2 * (xx * yy).sqrt(),
+        8 => body.inertia[4] += BODY.2 * (xx * zz).sqrt(),
+        _ => body.inertia[5] += BODY.2 * (yy * zz).sqrt(),
+    }
+}
