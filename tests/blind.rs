@@ -1,7 +1,8 @@
 //! The tests hide an effect in the data and require finding it.
 //!
 //! The generator is written independently of `src/effects`. Seeds are fixed ones and ones that
-//! change with the day; `IDENT_BLIND_SEED` and `IDENT_BLIND_CASES` (per effect) choose others.
+//! change with the day; `IDENT_BLIND_SEED` and `IDENT_BLIND_CASES` (per effect) choose others;
+//! `IDENT_DEBUG=1` prints the misses, and `IDENT_BLIND_KEEP=FOLDER` keeps their files.
 //! `cargo test --test blind -- --nocapture` prints the confusion matrix.
 
 mod blind_generator;
@@ -164,6 +165,14 @@ fn per_kind(default: u64) -> u64 {
     number("IDENT_BLIND_CASES").unwrap_or(default)
 }
 
+/// Keeps the file of a missed case in the folder that `IDENT_BLIND_KEEP` names.
+fn keep(kind: &str, case: &Case) {
+    if let Ok(folder) = std::env::var("IDENT_BLIND_KEEP") {
+        let path = Path::new(&folder).join(format!("{kind}-{}.csv", case.seed).replace(':', "-"));
+        std::fs::write(path, &case.csv).unwrap();
+    }
+}
+
 fn tally(kinds: &[(String, u64)], make: impl Fn(&str, u64) -> Case + Sync) -> Tally {
     let results: Vec<(String, Case, Diagnosis)> = kinds
         .par_iter()
@@ -178,8 +187,9 @@ fn tally(kinds: &[(String, u64)], make: impl Fn(&str, u64) -> Case + Sync) -> Ta
         tally.add(kind, case, diagnosis);
         if std::env::var("IDENT_DEBUG").is_ok()
             && score(case, diagnosis) > Score::Covered
-            && !kind.starts_with("outside")
+            && (!kind.starts_with("outside") || diagnosis.verdict != Verdict::UnknownCause)
         {
+            keep(kind, case);
             let truth: Vec<_> = case
                 .truths
                 .iter()

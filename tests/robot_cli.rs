@@ -255,3 +255,56 @@ fn a_converted_urdf_is_the_same_robot() {
         Some(0)
     );
 }
+
+#[test]
+fn convert_as_json() {
+    let answer = json(&["robot", "convert", "kr300"]);
+    assert_eq!(
+        (answer["verb"].as_str(), &answer["written"]),
+        (Some("robot convert"), &Value::Null)
+    );
+    let plain = ident(&["robot", "convert", "kr300"]);
+    assert_eq!(answer["toml"], *String::from_utf8(plain.stdout).unwrap());
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("copy.toml");
+    let path = path.to_str().unwrap();
+    let answer = json(&["robot", "convert", "kr300", "-o", path]);
+    assert_eq!(answer["written"], *path);
+    assert_eq!(answer["toml"], std::fs::read_to_string(path).unwrap());
+}
+
+/// A robot file with hysteresis in one drive: shown, simulated, and refused with the line where wrong.
+#[test]
+fn a_joint_carries_hysteresis() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_string();
+    let plain = String::from_utf8(ident(&["robot", "convert", "kr210"]).stdout).unwrap();
+    let drive = "drive = { stiffness_Nm_rad = 5600000.0";
+    let write = |name: &str, effect: &str| {
+        let text = plain.replacen(drive, &format!("{drive}, effects = [{effect}]"), 1);
+        std::fs::write(at(name), text).unwrap();
+    };
+    let good = r#"{ name = "hysteresis", width_rad = 2e-5, slip_load_Nm = 900.0, spread = 1.0, tilt = 0.0 }"#;
+    write("good.toml", good);
+    write("bad.toml", &good.replace("hysteresis", "creep"));
+    let shown = json(&["robot", "show", &at("good.toml")]);
+    let drive = shown["springs"].as_array().unwrap().iter();
+    let drive = drive.clone().find(|spring| spring["site"] == "A1").unwrap();
+    assert_eq!(drive["effects"][0]["slip_load_Nm"], 900.0);
+    std::fs::write(at("push.csv"), "time_s,fy_N\n0,0\n0.1,400\n0.2,0\n0.5,0\n").unwrap();
+    let end = |robot: &str| {
+        let typed = ["simulate", "motion", "--robot", robot, "--joints-deg", HOME];
+        let answer = json(&[&typed[..], &["--force", &at("push.csv")]].concat());
+        let y = answer["displacement_m"]["y"].as_array().unwrap();
+        y.last().unwrap().as_f64().unwrap()
+    };
+    let (with, without) = (end(&at("good.toml")), end("kr210"));
+    assert!(
+        with > without + 1e-6,
+        "after the push the contacts hold the arm: {with} {without}"
+    );
+    let refused = ident(&["robot", "show", &at("bad.toml")]);
+    let said = String::from_utf8(refused.stderr).unwrap();
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(said.contains("cannot carry the effect `creep`") && said.contains("hysteresis"));
+}

@@ -3,8 +3,7 @@
 
 mod robot_common;
 
-use ident::ground::spatial::{IDENTITY, add};
-use ident::motion::{self, Chain, Work};
+use ident::motion::{self, Work};
 use ident::robot::{Robot, check, load};
 use robot_common::{matrix, near, numbers, shared, vector};
 use serde_json::Value;
@@ -101,7 +100,7 @@ fn eighteen_hinges_agree_with_pinocchio() {
         return;
     };
     let golden: Value = serde_json::from_str(GOLDEN18).unwrap();
-    let chain = virtual18(&robot);
+    let chain = robot_common::virtual18(&robot);
     let mut work = Work::new(&chain);
     let (q, v, tau) = (
         vector(&golden["q"]),
@@ -132,19 +131,6 @@ fn eighteen_hinges_agree_with_pinocchio() {
         TOLERANCE,
         "aba",
     );
-}
-
-/// Per joint of the URDF: drive about its z, then virtual axes about its x and y, link on the last.
-fn virtual18(robot: &Robot) -> Chain {
-    let mut chain = Chain::default();
-    for (joint, frame) in robot.joints.iter().zip(robot_common::joint_frames_kr210()) {
-        let column = |j: usize| [0, 1, 2].map(|i| frame[i][j]);
-        chain.push("drive", column(2), joint.point, None, None);
-        chain.push("x", column(0), joint.point, None, None);
-        chain.push("y", column(1), joint.point, joint.link, None);
-    }
-    chain.end_at(add(robot.tool.tcp, [0.0; 3]), IDENTITY);
-    chain
 }
 
 #[test]

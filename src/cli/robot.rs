@@ -7,7 +7,7 @@ use crate::ground::problem::Outcome;
 use crate::ground::units::DEGREE;
 use crate::robot::check::{self, Remark};
 use crate::robot::load::load;
-use crate::robot::{Robot, Spring, write};
+use crate::robot::{JointEffect, Robot, Spring, write};
 use clap::{ArgMatches, Args, Subcommand};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -54,6 +54,9 @@ struct Convert {
     /// File to write; without it the TOML goes to standard output
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Print one JSON document: the TOML as `toml`, and the file written
+    #[arg(long)]
+    json: bool,
 }
 
 /// Runs `ident robot`.
@@ -70,10 +73,19 @@ pub fn run(matches: &ArgMatches) -> Outcome<Ending> {
 
 impl Convert {
     fn run(&self) -> Outcome<Ending> {
-        let text = write::write(&load(&self.robot, None)?.robot);
-        match &self.output {
-            Some(path) => replace(path, text.as_bytes())?,
-            None => print(&text)?,
+        let loaded = load(&self.robot, None)?;
+        let text = write::write(&loaded.robot);
+        if let Some(path) = &self.output {
+            replace(path, text.as_bytes())?;
+        }
+        match (self.json, &self.output) {
+            (true, output) => {
+                let written = output.as_ref().map(|path| path.display().to_string());
+                let body = json!({"name": loaded.robot.name, "toml": text, "written": written});
+                print_result("robot convert", &[loaded.input()], body)?;
+            }
+            (false, None) => print(&text)?,
+            (false, Some(_)) => {}
         }
         Ok(Ending::Done)
     }
@@ -95,6 +107,7 @@ fn show_json(robot: &Robot) -> Value {
             "stiffness": {"value": spring.stiffness, "unit": "N·m/rad", "ci95": spring.ci95.stiffness},
             "damping": {"value": spring.damping, "unit": "N·m·s/rad", "ci95": spring.ci95.damping},
             "backlash": {"value": spring.gap(), "unit": "rad", "ci95": spring.ci95.backlash},
+            "effects": spring.effects.iter().map(effect_json).collect::<Vec<_>>(),
             "source": spring.source,
         })
     };
@@ -117,6 +130,13 @@ fn show_json(robot: &Robot) -> Value {
         "springs": robot.springs().map(spring).collect::<Vec<_>>(),
         "tool": {"flange_m": robot.tool.flange, "tcp_m": robot.tool.tcp, "rotation": robot.tool.rotation},
     })
+}
+
+fn effect_json(effect: &JointEffect) -> Value {
+    let keys = effect.keys().into_iter();
+    let values = keys.zip(effect.values.iter().map(|value| json!(value)));
+    let named = [("name".to_string(), json!(effect.name))].into_iter();
+    Value::Object(named.chain(values).collect())
 }
 
 fn show_text(robot: &Robot) -> String {
@@ -161,6 +181,9 @@ fn show_text(robot: &Robot) -> String {
             spring.damping,
             spring.gap()
         );
+        spring.effects.iter().for_each(|effect| {
+            let _ = writeln!(out, "{:<16}  {}", "", effect.text());
+        });
     }
     let [x, y, z] = robot.tool.tcp;
     let _ = writeln!(

@@ -100,6 +100,16 @@ pub enum Role {
     Base,
 }
 
+/// A dry contact in the load path: as long as it sticks it holds deflection back. It adds
+/// −compliance · S(M), S the stop operator that slips at `slip_load`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// Load at which it slips, N·m or N.
+    pub slip_load: f64,
+    /// What it holds back per load, rad/(N·m) or m/N.
+    pub compliance: f64,
+}
+
 /// A law, written once over a scalar type.
 ///
 /// Physics *adds* its deflection to `out`; measurement *transforms* what it finds there. `p` holds
@@ -116,6 +126,12 @@ pub trait Law: Sync {
     /// Energy lost per unit time is never negative; laws that store or lose energy in closed form
     /// may state the loss of one full cycle between ±`load`, J. `None`: computed from the loop.
     fn loss(_p: &[f64], _load: f64) -> Option<f64> {
+        None
+    }
+
+    /// The law as dry contacts in the load path, which a joint can carry through time. `None`: the law
+    /// is no such sum.
+    fn contacts(_p: &[f64]) -> Option<Vec<Contact>> {
         None
     }
 }
@@ -138,6 +154,8 @@ pub trait Effect: Sync {
     );
     /// Loss of one full cycle between ±load in closed form, J, where the law has one.
     fn loss(&self, p: &[f64], load: f64) -> Option<f64>;
+    /// The law as dry contacts, where it is a sum of them: what a joint carries through time.
+    fn contacts(&self, p: &[f64]) -> Option<Vec<Contact>>;
 }
 
 impl<L: Law> Effect for L {
@@ -161,5 +179,8 @@ impl<L: Law> Effect for L {
     }
     fn loss(&self, p: &[f64], load: f64) -> Option<f64> {
         L::loss(p, load)
+    }
+    fn contacts(&self, p: &[f64]) -> Option<Vec<Contact>> {
+        L::contacts(p)
     }
 }

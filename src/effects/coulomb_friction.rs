@@ -1,4 +1,4 @@
-use super::contract::{Card, Family, Law, Parameter, Scale};
+use super::contract::{Card, Contact, Family, Law, Parameter, Scale};
 use super::scene::Scene;
 use super::shapes::Stop;
 use crate::ground::dual::Scalar;
@@ -42,5 +42,12 @@ impl Law for CoulombFriction {
             *y -= scale * stop.advance(load - before, friction);
             before = *load;
         }
+    }
+
+    fn contacts(p: &[f64]) -> Option<Vec<Contact>> {
+        Some(vec![Contact {
+            slip_load: p[1],
+            compliance: p[0] / p[1],
+        }])
     }
 }

@@ -1,4 +1,4 @@
-use super::contract::{Card, Family, Law, Parameter, Scale};
+use super::contract::{Card, Contact, Family, Law, Parameter, Scale};
 use super::scene::Scene;
 use super::shapes::Stop;
 use crate::ground::dual::Scalar;
@@ -51,15 +51,7 @@ impl Law for Hysteresis {
     };
 
     fn respond<S: Scalar>(p: &[S], scene: &Scene, _elastic: &[S], out: &mut [S]) {
-        let (width, slip, spread, tilt) = (p[0], p[1], p[2], p[3]);
-        let shares: [f64; ELEMENTS] =
-            std::array::from_fn(|i| ((i as f64 + 0.5) / ELEMENTS as f64).powf(1.3));
-        let weights =
-            shares.map(|x| ((spread - 1.0) * x.ln() + tilt * (x - 0.5)).exp() * x.powf(0.3 / 1.3));
-        let sum = (0..ELEMENTS).fold(S::constant(0.0), |sum, i| sum + weights[i] * shares[i]);
-        let scale = width / (sum * slip);
-        let weights = weights.map(|w| w * scale);
-        let thresholds = shares.map(|x| slip * x);
+        let (weights, thresholds) = elements(p);
         let mut stops = [Stop::<S>::new(); ELEMENTS];
         let mut before = 0.0;
         for (y, load) in out.iter_mut().zip(&scene.load) {
@@ -72,4 +64,25 @@ impl Law for Hysteresis {
             *y -= total;
         }
     }
+
+    fn contacts(p: &[f64]) -> Option<Vec<Contact>> {
+        let (weights, thresholds) = elements(p);
+        let contact = |(compliance, slip_load)| Contact {
+            slip_load,
+            compliance,
+        };
+        Some(weights.into_iter().zip(thresholds).map(contact).collect())
+    }
+}
+
+/// What each Jenkins element holds back per load, and the load at which it slips.
+fn elements<S: Scalar>(p: &[S]) -> ([S; ELEMENTS], [S; ELEMENTS]) {
+    let (width, slip, spread, tilt) = (p[0], p[1], p[2], p[3]);
+    let shares: [f64; ELEMENTS] =
+        std::array::from_fn(|i| ((i as f64 + 0.5) / ELEMENTS as f64).powf(1.3));
+    let weights =
+        shares.map(|x| ((spread - 1.0) * x.ln() + tilt * (x - 0.5)).exp() * x.powf(0.3 / 1.3));
+    let sum = (0..ELEMENTS).fold(S::constant(0.0), |sum, i| sum + weights[i] * shares[i]);
+    let scale = width / (sum * slip);
+    (weights.map(|w| w * scale), shares.map(|x| slip * x))
 }

@@ -1,9 +1,11 @@
 //! What the axis tests of a campaign found: the fits that `ident stiffness` left on disk.
 
-use super::parameter::Identified;
+use super::parameter::{Identified, Z95};
 use super::store::{SCHEMA, StoredFit};
 use crate::ground::files;
 use crate::ground::problem::Outcome;
+use crate::measurement::load_cycle::{LEVER_REL_STD, lever_spread};
+use crate::measurement::table::front_of;
 use std::path::{Path, PathBuf};
 
 /// One axis test with its stiffness.
@@ -17,9 +19,9 @@ pub struct AxisTest {
     pub sha256: String,
     /// The measurement that was fitted, and its SHA-256.
     pub input: (String, String),
-    /// Stiffness, N·m/rad, with its standard error.
+    /// Stiffness, N·m/rad, with its standard error: of the fit and of the levers.
     pub stiffness: (f64, f64),
-    /// 95 % interval of the stiffness, N·m/rad.
+    /// 95 % interval of the stiffness, N·m/rad, for the same reasons.
     pub ci95: [f64; 2],
     /// Backlash, rad, if the test fixed it.
     pub backlash: Option<(f64, [f64; 2])>,
@@ -35,13 +37,16 @@ impl AxisTest {
 
 /// The axis tests in a folder of fits, one per site, in the order of the file names. Of several fits
 /// of one site the one named like its measurement counts, then the one with the smallest interval.
+/// `measurements` holds the files that were fitted: they state how well their levers are known.
 ///
 /// # Errors
 /// A fit that cannot be read.
-pub fn read(folder: &Path) -> Outcome<Vec<AxisTest>> {
+pub fn read(folder: &Path, measurements: &Path) -> Outcome<Vec<AxisTest>> {
     let mut found: Vec<AxisTest> = Vec::new();
     for path in fits(folder) {
-        let Some(test) = one(&path)? else { continue };
+        let Some(test) = one(&path, measurements)? else {
+            continue;
+        };
         match found.iter_mut().find(|other| other.site == test.site) {
             Some(other) if better(&test, other) => *other = test,
             Some(_) => {}
@@ -72,7 +77,7 @@ fn better(a: &AxisTest, b: &AxisTest) -> bool {
 }
 
 /// The axis test in a file; `None` for a file of another kind, or without a stiffness.
-fn one(path: &Path) -> Outcome<Option<AxisTest>> {
+fn one(path: &Path, measurements: &Path) -> Outcome<Option<AxisTest>> {
     let bytes = files::read_bytes(path)?;
     let text = String::from_utf8_lossy(&bytes);
     let table = text.parse::<toml::Table>().unwrap_or_default();
@@ -80,9 +85,10 @@ fn one(path: &Path) -> Outcome<Option<AxisTest>> {
         return Ok(None);
     }
     let fit = StoredFit::read(path)?;
-    let Some((value, stderr, ci95)) = fixed(&fit.parameters, "stiffness") else {
+    let Some(fitted) = fixed(&fit.parameters, "stiffness") else {
         return Ok(None);
     };
+    let (value, stderr, ci95) = widened(fitted, levers(&measurements.join(&fit.input)));
     let backlash = fixed(&fit.parameters, "backlash").or_else(|| fixed(&fit.parameters, "gap"));
     Ok((value > 0.0 && stderr > 0.0).then(|| AxisTest {
         site: fit.site.clone(),
@@ -95,7 +101,49 @@ fn one(path: &Path) -> Outcome<Option<AxisTest>> {
     }))
 }
 
-fn fixed(parameters: &[Identified], name: &str) -> Option<(f64, f64, [f64; 2])> {
+/// Relative standard deviation by the levers of a measurement; the usual one if it is not there.
+fn levers(measurement: &Path) -> f64 {
+    let front = front_of(measurement);
+    let stated = front.and_then(|front| lever_spread(&front).ok());
+    stated.unwrap_or(LEVER_REL_STD * std::f64::consts::SQRT_2)
+}
+
+/// A value with standard error and interval, with an independent relative error added.
+fn widened((value, stderr, [low, high]): Fixed, relative: f64) -> Fixed {
+    let more = value * relative;
+    let half = |own: f64| own.hypot(Z95 * more);
+    let ci95 = [value - half(value - low), value + half(high - value)];
+    (value, stderr.hypot(more), ci95)
+}
+
+/// Value, standard error and 95 % interval.
+type Fixed = (f64, f64, [f64; 2]);
+
+fn fixed(parameters: &[Identified], name: &str) -> Option<Fixed> {
     let found = parameters.iter().find(|p| p.name == name)?;
     Some((found.value?, found.stderr?, found.ci95?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levers_widen_what_the_fit_says() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("axis6.csv");
+        let spread = |facts: &str| {
+            let head = "# kind = \"load-cycle\"\n# lever_rel_std = 0.03\n";
+            std::fs::write(&path, format!("{head}{facts}time_s,force_N\n")).unwrap();
+            levers(&path)
+        };
+        let both = spread("# load_lever_m = 0.6\n# sensor_lever_m = 0.5\n");
+        assert!((both - 0.03 * 2.0_f64.sqrt()).abs() < 1e-15);
+        assert_eq!(spread("# sensor_lever_m = 0.5\n"), 0.03);
+        assert_eq!(spread(""), 0.0);
+        assert!(levers(&folder.path().join("gone.csv")) > LEVER_REL_STD);
+        let (value, stderr, ci95) = widened((2e5, 3e3, [1.9e5, 2.1e5]), 0.02);
+        assert_eq!((value, stderr), (2e5, 5e3));
+        assert!(ci95[0] < 1.9e5 && (ci95[0] + ci95[1] - 4e5).abs() < 1e-6);
+    }
 }

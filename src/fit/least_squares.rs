@@ -19,6 +19,8 @@ pub struct Optimum {
     pub active: Vec<i8>,
     /// Jacobian of the whitened residual with respect to scaled parameters, rows × parameters.
     pub jacobian: DMatrix<f64>,
+    /// Whitened residual, reading less model.
+    pub residual: DVector<f64>,
     /// Scales of the parameters.
     pub scale: Vec<f64>,
     /// Iterations used.
@@ -145,6 +147,7 @@ pub fn minimise(problem: &Problem, start: &[f64], search: Search) -> Optimum {
         chi2,
         active,
         jacobian,
+        residual,
         scale,
         iterations,
     }

@@ -10,7 +10,7 @@ use crate::experiments::load_cycle::{Settled, enclosed, settle, settled_cycle, s
 use crate::fit::candidates::Candidates;
 use crate::fit::screen::screen;
 use crate::fit::second::log_ratio;
-use crate::measurement::load_cycle::LoadCycle;
+use crate::measurement::load_cycle::{LEVER_REL_STD, LoadCycle};
 
 /// What is identified when nothing else is asked for.
 pub const DEFAULT_EFFECTS: &[&str] = &["backlash", "hysteresis"];
@@ -290,7 +290,7 @@ fn warnings(account: &Account, file: &LoadCycle) -> Vec<String> {
         ));
     }
     if let Some((excess, stderr)) = account.second {
-        let stated = file.facts.lever_rel_std.unwrap_or(0.003) * std::f64::consts::SQRT_2;
+        let stated = file.facts.lever_rel_std.unwrap_or(LEVER_REL_STD) * std::f64::consts::SQRT_2;
         if excess.abs() > 3.0 * (stated * stated + stderr * stderr).sqrt() {
             said.push(format!(
                 "the two sensors disagree by {:+.1} %: a lever or an inclined laser is wrong (`ident diagnose`)",

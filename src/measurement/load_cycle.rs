@@ -93,6 +93,21 @@ pub struct Facts {
     pub synthetic: bool,
 }
 
+/// Relative standard deviation of a lever that nobody stated.
+pub const LEVER_REL_STD: f64 = 0.003;
+
+/// Relative standard deviation that the levers of a file leave in its stiffness: in
+/// k = F·a / (x/b) the lever a of the load and the lever b of the sensor stand once each, measured
+/// one by one. Without levers (moment and angle in the file) there is none.
+pub fn lever_spread(front: &Front) -> Outcome<f64> {
+    let each = front
+        .not_negative("lever_rel_std")?
+        .unwrap_or(LEVER_REL_STD);
+    let stated = ["load_lever_m", "sensor_lever_m"].map(|key| front.facts.contains_key(key));
+    let levers = stated.into_iter().filter(|given| *given).count();
+    Ok(each * (levers as f64).sqrt())
+}
+
 /// One load-cycle file, SI, rows with a missing load or deflection left out (and counted).
 #[derive(Debug, Clone)]
 pub struct LoadCycle {

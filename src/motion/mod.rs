@@ -6,6 +6,7 @@ pub mod chain;
 pub mod dynamics;
 pub mod forward;
 pub mod frf;
+pub mod hinge_law;
 pub mod inverse;
 pub mod kinematics;
 pub mod linear;

@@ -1,19 +1,19 @@
 //! Motion in time: M(q)q̈ + C(q,q̇) + G(q) = τ + Jᵀ F with τ = k·dead(θ−q, s/2) + d(θ̇−q̇)
-//! (source 000, eqs. 2.1 and 2.2; the gap s from 004).
+//! (source 000, eqs. 2.1 and 2.2; the gap s from 004), and the hysteresis of the joints.
 //!
-//! Implicit midpoint rule with the spring torque as a discrete gradient, (V₁ − V₀)/(δ₁ − δ₀)
-//! (Gonzalez 1996, eq. 16, per spring): stable at any stiffness, and springs neither create nor lose
-//! energy, not even at the edges of the gap.
+//! Implicit midpoint rule with the joint torque as a discrete gradient, work over way
+//! (Gonzalez 1996, eq. 16, per spring): stable at any stiffness; springs neither create nor lose
+//! energy, not even at the edges of the gap, and dry contacts lose exactly what they lose.
 
 use super::chain::Chain;
 use super::dynamics::{composite, newton_euler};
+use super::hinge_law::{HingeLaw, Memory};
 use super::kinematics::{column, place, tcp, weigh};
 use super::statics::{Weight, equilibrium, springs};
 use super::work::Work;
 use crate::ground::cholesky;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{V3, dot};
-use crate::robot::Spring;
 
 const ITERATIONS: usize = 40;
 /// Change of speed per iteration, against the largest speed, at which a step is solved.
@@ -32,6 +32,8 @@ pub struct State {
     pub bend: Vec<f64>,
     /// Speed of every hinge on the link side, rad/s.
     pub v: Vec<f64>,
+    /// What the elastic hinges remember, in the order of [`springs`].
+    pub memory: Vec<Memory>,
 }
 
 impl State {
@@ -42,11 +44,13 @@ impl State {
             time: 0.0,
             command: chain.spread(joints),
             bend: still.clone(),
+            memory: resting(chain, &still),
             v: still,
         }
     }
 
-    /// At rest under its own weight, every gap closed on the side the weight presses to.
+    /// At rest under its own weight, every gap closed on the side the weight presses to, and no load on
+    /// the contacts of a hysteresis.
     ///
     /// # Errors
     /// No equilibrium: see [`equilibrium`].
@@ -75,6 +79,7 @@ impl State {
             .zip(&play)
             .map(|(bend, play)| bend + play)
             .collect();
+        state.memory = resting(chain, &state.bend);
         Ok(state)
     }
 
@@ -99,11 +104,19 @@ fn closed(chain: &Chain, bend: &[f64]) -> Vec<f64> {
     play
 }
 
+/// Springs bent by `bend`, their contacts without load.
+fn resting(chain: &Chain, bend: &[f64]) -> Vec<Memory> {
+    springs(chain)
+        .map(|(i, spring)| HingeLaw::of(spring).at_rest(-bend[i]))
+        .collect()
+}
+
 /// Scratch space of [`step`].
 #[derive(Debug, Clone)]
 pub struct SwingWork {
     work: Work,
     elastic: Vec<usize>,
+    laws: Vec<HingeLaw>,
     middle: [Vec<f64>; 3],
     speed: Vec<f64>,
     base: Vec<f64>,
@@ -123,6 +136,9 @@ impl SwingWork {
             base: vec![0.0; m * m],
             matrix: vec![0.0; m * m],
             rest: vec![0.0; m],
+            laws: springs(chain)
+                .map(|(_, spring)| HingeLaw::of(spring))
+                .collect(),
             elastic,
         }
     }
@@ -133,7 +149,7 @@ impl SwingWork {
 pub struct Energy {
     /// Of motion.
     pub kinetic: f64,
-    /// In the springs.
+    /// In the springs, and in contacts that stick.
     pub elastic: f64,
     /// Of height.
     pub potential: f64,
@@ -144,29 +160,6 @@ impl Energy {
     pub fn total(&self) -> f64 {
         self.kinetic + self.elastic + self.potential
     }
-}
-
-/// The part of δ beyond half the gap.
-fn dead(delta: f64, half: f64) -> f64 {
-    delta - delta.clamp(-half, half)
-}
-
-fn stored(spring: &Spring, delta: f64) -> f64 {
-    0.5 * spring.stiffness * dead(delta, 0.5 * spring.gap()).powi(2)
-}
-
-/// Mean torque of a spring between two deflections, (V₁ − V₀)/(δ₁ − δ₀), and its derivative by δ₁.
-fn secant(spring: &Spring, from: f64, to: f64) -> (f64, f64) {
-    let (k, half) = (spring.stiffness, 0.5 * spring.gap());
-    let (start, end) = (dead(from, half), dead(to, half));
-    if start * end > 0.0 || half == 0.0 {
-        return (0.5 * k * (start + end), 0.5 * k);
-    }
-    if start == end {
-        return (0.0, 0.0);
-    }
-    let mean = (stored(spring, to) - stored(spring, from)) / (to - from);
-    (mean, ((k * end - mean) / (to - from)).max(0.0))
 }
 
 /// One step of `h` seconds under `force` (N, at the tool, base frame, mean over the step) towards
@@ -257,11 +250,11 @@ fn correct(
         };
         let commanded = command[*i] - state.command[*i];
         let end = state.bend[*i] + h * v[*i] - commanded;
-        let (torque, slope) = secant(spring, -state.bend[*i], -end);
+        let mean = space.laws[row].mean(&state.memory[row], -state.bend[*i], -end);
         let rate = commanded / h - v[*i];
         let pushed = dot(column(&space.work, *i, at).0, force);
-        space.rest[row] = torque + spring.damping * rate + pushed - space.work.out[*i];
-        space.matrix[row * m + row] += 0.5 * h * slope;
+        space.rest[row] = mean.torque + spring.damping * rate + pushed - space.work.out[*i];
+        space.matrix[row * m + row] += 0.5 * h * mean.slope;
     }
     if !cholesky::factor(&mut space.matrix, m) {
         return Err(too_large(h));
@@ -295,9 +288,10 @@ fn middle(chain: &Chain, space: &mut SwingWork, state: &State, h: f64, command: 
 }
 
 fn advance(state: &mut State, space: &SwingWork, h: f64, command: Vec<f64>) {
-    for i in &space.elastic {
-        let commanded = command[*i] - state.command[*i];
+    for (row, i) in space.elastic.iter().enumerate() {
+        let (start, commanded) = (state.bend[*i], command[*i] - state.command[*i]);
         state.bend[*i] += 0.5 * h * (state.v[*i] + space.speed[*i]) - commanded;
+        space.laws[row].advance(&mut state.memory[row], -start, -state.bend[*i]);
     }
     state.v.copy_from_slice(&space.speed);
     state.command = command;
@@ -325,8 +319,11 @@ pub fn energy(chain: &Chain, space: &mut SwingWork, state: &State) -> Energy {
         .map(|(_, i)| -dot(i.moment, chain.gravity) - i.mass * dot(work.reference, chain.gravity));
     Energy {
         kinetic: 0.5 * (0..n).map(|i| state.v[i] * momentum(i)).sum::<f64>(),
-        elastic: springs(chain)
-            .map(|(i, spring)| stored(spring, state.bend[i]))
+        elastic: space
+            .laws
+            .iter()
+            .zip(&state.memory)
+            .map(|(law, memory)| law.stored(memory))
             .sum(),
         potential: height.sum(),
     }

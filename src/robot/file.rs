@@ -1,6 +1,7 @@
 //! Reading robot files (TOML, `formats.md` section 2). Unknown keys are refused with their line.
 
 use super::body::Body;
+use super::joint_effect;
 use super::model::{ElasticAxis, Joint, Robot, Tool};
 use super::spring::{Intervals, Spring};
 use crate::ground::problem::{Outcome, Problem};
@@ -49,6 +50,8 @@ struct SpringText {
     damping: f64,
     #[serde(rename = "backlash_rad", default)]
     backlash: OneOrMany,
+    #[serde(default)]
+    effects: Vec<toml::Table>,
     source: Option<String>,
     #[serde(rename = "stiffness_ci95_Nm_rad")]
     stiffness_ci95: Option<[f64; 2]>,
@@ -103,6 +106,8 @@ struct ElasticText {
     damping: f64,
     #[serde(rename = "backlash_rad", default)]
     backlash: OneOrMany,
+    #[serde(default)]
+    effects: Vec<toml::Table>,
     source: Option<String>,
     #[serde(rename = "stiffness_ci95_Nm_rad")]
     stiffness_ci95: Option<[f64; 2]>,
@@ -236,6 +241,7 @@ fn elastic_of(raw: ElasticText, joints: usize) -> Outcome<ElasticAxis> {
         stiffness: raw.stiffness,
         damping: raw.damping,
         backlash: raw.backlash,
+        effects: raw.effects,
         source: raw.source,
         stiffness_ci95: raw.stiffness_ci95,
         damping_ci95: raw.damping_ci95,
@@ -279,6 +285,7 @@ fn spring_of(site: &str, raw: SpringText) -> Outcome<Spring> {
         stiffness: raw.stiffness,
         damping: raw.damping,
         backlash,
+        effects: joint_effect::read(site, raw.effects, raw.stiffness)?,
         source: raw.source,
         ci95: Intervals {
             stiffness: raw.stiffness_ci95,

@@ -5,6 +5,7 @@ pub mod body;
 pub mod builtin;
 pub mod check;
 pub mod file;
+pub mod joint_effect;
 pub mod load;
 pub mod model;
 pub mod spring;
@@ -13,6 +14,7 @@ pub mod write;
 mod xml;
 
 pub use body::Body;
+pub use joint_effect::JointEffect;
 pub use load::load;
 pub use model::{ElasticAxis, Joint, Robot, Tool};
 pub use spring::Spring;

@@ -1,5 +1,8 @@
 //! An elastic joint: spring, damper and lost motion between what is commanded and what moves.
 
+use super::joint_effect::JointEffect;
+use crate::effects::contract::Contact;
+
 /// A torsional spring-damper with the numbers' origin.
 ///
 /// Torque on the link side, with δ the commanded minus the actual angle (source 000, eq. 2.2, and
@@ -12,6 +15,8 @@ pub struct Spring {
     pub damping: f64,
     /// Gaps s in series, rad, each the whole play from stop to stop. Lost motions add.
     pub backlash: Vec<f64>,
+    /// What else it does, with a memory: hysteresis, friction. Acts in time simulation only.
+    pub effects: Vec<JointEffect>,
     /// Who published or identified these numbers.
     pub source: Option<String>,
     /// 95 % intervals, where they are known.
@@ -42,6 +47,14 @@ impl Spring {
     /// The whole gap from stop to stop, rad.
     pub fn gap(&self) -> f64 {
         self.backlash.iter().fold(0.0, |sum, gap| sum + gap)
+    }
+
+    /// The dry contacts of all its effects.
+    pub fn contacts(&self) -> Vec<Contact> {
+        self.effects
+            .iter()
+            .flat_map(JointEffect::contacts)
+            .collect()
     }
 
     /// Why no passive spring has these numbers, if so.

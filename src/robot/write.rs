@@ -2,6 +2,7 @@
 //! source and, where known, its interval. Deterministic: the shortest text that reads back exactly.
 
 use super::body::Body;
+use super::joint_effect::JointEffect;
 use super::model::{ElasticAxis, Joint, Robot, Tool};
 use super::spring::Spring;
 use crate::ground::spatial::IDENTITY;
@@ -107,6 +108,10 @@ fn entries(spring: &Spring) -> Vec<String> {
         [gap] => out.push(format!("backlash_rad = {}", number(*gap))),
         gaps => out.push(format!("backlash_rad = {}", list(gaps))),
     }
+    let effects: Vec<String> = spring.effects.iter().map(effect).collect();
+    if !effects.is_empty() {
+        out.push(format!("effects = [{}]", effects.join(", ")));
+    }
     let intervals = [
         ("stiffness_ci95_Nm_rad", spring.ci95.stiffness),
         ("damping_ci95_Nms_rad", spring.ci95.damping),
@@ -124,6 +129,14 @@ fn entries(spring: &Spring) -> Vec<String> {
             .map(|source| format!("source = {}", text(source))),
     );
     out
+}
+
+fn effect(effect: &JointEffect) -> String {
+    let values = effect.keys().into_iter().zip(&effect.values);
+    let values: String = values
+        .map(|(key, value)| format!(", {key} = {}", number(*value)))
+        .collect();
+    format!("{{ name = {}{values} }}", text(&effect.name))
 }
 
 fn inline_body(body: &Body) -> String {

@@ -35,23 +35,20 @@ impl Colour {
     /// Chooses colour and size from cosine coefficients of a residual. `freedom[k]` in 0..=1 is the
     /// share of coefficient k that the fit left free (1: untouched by the fit).
     pub fn estimate(coefficients: &[f64], freedom: &[f64]) -> Self {
-        let candidates = candidates(coefficients.len());
-        let scored: Vec<(f64, f64, Candidate)> = candidates
+        let chosen = scored(coefficients, freedom, AS_GOOD)
             .into_iter()
-            .map(|candidate| {
-                let (likelihood, size) = candidate.score(coefficients, freedom);
-                (likelihood, size, candidate)
-            })
-            .collect();
-        let best = scored.iter().map(|s| s.0).fold(f64::MIN, f64::max);
-        let chosen = scored
-            .into_iter()
-            .filter(|s| s.0 >= best - AS_GOOD)
             .max_by(|a, b| a.2.low_share().total_cmp(&b.2.low_share()));
         match chosen {
             Some((_, size, candidate)) => candidate.into_colour(size),
             None => Self::white(coefficients.len(), 0.0),
         }
+    }
+
+    /// Every colour whose log likelihood lies within `nats` of the best, with it.
+    pub fn plausible(coefficients: &[f64], freedom: &[f64], nats: f64) -> Vec<(f64, Self)> {
+        let all = scored(coefficients, freedom, nats).into_iter();
+        all.map(|(likelihood, size, candidate)| (likelihood, candidate.into_colour(size)))
+            .collect()
     }
 
     /// Standard deviation per sample of the least noisy tenth of the band: where white noise shows.
@@ -99,6 +96,21 @@ impl Colour {
             other => other.to_string(),
         }
     }
+}
+
+/// Log likelihood, size and family of the candidates within `nats` of the best.
+fn scored(coefficients: &[f64], freedom: &[f64], nats: f64) -> Vec<(f64, f64, Candidate)> {
+    let score = |candidate: Candidate| {
+        let (likelihood, size) = candidate.score(coefficients, freedom);
+        (likelihood, size, candidate)
+    };
+    let mut all: Vec<_> = candidates(coefficients.len())
+        .into_iter()
+        .map(score)
+        .collect();
+    let best = all.iter().map(|s| s.0).fold(f64::MIN, f64::max);
+    all.retain(|s| s.0 >= best - nats);
+    all
 }
 
 struct Candidate {

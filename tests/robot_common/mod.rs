@@ -2,6 +2,8 @@
 #![allow(dead_code)]
 
 use ident::ground::spatial::{IDENTITY, M3, product, roll_pitch_yaw};
+use ident::motion::Chain;
+use ident::robot::Robot;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -65,4 +67,17 @@ pub fn joint_frames_kr210() -> [M3; 6] {
         frame = product(&frame, &roll_pitch_yaw(r, p, y));
         frame
     })
+}
+
+/// The chain of 18 hinges of the reference values. Per joint of the KR 210 R2700-2 URDF: drive about its z, then virtual axes about its x and y, link on the last.
+pub fn virtual18(robot: &Robot) -> Chain {
+    let mut chain = Chain::default();
+    for (joint, frame) in robot.joints.iter().zip(joint_frames_kr210()) {
+        let column = |j: usize| [0, 1, 2].map(|i| frame[i][j]);
+        chain.push("drive", column(2), joint.point, None, None);
+        chain.push("x", column(0), joint.point, None, None);
+        chain.push("y", column(1), joint.point, joint.link, None);
+    }
+    chain.end_at(robot.tool.tcp, robot.tool.rotation);
+    chain
 }

@@ -97,9 +97,9 @@ fn measurement(arguments: &Arguments) -> Outcome<PathBuf> {
 /// # Errors
 /// A fit that cannot be read, a file that cannot be written.
 pub fn collect(place: &Place, base: &Loaded, synthetic: bool) -> Outcome<()> {
-    let folder = place.root.join("measurements").join(&place.campaign);
+    let folder = place.measurements();
     let points = only_of_kind(&folder, "workspace").and_then(|path| WorkspaceTest::read(&path));
-    let tests = axis_tests::read(&place.fits())?;
+    let tests = axis_tests::read(&place.fits(), &folder)?;
     let robot = with_axis_tests(&base.robot, &tests);
     let usable = points.ok().filter(|test| {
         let same = load(&test.facts.robot, Some(&test.path)).is_ok_and(|l| l.sha256 == base.sha256);
@@ -131,7 +131,7 @@ fn examine(arguments: &Arguments, path: &Path) -> Outcome<Validated> {
         None => load(&test.facts.robot, Some(path)).map_err(|p| p.in_file(path))?,
     };
     fits(&base.robot, &test)?;
-    let tests = axis_tests::read(&place.fits())?;
+    let tests = axis_tests::read(&place.fits(), &place.measurements())?;
     let mut robot = base.robot.clone();
     if arguments.robot.is_none() && !tests.is_empty() {
         robot = with_axis_tests(&robot, &tests);

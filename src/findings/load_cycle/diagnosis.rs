@@ -7,6 +7,7 @@ use super::refine::{Refined, refine, refine_from};
 use super::scales::{self, ScaleFinding};
 use super::search::search;
 use super::structure;
+use super::tints::Tints;
 use super::unseen::{Split, gain, held_out};
 use super::{lattice, next};
 use crate::effects::{Composite, EFFECTS, Effect, Family, shapes};
@@ -16,10 +17,11 @@ use crate::findings::gain::Gain;
 use crate::fit::candidates::Candidates;
 use crate::fit::imposed::is_imposed;
 use crate::fit::least_squares::Problem;
-use crate::fit::normal::Normal;
+use crate::fit::normal::{Found, Normal};
 use crate::fit::observation::Observation;
 use crate::fit::screen::{Screen, screen};
 use crate::measurement::load_cycle::LoadCycle;
+use crate::signal::colour::Colour;
 
 /// What a diagnosis found: the answer, and the models and data behind it.
 pub struct Diagnosis {
@@ -68,7 +70,7 @@ impl Default for Settings {
 }
 
 /// A stand-in with at least this share of the winner's probability cannot be ruled out.
-const AMBIGUOUS: f64 = 0.05;
+const AMBIGUOUS: f64 = 0.03;
 /// Probability of a set against the same set less one cause, below which that cause is not named.
 const NEEDED: f64 = 0.9;
 /// Structure counts as left when a test is below this p-value ...
@@ -82,6 +84,10 @@ const NOT_THE_STORY: f64 = 0.2;
 const COARSE: f64 = 1.73;
 /// Share of a coarse step that an effect must move the readings to be seen.
 const HALF_STEP: f64 = 0.3;
+/// Sets whose own curves widen the span of a second screen.
+const WIDENED: usize = 3;
+/// A second screen counts if it makes the readings quieter by this many nats each.
+const QUIETER: f64 = 0.03;
 /// Sets refined beyond the single causes.
 const REFINED_PAIRS: usize = 14;
 
@@ -116,34 +122,96 @@ pub fn diagnose(file: &LoadCycle, settings: &Settings) -> Diagnosis {
 fn compare<'a>(file: &'a LoadCycle, settings: &Settings) -> Case<'a> {
     let data = Observation::of(file, settings.rows);
     let candidates = Candidates::new(&shapes(&settings.library), &data);
-    let screen = screen(&data, &candidates);
-    let normal = Normal::new(&candidates, &screen.colour);
-    let found = search(&candidates, &normal, REFINED_PAIRS);
-    let refined: Vec<Refined> = found
-        .iter()
-        .map(|f| refine(f, &candidates, &data, &screen.colour, normal.base, 12))
-        .collect();
-    let ceiling = 0.5 * (normal.base - screen.saturated).max(0.0);
-    let posterior = Posterior::new(&refined, data.rows(), temper(ceiling));
-    let start = [data.scene.load_scale / data.scene.deflection_scale];
-    let plain = refine_from(
-        Composite::new(&[]),
-        &start,
-        &data,
-        &screen.colour,
-        normal.base,
-        12,
-    );
-    let step = lattice::step(&file.deflection).filter(|s| *s > COARSE * screen.colour.floor());
-    Case {
+    let mut comparison = Comparison::new(screen(&data, &candidates), &candidates, &data);
+    // what the coarse span missed of the best sets was taken for noise: look again without it
+    let curves = comparison.curves();
+    let second = comparison.screen.widened(&curves, &candidates);
+    if comparison.screen.noisier_than(&second) > QUIETER {
+        comparison = Comparison::new(second, &candidates, &data);
+    }
+    let floor = comparison.screen.colour.floor();
+    let step = lattice::step(&file.deflection).filter(|s| *s > COARSE * floor);
+    let best = comparison.posterior.sets.first().and_then(|set| set.2);
+    let mut case = Case {
         file,
         step,
+        screen: comparison
+            .screen
+            .recoloured(comparison.suited(), &candidates),
         data,
-        screen,
-        refined,
-        posterior,
-        base: normal.base,
-        plain,
+        refined: comparison.refined,
+        posterior: comparison.posterior,
+        base: 0.0,
+        plain: comparison.plain,
+    };
+    case.plain = case.again(&case.plain);
+    case.base = case.plain.optimum.chi2;
+    if let Some(i) = best {
+        let nats = case.refined[i].nats;
+        case.refined[i] = Refined {
+            nats,
+            ..case.again(&case.refined[i])
+        };
+    }
+    case
+}
+
+/// Sets of causes compared under one screen.
+struct Comparison {
+    screen: Screen,
+    plain: Refined,
+    refined: Vec<Refined>,
+    posterior: Posterior,
+}
+
+impl Comparison {
+    fn new(screen: Screen, candidates: &Candidates, data: &Observation) -> Self {
+        let normal = Normal::new(candidates, &screen.colour);
+        let start = [data.scene.load_scale / data.scene.deflection_scale];
+        let spring = Composite::new(&[]);
+        let plain = refine_from(spring, &start, data, &screen.colour, normal.base, 12);
+        let tints = Tints::new(&screen.colour, &screen.tints, &plain.optimum);
+        let temper = temper(0.5 * (normal.base - screen.saturated).max(0.0));
+        let nothing = tints.evidence(&plain.optimum);
+        let weighed = |found: &Found| {
+            let mut set = refine(found, candidates, data, &screen.colour, normal.base, 12);
+            set.nats = (tints.evidence(&set.optimum) - nothing) / temper;
+            set
+        };
+        let found = search(candidates, &normal, REFINED_PAIRS);
+        let refined: Vec<Refined> = found.iter().map(weighed).collect();
+        let posterior = Posterior::new(&refined, data.rows(), temper);
+        Self {
+            screen,
+            plain,
+            refined,
+            posterior,
+        }
+    }
+
+    /// The colour that suits the best set.
+    fn suited(&self) -> Colour {
+        let best = self.posterior.sets.first().and_then(|set| set.2);
+        let suited = best.map_or(&self.plain, |i| &self.refined[i]);
+        Tints::new(&self.screen.colour, &self.screen.tints, &self.plain.optimum)
+            .best(&suited.optimum)
+            .clone()
+    }
+
+    /// The curves of the sets that leave least, and how they change with their shapes, in cosine
+    /// coefficients.
+    fn curves(&self) -> Vec<Vec<f64>> {
+        let mut order: Vec<&Refined> = self.refined.iter().collect();
+        order.sort_by(|a, b| a.optimum.chi2.total_cmp(&b.optimum.chi2));
+        let columns = order.iter().take(WIDENED).flat_map(|set| {
+            let jacobian = &set.optimum.jacobian;
+            let sigma = &self.screen.colour.sigma;
+            (1..jacobian.ncols()).map(move |j| {
+                let column = jacobian.column(j);
+                column.iter().zip(sigma).map(|(v, s)| v * s).collect()
+            })
+        });
+        columns.collect()
     }
 }
 
@@ -228,6 +296,12 @@ impl Case<'_> {
         let rest: Vec<&'static str> = set.causes.iter().copied().filter(|c| *c != cause).collect();
         let (with, without) = (self.posterior.of(&set.causes), self.posterior.of(&rest));
         with > NEEDED * (with + without)
+    }
+
+    /// A set refined once more, with the colour of the noise that suits the best set.
+    fn again(&self, set: &Refined) -> Refined {
+        let (model, p) = (set.model.clone(), &set.optimum.p);
+        refine_from(model, p, &self.data, &self.screen.colour, self.base, 12)
     }
 
     /// The set less one cause, refined.

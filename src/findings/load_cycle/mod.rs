@@ -15,6 +15,7 @@ pub mod refine;
 pub mod scales;
 pub mod search;
 pub mod structure;
+pub mod tints;
 pub mod unseen;
 
 pub use diagnosis::{Diagnosis, Settings, diagnose};

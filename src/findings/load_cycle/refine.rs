@@ -17,7 +17,7 @@ pub struct Refined {
     pub causes: Vec<&'static str>,
     /// Parameters, SI.
     pub optimum: Optimum,
-    /// Half the fall of the whitened sum of squares below the spring alone.
+    /// Log likelihood above that of the spring alone, before tempering.
     pub nats: f64,
     /// Parameters beyond the spring.
     pub dimension: usize,

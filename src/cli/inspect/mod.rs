@@ -1,0 +1,125 @@
+//! `ident inspect`: what was understood of a measurement file, and what looks odd. One file per kind.
+
+mod hammer;
+mod load_cycle;
+mod workspace;
+
+use super::output::{print, tell};
+use super::{Ending, Verb, arguments, parsed};
+use crate::ground::problem::{Outcome, Problem};
+use crate::measurement::hammer_uff::is_universal;
+use crate::measurement::table::kind_of;
+use crate::measurement::workspace::resolve;
+use crate::report::json;
+use clap::{ArgMatches, Args};
+use serde_json::{Map, Value};
+use std::path::{Path, PathBuf};
+
+/// The verb.
+pub const VERB: Verb = Verb {
+    name: "inspect",
+    about: "Show what was understood of a measurement file, and what looks odd",
+    arguments: arguments::<Arguments>,
+    run,
+};
+
+#[derive(Args)]
+struct Arguments {
+    /// A measurement file: load-cycle, workspace or hammer
+    file: PathBuf,
+    /// Print one JSON document
+    #[arg(long)]
+    json: bool,
+}
+
+/// What is said of a file.
+struct Account {
+    /// For the reader, one line each.
+    lines: Vec<String>,
+    /// The same as JSON.
+    json: Map<String, Value>,
+    /// What looks odd.
+    odd: Vec<String>,
+}
+
+type Reader = fn(&Path) -> Outcome<Account>;
+
+/// The kinds that can be looked at.
+const KINDS: &[(&str, Reader)] = &[
+    ("load-cycle", load_cycle::account),
+    ("workspace", workspace::account),
+    ("hammer", hammer::account),
+];
+
+fn run(matches: &ArgMatches) -> Outcome<Ending> {
+    let arguments: Arguments = parsed(matches);
+    let (path, said) = resolve(&arguments.file)?;
+    said.iter().for_each(|s| tell(s));
+    let mut account = reader(&path)?(&path)?;
+    let odd = account.odd.iter().map(|odd| format!("odd: {odd}"));
+    account.lines.extend(odd);
+    account
+        .json
+        .insert("odd".into(), account.odd.clone().into());
+    print(&match arguments.json {
+        true => json::print(account.json),
+        false => account.lines.join("\n") + "\n",
+    })?;
+    Ok(match account.odd.is_empty() {
+        true => Ending::Done,
+        false => Ending::Attention,
+    })
+}
+
+/// Who reads a file of this kind; a file that does not say its kind is taken for load cycles.
+fn reader(path: &Path) -> Outcome<Reader> {
+    if is_universal(path) {
+        return Ok(hammer::account);
+    }
+    let Some(kind) = kind_of(path) else {
+        return Ok(load_cycle::account);
+    };
+    let found = KINDS.iter().find(|(name, _)| *name == kind);
+    found.map(|(_, reader)| *reader).ok_or_else(|| {
+        let known: Vec<&str> = KINDS.iter().map(|(name, _)| *name).collect();
+        Problem::new(
+            format!("is of kind `{kind}`, which `inspect` does not know"),
+            format!(
+                "it knows {}; correct `# kind`, if it is one of them",
+                known.join(", ")
+            ),
+        )
+        .in_file(path)
+        .in_column("kind")
+    })
+}
+
+/// The first line of every account, and a second one for what nobody measured.
+fn title(path: &Path, what: &str, synthetic: bool) -> Vec<String> {
+    let mut lines = vec![format!("{}: {what}", path.display())];
+    if synthetic {
+        lines.push("synthetic: simulated, not measured".into());
+    }
+    lines
+}
+
+/// Joint angles in degrees, as far as they carry: 21.0375, not 21.037499999999998.
+fn degrees(angles: &[f64]) -> Vec<f64> {
+    let round = |q: &f64| (q / crate::ground::units::DEGREE * 1e9).round() / 1e9;
+    angles.iter().map(round).collect()
+}
+
+/// `3`, or `2 to 3`.
+fn span<T: PartialEq + std::fmt::Display>(low: T, high: T) -> String {
+    match low == high {
+        true => low.to_string(),
+        false => format!("{low} to {high}"),
+    }
+}
+
+/// Smallest and largest.
+fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
+        [low.min(x), high.max(x)]
+    })
+}

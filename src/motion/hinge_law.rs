@@ -1,0 +1,293 @@
+//! The torque of an elastic hinge over its deflection: spring, gap and dry contacts, integrated exactly
+//! along a straight piece of path, whatever its length.
+//!
+//! Contacts in the load path hold deflection back, x = M/k − Σ wᵢ Sᵣᵢ(M). The inverse of such an operator
+//! is one of its kind (Krejčí and Kuhnen 2001): M = k x + Σ kⱼ Sρⱼ(x), elastic sliders beside the spring,
+//! whose torque never exceeds kⱼ ρⱼ. The gap lies in series and is crossed at M = 0.
+
+use crate::effects::contract::Contact;
+use crate::robot::Spring;
+
+/// The law of one elastic hinge.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HingeLaw {
+    stiffness: f64,
+    half_gap: f64,
+    sliders: Vec<Slider>,
+}
+
+/// A spring (N·m/rad) behind a dry contact that slips at this deflection (rad).
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Slider {
+    stiffness: f64,
+    reach: f64,
+}
+
+/// What a hinge remembers of its past.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Memory {
+    /// Deflection of the spring, rad: without the gap.
+    pub bend: f64,
+    /// Deflection of each slider, rad.
+    pub stops: Vec<f64>,
+}
+
+/// A piece of path.
+struct Way {
+    /// How far the spring is bent, rad: the rest crosses the gap.
+    travel: f64,
+    /// Whether it ends inside the gap.
+    floats: bool,
+}
+
+/// Torque over a piece of path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mean {
+    /// Work over way: the mean torque, N·m.
+    pub torque: f64,
+    /// Its derivative by the end of the piece, N·m/rad; never negative.
+    pub slope: f64,
+}
+
+impl HingeLaw {
+    /// The law of a spring with its gap and its effects.
+    pub fn of(spring: &Spring) -> Self {
+        Self {
+            stiffness: spring.stiffness,
+            half_gap: 0.5 * spring.gap(),
+            sliders: sliders(spring.stiffness, spring.contacts()),
+        }
+    }
+
+    /// At the deflection `delta` (rad), the contacts without load as after a good shake.
+    pub fn at_rest(&self, delta: f64) -> Memory {
+        Memory {
+            bend: delta - delta.clamp(-self.half_gap, self.half_gap),
+            stops: vec![0.0; self.sliders.len()],
+        }
+    }
+
+    /// Present torque, N·m.
+    pub fn torque(&self, memory: &Memory) -> f64 {
+        let held = self.sliders.iter().zip(&memory.stops);
+        self.stiffness * memory.bend + held.map(|(s, stop)| s.stiffness * stop).sum::<f64>()
+    }
+
+    /// Energy in spring and sliders, J.
+    pub fn stored(&self, memory: &Memory) -> f64 {
+        let held = self.sliders.iter().zip(&memory.stops);
+        let own = held.map(|(slider, stop)| 0.5 * slider.stiffness * stop * stop);
+        0.5 * self.stiffness * memory.bend.powi(2) + own.sum::<f64>()
+    }
+
+    /// Mean torque between two deflections, rad. What it adds to the stored energy or loses to the
+    /// contacts is exactly torque times way.
+    pub fn mean(&self, memory: &Memory, from: f64, to: f64) -> Mean {
+        let (way, sign) = ((to - from).abs(), (to - from).signum());
+        let Way { travel, floats } = self.way(memory, from, to);
+        let spring = Mean {
+            torque: self.stiffness * (memory.bend + 0.5 * sign * travel),
+            slope: 0.5 * self.stiffness,
+        };
+        let held = self.sliders.iter().zip(&memory.stops);
+        let bent = held.fold(spring, |sum, (slider, stop)| {
+            let own = slider.mean(*stop, sign, travel);
+            Mean {
+                torque: sum.torque + own.torque,
+                slope: sum.slope + own.slope,
+            }
+        });
+        if travel == way {
+            return bent;
+        }
+        let torque = bent.torque * (travel / way);
+        let end = match floats {
+            true => 0.0,
+            false => self.pushed(memory, sign, travel).0,
+        };
+        Mean {
+            torque,
+            slope: ((end - sign * torque) / way).max(0.0),
+        }
+    }
+
+    /// Moves on between two deflections, rad.
+    pub fn advance(&self, memory: &mut Memory, from: f64, to: f64) {
+        let moved = self.way(memory, from, to).travel * (to - from).signum();
+        memory.bend += moved;
+        for (slider, stop) in self.sliders.iter().zip(&mut memory.stops) {
+            *stop = (*stop + moved).clamp(-slider.reach, slider.reach);
+        }
+    }
+
+    /// First the torque against the motion goes, then the gap is crossed, then the spring bends again.
+    fn way(&self, memory: &Memory, from: f64, to: f64) -> Way {
+        let (way, sign) = ((to - from).abs(), (to - from).signum());
+        let place = (from - memory.bend).clamp(-self.half_gap, self.half_gap);
+        let room = self.half_gap - sign * place;
+        if room <= 0.0 {
+            return Way {
+                travel: way,
+                floats: false,
+            };
+        }
+        let relief = self.relief(memory, sign).min(way);
+        let beyond = way - relief - room;
+        Way {
+            travel: relief + beyond.max(0.0),
+            floats: relief < way && beyond < 0.0,
+        }
+    }
+
+    /// How far to bend in the direction `sign` until the torque against it is gone, rad: Newton on a
+    /// concave chain of straight pieces, which ends on the root.
+    fn relief(&self, memory: &Memory, sign: f64) -> f64 {
+        let mut travel = 0.0;
+        for _ in 0..=self.sliders.len() + 1 {
+            let (against, slope) = self.pushed(memory, sign, travel);
+            if against >= 0.0 {
+                break;
+            }
+            travel -= against / slope;
+        }
+        travel
+    }
+
+    /// Torque along `sign` after bending by `travel`, and its slope.
+    fn pushed(&self, memory: &Memory, sign: f64, travel: f64) -> (f64, f64) {
+        let spring = self.stiffness * (sign * memory.bend + travel);
+        let held = self.sliders.iter().zip(&memory.stops);
+        held.fold(
+            (spring, self.stiffness),
+            |(torque, slope), (slider, stop)| {
+                let moved = sign * stop + travel;
+                let sticks = f64::from(u8::from(moved < slider.reach));
+                (
+                    torque + slider.stiffness * moved.min(slider.reach),
+                    slope + slider.stiffness * sticks,
+                )
+            },
+        )
+    }
+}
+
+impl Slider {
+    /// Mean torque while moving by `travel`: first sticking, then slipping.
+    fn mean(&self, stop: f64, sign: f64, travel: f64) -> Mean {
+        let stuck = (self.reach - sign * stop).max(0.0);
+        if travel <= stuck {
+            return Mean {
+                torque: self.stiffness * (stop + 0.5 * sign * travel),
+                slope: 0.5 * self.stiffness,
+            };
+        }
+        let share = stuck / travel;
+        let before = stop + 0.5 * sign * stuck;
+        let torque = self.stiffness * (share * before + (1.0 - share) * sign * self.reach);
+        Mean {
+            torque,
+            slope: 0.5 * self.stiffness * share * share,
+        }
+    }
+}
+
+/// The sliders beside a spring that answer as these contacts in its load path do.
+fn sliders(stiffness: f64, mut contacts: Vec<Contact>) -> Vec<Slider> {
+    contacts.retain(|contact| contact.compliance > 0.0 && contact.slip_load > 0.0);
+    contacts.sort_by(|a, b| a.slip_load.total_cmp(&b.slip_load));
+    let held: f64 = contacts.iter().map(|contact| contact.compliance).sum();
+    let (mut compliance, mut load, mut reach) = (1.0 / stiffness - held, 0.0, 0.0);
+    let one = |contact: &Contact| {
+        reach += compliance * (contact.slip_load - load);
+        load = contact.slip_load;
+        let before = 1.0 / compliance;
+        compliance += contact.compliance;
+        Slider {
+            stiffness: before - 1.0 / compliance,
+            reach,
+        }
+    };
+    contacts.iter().map(one).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::{Composite, Scene, named};
+    use crate::ground::random::Random;
+    use crate::robot::joint_effect::JointEffect;
+
+    const STIFFNESS: f64 = 3.14e5;
+
+    fn joint(gap: f64) -> Spring {
+        Spring {
+            backlash: vec![gap; usize::from(gap > 0.0)],
+            effects: vec![
+                JointEffect::new("hysteresis", vec![9.7e-5, 348.0, 1.09, -0.377]).unwrap(),
+                JointEffect::new("coulomb_friction", vec![2e-5, 60.0]).unwrap(),
+            ],
+            ..Spring::new(STIFFNESS, 0.0)
+        }
+    }
+
+    /// Deflections that a random history of loads leaves behind, by the laws of the effects.
+    fn history(spring: &Spring, loads: &[f64]) -> Vec<f64> {
+        let effects: Vec<_> = spring
+            .effects
+            .iter()
+            .map(|e| named(&e.name).unwrap())
+            .collect();
+        let model = Composite::new(&effects);
+        let time = (0..loads.len()).map(|i| i as f64).collect();
+        let scene = Scene::new(time, loads.to_vec(), STIFFNESS, 1);
+        let own = spring.effects.iter().flat_map(|e| e.values.clone());
+        let p: Vec<f64> = [STIFFNESS].into_iter().chain(own).collect();
+        model.predict(&p, &scene)
+    }
+
+    fn loads(seed: u64) -> Vec<f64> {
+        let mut random = Random::new(seed);
+        (0..200).map(|_| random.uniform(-500.0, 500.0)).collect()
+    }
+
+    /// A gap in series only adds its half.
+    #[test]
+    fn sliders_invert_the_laws_of_the_effects() {
+        for (gap, seed) in [(0.0, 1), (2e-4, 2)] {
+            let spring = joint(gap);
+            let law = HingeLaw::of(&spring);
+            let (mut memory, mut at) = (law.at_rest(0.0), 0.0);
+            let loads = loads(seed);
+            for (delta, load) in history(&spring, &loads).into_iter().zip(&loads) {
+                let to = delta + 0.5 * gap * load.signum();
+                law.advance(&mut memory, at, to);
+                at = to;
+                let found = law.torque(&memory);
+                assert!((found - load).abs() < 1e-9 * 500.0, "{found} {load}");
+            }
+        }
+    }
+
+    /// Work is what is stored plus what is lost; the loss is never negative; the slope is the
+    /// derivative of the mean.
+    #[test]
+    fn work_is_stored_or_lost() {
+        let mut random = Random::new(3);
+        for gap in [0.0, 2e-4] {
+            let law = HingeLaw::of(&joint(gap));
+            let (mut memory, mut at, mut lost) = (law.at_rest(0.0), 0.0, 0.0);
+            for _ in 0..2000 {
+                let to = random.uniform(-2e-3, 2e-3);
+                let (before, mean) = (law.stored(&memory), law.mean(&memory, at, to));
+                let near = law.mean(&memory, at, to + 1e-9).torque;
+                let error = (near - mean.torque) / 1e-9 - mean.slope;
+                assert!(error.abs() < 1e-3 * STIFFNESS, "{error}");
+                law.advance(&mut memory, at, to);
+                let loss = mean.torque * (to - at) - (law.stored(&memory) - before);
+                assert!(loss > -1e-15, "{loss}");
+                (at, lost) = (to, lost + loss);
+            }
+            assert!(lost > 0.1);
+        }
+    }
+}
