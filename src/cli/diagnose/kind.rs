@@ -1,6 +1,6 @@
 //! The kinds of measurement that can be diagnosed. A new kind is one file and one line in [`KINDS`].
 
-use super::load_cycle;
+use super::{hammer, load_cycle};
 use crate::findings::Answer;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::workspace::kind_of;
@@ -43,7 +43,10 @@ pub trait Diagnosed: Send + Sync {
 pub type Diagnose = fn(&Path) -> Outcome<Box<dyn Diagnosed>>;
 
 /// Every kind, by its name in the front matter.
-pub const KINDS: &[(&str, Diagnose)] = &[("load-cycle", load_cycle::diagnosed)];
+pub const KINDS: &[(&str, Diagnose)] = &[
+    ("load-cycle", load_cycle::diagnosed),
+    ("hammer", hammer::diagnosed),
+];
 
 /// The kind of a file, and how it is diagnosed. A file that states none is read as a load cycle,
 /// whose reader says what is missing.

@@ -1,5 +1,6 @@
 //! `ident diagnose`: what the simulation gets wrong, and why.
 
+mod hammer;
 mod json;
 mod kind;
 mod load_cycle;

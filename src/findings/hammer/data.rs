@@ -5,7 +5,6 @@ use crate::experiments::hammer_variance::variance;
 use crate::fit::frf_model::Measured;
 use crate::motion::frf::C64;
 use crate::signal::frf::CrossSpectra;
-use crate::signal::jackknife::leave_one_out;
 
 /// The rows of a 3×3 accelerance by name.
 pub const AXES: [&str; 3] = ["x", "y", "z"];
@@ -45,6 +44,8 @@ pub struct Data {
     pub s: Vec<C64>,
     /// The pairs.
     pub pairs: Vec<Pair>,
+    /// How many lines carry the information of one: a window correlates its neighbours.
+    pub correlated: f64,
 }
 
 impl Data {
@@ -97,6 +98,7 @@ impl Data {
         Self {
             s: lines.iter().map(line).collect(),
             pairs,
+            correlated: independent(frf, &lines),
         }
     }
 
@@ -113,13 +115,9 @@ impl Data {
         2 * self.s.len() * self.pairs.len()
     }
 
-    /// The same data weighed less: every standard deviation `times` as large.
-    #[must_use]
-    pub fn blurred(mut self, times: f64) -> Self {
-        for pair in &mut self.pairs {
-            pair.weight.iter_mut().for_each(|w| *w /= times);
-        }
-        self
+    /// Real rows that are independent of each other.
+    pub fn freedom(&self) -> f64 {
+        self.rows() as f64 / self.correlated
     }
 
     /// Name of a pair: output by input, as in `zx`.
@@ -161,12 +159,6 @@ fn weights(values: &[C64], scatter: &[f64], independent: f64) -> Vec<f64> {
     let variance = values
         .iter()
         .zip(scatter)
-        .map(|(h, v)| v * independent + error(h));
+        .map(|(h, v)| (v + error(h)) * independent);
     variance.map(|v| (2.0 / v).sqrt()).collect()
-}
-
-/// Number of hits of the direction with the fewest.
-pub fn fewest_hits(frf: &HammerFrf) -> usize {
-    let counts = frf.inputs.iter().map(|i| leave_one_out(&i.hits).len());
-    counts.min().unwrap_or(0)
 }
