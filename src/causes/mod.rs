@@ -11,6 +11,7 @@ mod accelerometer_gain;
 mod accelerometer_misalignment;
 mod added_mass;
 mod base_compliance;
+mod double_hit;
 mod drive_stiffness;
 mod exponential_window;
 mod joint_damping;
@@ -36,6 +37,7 @@ pub const CAUSES: &[&dyn Cause] = &[
     &accelerometer_misalignment::AccelerometerMisalignment,
     &time_skew::TimeSkew,
     &exponential_window::ExponentialWindow,
+    &double_hit::DoubleHit,
 ];
 
 /// The causes that one experiment would show.

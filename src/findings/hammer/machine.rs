@@ -8,6 +8,7 @@ use super::structure::Structure;
 use crate::ground::problem::Outcome;
 use crate::robot::Robot;
 use nalgebra::DMatrix;
+use std::sync::Mutex;
 
 /// Combinations that move the FRF by less than this many standard deviations of its noise are left out.
 const UNSEEN: f64 = 0.3;
@@ -28,8 +29,10 @@ impl<'a> Machine<'a> {
             known,
             seen: DMatrix::identity(numbers, numbers),
             structure,
+            masses: Mutex::default(),
         };
         machine.seen = machine.combinations(data)?;
+        machine.masses = Mutex::default();
         Ok(machine)
     }
 

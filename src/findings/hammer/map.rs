@@ -8,7 +8,7 @@ use crate::ground::problem::{Outcome, Problem};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// Prior probability that one cause is present at some place.
-const PRIOR: f64 = 0.08;
+const PRIOR: f64 = 0.03;
 /// Largest step of an amount (spreads) and of a nuisance (standard deviations).
 const LARGEST: [f64; 2] = [1.0, 2.0];
 /// A descent has arrived when the cost falls by less than this, nats.

@@ -9,6 +9,7 @@ pub mod adequacy;
 pub mod data;
 pub mod diagnosis;
 pub mod discrepancy;
+pub mod doubled;
 pub mod extended;
 pub mod linearity;
 pub mod machine;

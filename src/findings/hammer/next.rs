@@ -105,6 +105,7 @@ fn separation(
         known: machine.known,
         seen: machine.seen.clone(),
         structure: Structure::of(&robot, &joints)?,
+        masses: Default::default(),
     };
     let lines = thinned(data);
     let (one, other) = (carried(a, experiment.fresh), carried(b, experiment.fresh));

@@ -7,6 +7,7 @@ use crate::motion::Linear;
 use crate::motion::frf::C64;
 use crate::robot::Robot;
 use nalgebra::DMatrix;
+use std::sync::Arc;
 
 /// Standard deviations of what a laboratory knows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,13 +37,13 @@ pub struct Nuisance {
     /// Coordinates of each site, then of each added axis.
     coordinates: Vec<Vec<usize>>,
     /// Directions of the mass matrix per standard deviation: upper triangle by rows.
-    pub mass: DMatrix<f64>,
+    pub mass: Arc<DMatrix<f64>>,
     known: Known,
 }
 
 impl Nuisance {
     /// The nuisances of `linear`, whose first axes are those of `robot`.
-    pub fn new(robot: &Robot, linear: &Linear, mass: DMatrix<f64>, known: Known) -> Self {
+    pub fn new(robot: &Robot, linear: &Linear, mass: Arc<DMatrix<f64>>, known: Known) -> Self {
         let mut sites: Vec<String> = robot.springs().map(|(site, _)| site).collect();
         let own = sites.len();
         for name in &linear.names {
@@ -178,7 +179,7 @@ impl Nuisance {
                 }
             }
         }
-        let all = &self.mass * products;
+        let all = self.mass.as_ref() * products;
         let line = |row: usize, k: usize| {
             std::array::from_fn(|p| {
                 C64::new(all[(row, 12 * k + 2 * p)], all[(row, 12 * k + 2 * p + 1)])

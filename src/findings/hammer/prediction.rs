@@ -12,6 +12,8 @@ use crate::motion::frf::C64;
 use crate::motion::receptance::{accelerance, coordinates};
 use crate::robot::Robot;
 use nalgebra::DMatrix;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex};
 
 /// Step of a derivative by an amount, relative to the amount or to a hundredth of its spread.
 const STEP: f64 = 1e-4;
@@ -82,6 +84,8 @@ pub struct Machine<'a> {
     pub seen: DMatrix<f64>,
     /// Its matrices.
     pub structure: Structure,
+    /// What the bodies' numbers do to the mass matrix, by the names of the coordinates.
+    pub masses: Mutex<BTreeMap<Vec<String>, Arc<DMatrix<f64>>>>,
 }
 
 /// A point of the search: a set of causes with amounts in spreads, and the nuisances.
@@ -145,7 +149,7 @@ impl Machine<'_> {
     /// The matrices with the physical causes of `point`.
     pub fn structure_of(&self, point: &Point) -> Outcome<Structure> {
         match point.is_physical() {
-            true => Structure::of(&point.robot(self.robot), self.joints),
+            true => self.structure.altered(&point.robot(self.robot)),
             false => Ok(self.structure.clone()),
         }
     }
@@ -153,13 +157,26 @@ impl Machine<'_> {
     /// The nuisances of the structure of `point`.
     pub fn nuisance(&self, point: &Point) -> Outcome<Nuisance> {
         let structure = self.structure_of(point)?;
-        let mass = &self.seen * structure.bodies(&point.robot(self.robot));
-        Ok(Nuisance::new(
-            self.robot,
-            &structure.linear,
-            mass,
-            self.known,
-        ))
+        let mass = self.masses(&structure, point);
+        let known = self.known;
+        Ok(Nuisance::new(self.robot, &structure.linear, mass, known))
+    }
+
+    /// Computed once per set of coordinates, with the bodies as simulated now.
+    fn masses(&self, structure: &Structure, point: &Point) -> Arc<DMatrix<f64>> {
+        let mut known = match self.masses.lock() {
+            Ok(known) => known,
+            Err(poisoned) => poisoned.into_inner(),
+        };
+        let names = structure.linear.names.clone();
+        let made = known.entry(names).or_insert_with(|| {
+            let mut robot = point.robot(self.robot);
+            robot.tool.body = self.robot.tool.body;
+            let links = robot.joints.iter_mut().zip(&self.robot.joints);
+            links.for_each(|(joint, own)| joint.link = own.link);
+            Arc::new(&self.seen * structure.bodies(&robot))
+        });
+        Arc::clone(made)
     }
 
     /// The predicted accelerances on the lines of `data`.

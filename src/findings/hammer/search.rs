@@ -11,17 +11,20 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 
 /// Steps of a descent: while starts compete, on broad peaks, on sharp ones.
-const STEPS: [usize; 3] = [2, 6, 8];
-/// Singles taken to sharp peaks, singles that are continued to pairs, partners tried for each, pairs
-/// taken to sharp peaks.
-const SINGLES: usize = 10;
-const BASES: usize = 4;
-const PARTNERS: usize = 6;
-const PAIRS: usize = 8;
+const STEPS: [usize; 3] = [2, 5, 6];
+/// Suspects that are tried by descent, those of them that go on, singles continued to pairs, partners
+/// tried for each.
+const TRIED: usize = 14;
+const KEPT: usize = 7;
+const BASES: usize = 3;
+const PARTNERS: usize = 4;
 /// Nats that a partner must promise to be tried.
 const PROMISE: f64 = 4.0;
 /// How far a partner may be from its start for the straight line to count, in starts.
 const REACH: f64 = 2.0;
+/// Sets on broad peaks go on to sharp ones within these nats of the best, or this share of what the
+/// best explains.
+const HOPE: (f64, f64) = (30.0, 0.15);
 
 /// Everything that was compared, on sharp peaks; the empty set first.
 pub struct Found {
@@ -54,19 +57,12 @@ pub fn search(
     sharp: &Data,
 ) -> Outcome<Found> {
     let nothing = fit(machine, broad, Point::nothing(), 2 * STEPS[1])?;
-    let mut singles: Vec<Fit> = suspects
-        .par_iter()
-        .filter_map(|suspect| single(machine, broad, &nothing, suspect))
-        .collect();
-    sort(&mut singles);
-    let mut pairs = pairs(machine, suspects, broad, &singles);
-    sort(&mut pairs);
-    let best = |fits: &[Fit], most: usize| -> Vec<Point> {
-        fits.iter().take(most).map(|f| f.point.clone()).collect()
-    };
+    let singles = singles(machine, suspects, broad, &nothing);
+    let pairs = pairs(machine, suspects, broad, &singles);
     let mut points = vec![nothing.point.clone()];
-    points.extend(best(&singles, SINGLES));
-    points.extend(best(&pairs, PAIRS));
+    for fits in [&singles, &pairs] {
+        points.extend(hopeful(fits, &nothing).map(|f| f.point.clone()));
+    }
     let sharpened = points
         .into_par_iter()
         .map(|point| fit(machine, sharp, point, STEPS[2]).ok())
@@ -75,13 +71,46 @@ pub fn search(
     Ok(Found { fits })
 }
 
+/// The fits that may still turn out best.
+fn hopeful<'a>(fits: &'a [Fit], nothing: &'a Fit) -> impl Iterator<Item = &'a Fit> {
+    let best = fits.first().map_or(0.0, |f| f.evidence);
+    let within = HOPE.0 + HOPE.1 * (best - nothing.evidence).max(0.0);
+    fits.iter().filter(move |f| f.evidence > best - within)
+}
+
+/// Every single cause that promises something, best first.
+fn singles(machine: &Machine, suspects: &[Suspect], data: &Data, nothing: &Fit) -> Vec<Fit> {
+    let promised = suspects
+        .par_iter()
+        .filter_map(|s| Some((promise(machine, data, nothing, s)?.0, s)))
+        .collect::<Vec<_>>();
+    let mut promised: Vec<(f64, &Suspect)> = promised;
+    promised.sort_by(|a, b| b.0.total_cmp(&a.0));
+    promised.truncate(TRIED);
+    let begun = promised
+        .par_iter()
+        .map(|(_, suspect)| begin(machine, data, nothing, suspect))
+        .collect::<Vec<_>>();
+    let mut begun: Vec<Fit> = begun.into_iter().flatten().collect();
+    sort(&mut begun);
+    begun.truncate(KEPT);
+    let ended = begun
+        .into_par_iter()
+        .map(|begun| fit(machine, data, begun.point, STEPS[1]).ok())
+        .collect::<Vec<_>>();
+    let mut ended: Vec<Fit> = ended.into_iter().flatten().collect();
+    sort(&mut ended);
+    ended
+}
+
 /// Best first.
 pub fn sort(fits: &mut [Fit]) {
     fits.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
 }
 
-/// A cause from all its starts, with and without the nuisances of the empty set.
-fn single(machine: &Machine, data: &Data, nothing: &Fit, suspect: &Suspect) -> Option<Fit> {
+/// The first steps of a cause from all its starts, and from nearly nothing with the nuisances of the
+/// empty set.
+fn begin(machine: &Machine, data: &Data, nothing: &Fit, suspect: &Suspect) -> Option<Fit> {
     let from =
         |theta: &Point, start: &[f64]| fit(machine, data, theta.and(suspect, start), STEPS[0]).ok();
     let clean = Point::nothing();
@@ -89,11 +118,10 @@ fn single(machine: &Machine, data: &Data, nothing: &Fit, suspect: &Suspect) -> O
     let fresh = starts.iter().filter_map(|start| from(&clean, start));
     let small: Vec<f64> = starts.first()?.iter().map(|s| 0.02 * s).collect();
     let near = from(&nothing.point, &small);
-    let best = fresh.chain(near).min_by(|a, b| a.cost.total_cmp(&b.cost))?;
-    fit(machine, data, best.point, STEPS[1]).ok()
+    fresh.chain(near).min_by(|a, b| a.cost.total_cmp(&b.cost))
 }
 
-/// The best singles with those partners that promise to explain what is left.
+/// The best singles with those partners that promise to explain what is left, best first.
 fn pairs(machine: &Machine, suspects: &[Suspect], data: &Data, singles: &[Fit]) -> Vec<Fit> {
     let bases: Vec<&Fit> = singles.iter().take(BASES).collect();
     let points: Vec<Point> = bases
@@ -104,7 +132,9 @@ fn pairs(machine: &Machine, suspects: &[Suspect], data: &Data, singles: &[Fit]) 
         .into_par_iter()
         .map(|point| fit(machine, data, point, STEPS[1]).ok())
         .collect::<Vec<_>>();
-    tried.into_iter().flatten().collect()
+    let mut tried: Vec<Fit> = tried.into_iter().flatten().collect();
+    sort(&mut tried);
+    tried
 }
 
 fn partners(machine: &Machine, suspects: &[Suspect], data: &Data, base: &Fit) -> Vec<Point> {

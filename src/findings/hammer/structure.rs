@@ -17,7 +17,8 @@ const NUMBERS: usize = 10;
 pub struct Structure {
     /// Its matrices, weight's stiffness included.
     pub linear: Linear,
-    rest: Vec<f64>,
+    /// Angle of every hinge, rad, by site: weight has bent the robot.
+    rest: Vec<(String, f64)>,
 }
 
 impl Structure {
@@ -27,19 +28,49 @@ impl Structure {
     /// No equilibrium, or nothing elastic.
     pub fn of(robot: &Robot, joints: &[f64]) -> Outcome<Self> {
         let chain = motion::elastic(robot);
-        let rest = State::settled(&chain, joints)?.angles();
+        let bent = State::settled(&chain, joints)?.angles();
+        let rest = chain.names.iter().cloned().zip(bent).collect();
+        Self {
+            linear: Linear::default(),
+            rest,
+        }
+        .altered(robot)
+    }
+
+    /// The matrices of the robot with something changed, where it came to rest before: what a cause
+    /// adds bends by less than a thousandth of a radian.
+    ///
+    /// # Errors
+    /// Nothing elastic.
+    pub fn altered(&self, robot: &Robot) -> Outcome<Self> {
+        let chain = motion::elastic(robot);
         let mut work = Work::new(&chain);
-        let mut linear = linearise(&chain, &mut work, &rest)?;
+        let mut linear = linearise(&chain, &mut work, &self.angles(&chain.names))?;
         let weight = gravity_stiffness(&chain, &work);
         let both = linear.stiffness.iter_mut().zip(&weight);
         both.for_each(|(k, w)| *k += w);
+        let rest = self.rest.clone();
         Ok(Self { linear, rest })
     }
 
+    /// Angles of the hinges of these names; the tilts of one bearing stand in their order.
+    fn angles(&self, names: &[String]) -> Vec<f64> {
+        let mut known: Vec<&(String, f64)> = self.rest.iter().collect();
+        let mut angle = |name: &String| match known.iter().position(|k| k.0 == *name) {
+            Some(i) => known.remove(i).1,
+            None => 0.0,
+        };
+        names.iter().map(|name| angle(name)).collect()
+    }
+
     /// What one standard deviation of every uncertain number of every body adds to the mass matrix,
-    /// one row per number: the upper triangle by rows.
+    /// one row per number: the upper triangle by rows. `robot` has the axes of this structure and
+    /// the bodies of the robot as simulated now.
     pub fn bodies(&self, robot: &Robot) -> DMatrix<f64> {
         let n = self.linear.n;
+        let Ok(own) = self.altered(robot) else {
+            return DMatrix::zeros(0, 0);
+        };
         let count = NUMBERS * (robot.dof() + 1);
         let mut out = DMatrix::zeros(count, n * (n + 1) / 2);
         for number in 0..count {
@@ -49,11 +80,12 @@ impl Structure {
             };
             disturb(body, number % NUMBERS);
             let chain = motion::elastic(&other);
-            let Ok(moved) = linearise(&chain, &mut Work::new(&chain), &self.rest) else {
+            let Ok(moved) = linearise(&chain, &mut Work::new(&chain), &self.angles(&chain.names))
+            else {
                 continue;
             };
             for (place, (i, j)) in triangle(n).enumerate() {
-                out[(number, place)] = moved.mass[i * n + j] - self.linear.mass[i * n + j];
+                out[(number, place)] = moved.mass[i * n + j] - own.linear.mass[i * n + j];
             }
         }
         out

@@ -1,23 +1,39 @@
 //! What a cause gains on hits that were not fitted.
 
-use super::data::Data;
+use super::data::{Data, Pair};
+use super::discrepancy::simulated;
 use super::map::{Fit, fit};
 use super::prediction::{Machine, Point, Suspect};
 use super::search::same;
 use crate::findings::gain::Gain;
+use crate::motion::frf::C64;
 
 /// Steps of a refit on some of the hits.
-const STEPS: usize = 2;
+const STEPS: usize = 1;
 
-/// Weighted sums of squares of the errors on held-out hits, one per pair and fold, with their weights.
-type Blocks = Vec<[f64; 3]>;
+/// The whole set fitted on some of the hits, and the others.
+pub struct Fold {
+    fitted: Fit,
+    held: Data,
+}
 
-/// The gain of `suspect` in `chosen`, the fit without it being `reduced`; folds are fitted and held out.
-pub fn gain(machine: &Machine, folds: &[[Data; 2]], chosen: &Fit, reduced: &Fit) -> Gain {
-    let mut blocks: Blocks = Vec::new();
-    for [fitted, held] in folds {
-        let with = errors(machine, fitted, held, &chosen.point);
-        let without = errors(machine, fitted, held, &reduced.point);
+/// `chosen` fitted again on part of every fold.
+pub fn folds(machine: &Machine, parts: Vec<[Data; 2]>, chosen: &Fit) -> Vec<Fold> {
+    let fold = |[some, held]: [Data; 2]| {
+        let fitted = fit(machine, &some, chosen.point.clone(), STEPS).ok()?;
+        Some(Fold { fitted, held })
+    };
+    parts.into_iter().filter_map(fold).collect()
+}
+
+/// What `suspect` brings on the held-out hits: error without it and with it, what is uncertain
+/// although nothing is wrong being where the whole set puts it.
+pub fn gain(machine: &Machine, folds: &[Fold], suspect: &Suspect) -> Gain {
+    let mut blocks: Vec<[f64; 3]> = Vec::new();
+    for fold in folds {
+        let whole = &fold.fitted.point;
+        let with = errors(machine, &fold.held, whole);
+        let without = errors(machine, &fold.held, &without(whole, suspect));
         if let (Some(with), Some(without)) = (with, without) {
             let both = without.iter().zip(&with);
             blocks.extend(both.map(|(b, a)| [b[0], a[0], a[1]]));
@@ -44,22 +60,21 @@ pub fn without(chosen: &Point, suspect: &Suspect) -> Point {
 }
 
 /// Per pair: weighted sum of squares on held-out hits, and sum of weights.
-fn errors(machine: &Machine, fitted: &Data, held: &Data, start: &Point) -> Option<Vec<[f64; 2]>> {
-    let found = fit(machine, fitted, start.clone(), STEPS).ok()?;
-    let predicted = machine.predict(&found.nuisance, &found.point, held).ok()?;
-    let pair = |p: &super::data::Pair| {
+fn errors(machine: &Machine, held: &Data, point: &Point) -> Option<Vec<[f64; 2]>> {
+    let simulated = simulated(machine, held, point).ok()?;
+    let pair = |(p, curve): (&Pair, &Vec<C64>)| {
         let mut sums = [0.0; 2];
-        for ((h, w), a) in p.frf.iter().zip(&p.weight).zip(&predicted) {
-            sums[0] += w * w * (h - a[p.output][p.input]).norm_sqr();
+        for ((h, w), a) in p.frf.iter().zip(&p.weight).zip(curve) {
+            sums[0] += w * w * (h - a).norm_sqr();
             sums[1] += w * w;
         }
         sums
     };
-    Some(held.pairs.iter().map(pair).collect())
+    Some(held.pairs.iter().zip(&simulated).map(pair).collect())
 }
 
-/// Root mean squares and the jackknife over blocks of the logarithm of their ratio.
-fn of_blocks(blocks: &Blocks) -> Gain {
+/// Of blocks of (squares without, squares with, weights): root mean squares, and the jackknife over blocks of the logarithm of their ratio.
+pub fn of_blocks(blocks: &[[f64; 3]]) -> Gain {
     let total = |skip: Option<usize>| {
         let kept = blocks.iter().enumerate().filter(|(i, _)| Some(*i) != skip);
         kept.fold([0.0; 3], |s, (_, b)| {
