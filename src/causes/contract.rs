@@ -146,6 +146,12 @@ pub trait Cause: Sync {
     ) {
     }
 
+    /// Instruments of a hammer test: the rate of an exponential window that the file does not declare,
+    /// 1/s: the accelerance is then read at `s` plus this rate.
+    fn undeclared_rate(&self, _amounts: &[f64]) -> f64 {
+        0.0
+    }
+
     /// What is reported: name, value SI, unit. The amounts themselves if nothing says more.
     fn said(
         &self,

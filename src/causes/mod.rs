@@ -7,10 +7,14 @@
 pub mod contract;
 pub mod places;
 
+mod accelerometer_gain;
+mod accelerometer_misalignment;
 mod added_mass;
 mod backlash;
 mod base_compliance;
+mod double_hit;
 mod drive_stiffness;
+mod exponential_window;
 mod force_gain;
 mod joint_damping;
 mod link_compliance;
@@ -19,6 +23,7 @@ mod missing_tilt;
 mod outlier_point;
 mod sensor_gain;
 mod tilt_stiffness;
+mod time_skew;
 mod tool_compliance;
 
 pub use contract::{Amount, Blame, Card, Cause, Sight};
@@ -38,6 +43,11 @@ pub const CAUSES: &[&dyn Cause] = &[
     &sensor_gain::SensorGain,
     &load_misalignment::LoadMisalignment,
     &outlier_point::OutlierPoint,
+    &accelerometer_gain::AccelerometerGain,
+    &accelerometer_misalignment::AccelerometerMisalignment,
+    &time_skew::TimeSkew,
+    &exponential_window::ExponentialWindow,
+    &double_hit::DoubleHit,
 ];
 
 /// The causes that one experiment would show.

@@ -134,6 +134,7 @@ fn settings(args: &FrfArgs) -> Outcome<Settings> {
         band_hz: positive(args.band_hz, "--band-Hz")?,
         to_hz: args.to_hz.map(|hz| positive(hz, "--to-Hz")).transpose()?,
         force_window: args.force_window,
+        keep_double: false,
         exponential_end: args.exponential_end,
     })
 }

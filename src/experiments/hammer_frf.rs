@@ -3,6 +3,7 @@
 use super::hammer_screen::{ScreenedHit, directions, screen};
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::hammer::HammerRecord;
+use crate::signal::fault::Fault;
 use crate::signal::frf::{CrossSpectra, Estimator, HitSpectra};
 use crate::signal::pulse::{self, Pulse};
 use crate::signal::spectrum::{frequencies, lines_up_to};
@@ -20,6 +21,9 @@ pub struct Settings {
     pub to_hz: Option<f64>,
     /// Whether the force is set to zero after its pulse.
     pub force_window: bool,
+    /// Whether doubled hits are used where a direction has fewer than two others: their whole force
+    /// was recorded.
+    pub keep_double: bool,
     /// Value of an exponential window at the end of the record; none: no window is applied.
     pub exponential_end: Option<f64>,
 }
@@ -30,6 +34,7 @@ impl Default for Settings {
             band_hz: 50.0,
             to_hz: None,
             force_window: false,
+            keep_double: false,
             exponential_end: None,
         }
     }
@@ -71,7 +76,10 @@ pub struct HammerFrf {
 
 /// Screens the hits of `record` and estimates the FRFs from the good ones.
 pub fn estimate(record: &HammerRecord, settings: &Settings) -> Outcome<HammerFrf> {
-    let screened = screen(record, settings.band_hz);
+    let mut screened = screen(record, settings.band_hz);
+    if settings.keep_double {
+        readmit_doubled(&mut screened);
+    }
     let used = || screened.iter().filter(|hit| hit.used());
     let samples = used().map(|hit| hit.force.len()).min();
     let samples = samples.ok_or_else(|| no_hit(&screened))?;
@@ -109,6 +117,18 @@ pub fn estimate(record: &HammerRecord, settings: &Settings) -> Outcome<HammerFrf
     frf.remarks = remarks(&frf, &screened, settings);
     frf.screened = screened;
     Ok(frf)
+}
+
+/// Takes doubled hits back where a direction is left with fewer than two hits.
+fn readmit_doubled(screened: &mut [ScreenedHit]) {
+    for direction in directions(screened) {
+        let own = |hit: &&mut ScreenedHit| hit.direction == direction;
+        let count = screened.iter_mut().filter(own).filter(|h| h.used()).count();
+        if count < 2 {
+            let own = screened.iter_mut().filter(own);
+            own.for_each(|hit| hit.faults.retain(|f| !matches!(f, Fault::DoubleHit { .. })));
+        }
+    }
 }
 
 fn no_hit(screened: &[ScreenedHit]) -> Problem {

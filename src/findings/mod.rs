@@ -4,6 +4,7 @@
 pub mod answer;
 pub mod campaign;
 pub mod gain;
+pub mod hammer;
 pub mod joint_motion;
 pub mod load_cycle;
 pub mod sentence;

@@ -16,6 +16,8 @@ pub struct HammerRecord {
     pub joint_angles: Option<Vec<f64>>,
     /// Standard deviation of the accelerometer noise, m/s².
     pub accelerometer_noise: Option<f64>,
+    /// Relative standard deviation of the stiffnesses of the present simulation.
+    pub nominal_rel_std: Option<f64>,
     /// Time constant, s, of an exponential window already applied to both channels, counted from
     /// the first sample of each record.
     pub exponential_window_s: Option<f64>,
@@ -68,6 +70,7 @@ fn from_table(table: &Table) -> Outcome<HammerRecord> {
         robot: front.text("robot")?.map(str::to_string),
         joint_angles: joint_angles(front)?,
         accelerometer_noise: front.positive("accelerometer_noise_m_s2")?,
+        nominal_rel_std: front.positive("nominal_stiffness_rel_std")?,
         exponential_window_s: front.positive("exponential_window_s")?,
         interval_s,
         outputs: outputs.into_iter().map(|(name, _)| name).collect(),

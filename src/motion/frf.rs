@@ -10,24 +10,24 @@ pub type C64 = Complex<f64>;
 pub type Response = [[C64; 3]; 3];
 
 /// Lines solved side by side: one processor instruction serves several.
-const LANES: usize = 8;
-type Lane = [f64; LANES];
+pub(super) const LANES: usize = 8;
+pub(super) type Lane = [f64; LANES];
 
 /// A complex number per lane.
 #[derive(Debug, Clone, Copy)]
-struct Lanes {
-    re: Lane,
-    im: Lane,
+pub(super) struct Lanes {
+    pub(super) re: Lane,
+    pub(super) im: Lane,
 }
 
 impl Lanes {
-    const ZERO: Self = Self {
+    pub(super) const ZERO: Self = Self {
         re: [0.0; LANES],
         im: [0.0; LANES],
     };
 
     #[inline(always)]
-    fn minus_product(&mut self, a: &Self, b: &Self) {
+    pub(super) fn minus_product(&mut self, a: &Self, b: &Self) {
         for l in 0..LANES {
             self.re[l] -= a.re[l] * b.re[l] - a.im[l] * b.im[l];
             self.im[l] -= a.re[l] * b.im[l] + a.im[l] * b.re[l];
@@ -35,7 +35,7 @@ impl Lanes {
     }
 
     #[inline(always)]
-    fn times(&self, b: &Self) -> Self {
+    pub(super) fn times(&self, b: &Self) -> Self {
         let mut out = Self::ZERO;
         for l in 0..LANES {
             out.re[l] = self.re[l] * b.re[l] - self.im[l] * b.im[l];
@@ -45,7 +45,7 @@ impl Lanes {
     }
 
     #[inline(always)]
-    fn inverse(&self) -> Self {
+    pub(super) fn inverse(&self) -> Self {
         let mut out = Self::ZERO;
         for l in 0..LANES {
             let size = 1.0 / (self.re[l] * self.re[l] + self.im[l] * self.im[l]);
@@ -56,7 +56,7 @@ impl Lanes {
     }
 
     #[inline(always)]
-    fn scaled(&self, k: f64) -> Self {
+    pub(super) fn scaled(&self, k: f64) -> Self {
         Self {
             re: self.re.map(|x| x * k),
             im: self.im.map(|x| x * k),
@@ -142,7 +142,7 @@ fn pivot(modal: &Modal, i: usize, s: &Lanes, square: &Lanes) -> Lanes {
 }
 
 #[inline(always)]
-fn real(x: f64) -> Lanes {
+pub(super) fn real(x: f64) -> Lanes {
     Lanes {
         re: [x; LANES],
         im: [0.0; LANES],

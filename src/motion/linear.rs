@@ -10,7 +10,7 @@ use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{V3, cross, dot, scale, sub};
 
 /// M, D, K of the elastic coordinates, n×n by rows, with the tool's Jacobian.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Linear {
     /// Number of elastic coordinates.
     pub n: usize,

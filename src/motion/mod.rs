@@ -12,6 +12,7 @@ pub mod kinematics;
 pub mod linear;
 pub mod modes;
 pub mod numeric;
+pub mod receptance;
 pub mod statics;
 pub mod swing;
 pub mod work;

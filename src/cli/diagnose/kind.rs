@@ -1,7 +1,6 @@
 //! The kinds of measurement that can be diagnosed. A new kind is one file and one line in [`KINDS`].
 
-use super::{joint_motion, load_cycle, workspace};
-
+use super::{hammer, joint_motion, load_cycle, workspace};
 use crate::findings::Answer;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::workspace::kind_of;
@@ -65,6 +64,7 @@ pub const KINDS: &[(&str, Diagnose)] = &[
     ("load-cycle", load_cycle::diagnosed),
     ("joint-motion", joint_motion::diagnosed),
     ("workspace", workspace::diagnosed),
+    ("hammer", hammer::diagnosed),
 ];
 
 /// The kind of a file, and how it is diagnosed. A file that states none is read as a load cycle,

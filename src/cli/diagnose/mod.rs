@@ -1,6 +1,7 @@
 //! `ident diagnose`: what the simulation gets wrong, and why.
 
 mod campaign;
+mod hammer;
 mod joint_motion;
 mod json;
 mod kind;

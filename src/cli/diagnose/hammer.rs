@@ -1,0 +1,81 @@
+//! A diagnosed hammer test: its figures and its extended robot.
+
+use super::kind::{Diagnosed, Source};
+use crate::findings::Answer;
+use crate::findings::hammer::{Diagnosis, diagnose};
+use crate::ground::problem::{Outcome, Problem};
+use crate::measurement::hammer::HammerRecord;
+use crate::measurement::hammer_uff::read_any;
+use crate::robot::load::load;
+use crate::robot::write::write;
+use crate::sheet::chart::Chart;
+use serde_json::{Map, Value, json};
+use std::path::{Path, PathBuf};
+
+struct HammerDiagnosis {
+    path: PathBuf,
+    record: HammerRecord,
+    robot: String,
+    found: Diagnosis,
+}
+
+/// Diagnoses a file of this kind.
+///
+/// # Errors
+/// The file is no hammer test, names no robot or no pose, or holds no usable hit.
+pub fn diagnosed(path: &Path) -> Outcome<Box<dyn Diagnosed>> {
+    let record = read_any(path)?;
+    let Some(name) = record.robot.clone() else {
+        let problem = Problem::new("names no robot", "write `# robot = \"kr210\"`");
+        return Err(problem.in_column("robot").in_file(path));
+    };
+    let robot = load(&name, Some(path))?.robot;
+    let found = diagnose(&record, &robot).map_err(|problem| problem.in_file(path))?;
+    Ok(Box::new(HammerDiagnosis {
+        path: path.to_path_buf(),
+        record,
+        robot: robot.name,
+        found,
+    }))
+}
+
+impl Diagnosed for HammerDiagnosis {
+    fn answer(&self) -> &Answer {
+        &self.found.answer
+    }
+
+    fn source(&self) -> Source<'_> {
+        Source {
+            path: &self.path,
+            sha256: &self.record.sha256,
+            synthetic: self.record.synthetic,
+        }
+    }
+
+    fn about(&self) -> String {
+        format!("hammer test of {}", self.robot)
+    }
+
+    fn before_and_after(&self) -> Vec<Chart> {
+        Vec::new()
+    }
+
+    fn remaining(&self) -> Vec<Chart> {
+        Vec::new()
+    }
+
+    fn model(&self) -> Outcome<Option<String>> {
+        Ok(self.found.extended.as_ref().map(write))
+    }
+
+    fn more(&self) -> Map<String, Value> {
+        let left_out = self.found.frf.screened.iter().filter_map(|hit| {
+            let why = hit.why()?;
+            Some(json!({"direction": hit.direction, "hit": hit.hit, "why": why}))
+        });
+        let mut map = Map::new();
+        map.insert("hits_rejected".into(), left_out.collect());
+        map.insert("remarks".into(), json!(self.found.frf.remarks));
+        map
+    }
+}

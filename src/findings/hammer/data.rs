@@ -1,0 +1,164 @@
+//! The measured accelerances as a diagnosis weighs them.
+
+use crate::experiments::hammer_frf::HammerFrf;
+use crate::experiments::hammer_variance::variance;
+use crate::fit::frf_model::Measured;
+use crate::motion::frf::C64;
+use crate::signal::frf::CrossSpectra;
+
+/// The rows of a 3×3 accelerance by name.
+pub const AXES: [&str; 3] = ["x", "y", "z"];
+/// A linear model of a robot misses its accelerance by this share of it, and of its root mean square
+/// in the band: calibration, the point and the angle of the hits, bodies that are not quite rigid.
+const MODEL_ERROR: [f64; 2] = [0.0015, 0.0007];
+
+/// Which band, and how dense.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// Lowest line, Hz.
+    pub from_hz: f64,
+    /// Highest line, Hz.
+    pub to_hz: f64,
+    /// Least distance of two lines, Hz.
+    pub step_hz: f64,
+}
+
+/// One measured pair: output, input, values, and the weight of either part of each (one over its
+/// standard deviation).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pair {
+    /// Direction of the acceleration, 0 to 2.
+    pub output: usize,
+    /// Direction of the force, 0 to 2.
+    pub input: usize,
+    /// Accelerance, (m/s²)/N.
+    pub frf: Vec<C64>,
+    /// Weights, N/(m/s²).
+    pub weight: Vec<f64>,
+}
+
+/// Pairs on common lines.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Data {
+    /// `s = jω + σ` of every line, declared windows included.
+    pub s: Vec<C64>,
+    /// The pairs.
+    pub pairs: Vec<Pair>,
+    /// How many lines carry the information of one: a window correlates its neighbours.
+    pub correlated: f64,
+}
+
+impl Data {
+    /// All hits that were used.
+    pub fn of(frf: &HammerFrf, grid: Grid) -> Self {
+        let sums: Vec<CrossSpectra> = frf.inputs.iter().map(|i| i.sums.clone()).collect();
+        Self::with(frf, &sums, grid, 1.0)
+    }
+
+    /// One hit of every direction left out, and those hits alone: fold `k` of `folds`.
+    pub fn fold(frf: &HammerFrf, grid: Grid, k: usize, folds: usize) -> Option<[Self; 2]> {
+        let part = |mine: bool| -> Option<Vec<CrossSpectra>> {
+            let of = |input: &crate::experiments::hammer_frf::InputFrf| {
+                let some = input.hits.iter().enumerate();
+                let some = some.filter(|(i, _)| (i % folds == k) == mine);
+                let hits: Vec<_> = some.map(|(_, hit)| hit).collect();
+                (!hits.is_empty()).then(|| CrossSpectra::of(hits))
+            };
+            frf.inputs.iter().map(of).collect()
+        };
+        let share = 1.0 / folds as f64;
+        let fitted = Self::with(frf, &part(false)?, grid, 1.0 - share);
+        Some([fitted, Self::with(frf, &part(true)?, grid, share)])
+    }
+
+    fn with(frf: &HammerFrf, sums: &[CrossSpectra], grid: Grid, share: f64) -> Self {
+        let lines = lines(frf, grid);
+        let all = every_line(frf, grid);
+        let row = |name: &str| AXES.iter().position(|axis| *axis == name);
+        let mut pairs = Vec::new();
+        for (input, sums) in frf.inputs.iter().zip(sums) {
+            for (o, name) in frf.outputs.iter().enumerate() {
+                if let (Some(from), Some(to)) = (row(&input.input), row(name)) {
+                    let scatter = variance(input, o, &all);
+                    let values: Vec<C64> =
+                        lines.iter().map(|k| sums.lines[o][all[*k]].h1()).collect();
+                    let scatter: Vec<f64> = lines.iter().map(|k| scatter[*k] / share).collect();
+                    let weight = weights(&values, &scatter, independent(frf, &lines));
+                    pairs.push(Pair {
+                        output: to,
+                        input: from,
+                        frf: values,
+                        weight,
+                    });
+                }
+            }
+        }
+        let line =
+            |k: &usize| C64::new(frf.rate, std::f64::consts::TAU * frf.frequency_hz[all[*k]]);
+        Self {
+            s: lines.iter().map(line).collect(),
+            pairs,
+            correlated: independent(frf, &lines),
+        }
+    }
+
+    /// Frequencies of the lines, Hz.
+    pub fn hz(&self) -> Vec<f64> {
+        self.s
+            .iter()
+            .map(|s| s.im / std::f64::consts::TAU)
+            .collect()
+    }
+
+    /// Real rows: two per value.
+    pub fn rows(&self) -> usize {
+        2 * self.s.len() * self.pairs.len()
+    }
+
+    /// Real rows that are independent of each other.
+    pub fn freedom(&self) -> f64 {
+        self.rows() as f64 / self.correlated
+    }
+
+    /// Name of a pair: output by input, as in `zx`.
+    pub fn name(&self, pair: usize) -> String {
+        let pair = &self.pairs[pair];
+        format!("{}{}", AXES[pair.input], AXES[pair.output])
+    }
+}
+
+fn every_line(frf: &HammerFrf, grid: Grid) -> Vec<usize> {
+    let inside = |k: &usize| (grid.from_hz..=grid.to_hz).contains(&frf.frequency_hz[*k]);
+    (1..frf.frequency_hz.len()).filter(inside).collect()
+}
+
+/// Places in [`every_line`] at the step of the grid.
+fn lines(frf: &HammerFrf, grid: Grid) -> Vec<usize> {
+    let stride = (grid.step_hz * frf.length_s).round().max(1.0) as usize;
+    (0..every_line(frf, grid).len()).step_by(stride).collect()
+}
+
+/// How many of the lines carry the information of one.
+fn independent(frf: &HammerFrf, lines: &[usize]) -> f64 {
+    let stride = lines.windows(2).map(|w| w[1] - w[0]).next().unwrap_or(1);
+    let all = Measured {
+        input: 0,
+        output: 0,
+        frequency_hz: Vec::new(),
+        rate: frf.rate,
+        length_s: frf.length_s,
+        frf: Vec::new(),
+        variance: Vec::new(),
+    };
+    (all.lines_per_independent_one() / stride as f64).max(1.0)
+}
+
+fn weights(values: &[C64], scatter: &[f64], independent: f64) -> Vec<f64> {
+    let mean = values.iter().map(|h| h.norm_sqr()).sum::<f64>() / values.len().max(1) as f64;
+    let error = |h: &C64| MODEL_ERROR[0].powi(2) * h.norm_sqr() + MODEL_ERROR[1].powi(2) * mean;
+    let variance = values
+        .iter()
+        .zip(scatter)
+        .map(|(h, v)| (v + error(h)) * independent);
+    variance.map(|v| (2.0 / v).sqrt()).collect()
+}

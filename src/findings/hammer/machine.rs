@@ -1,0 +1,77 @@
+//! The robot of a test made ready: which combinations of its bodies' uncertain numbers the FRF sees.
+
+use super::data::Data;
+use super::map::weights;
+use super::nuisance::{INSTRUMENT, Known, Nuisance};
+use super::prediction::{Machine, Point};
+use super::structure::Structure;
+use crate::ground::problem::Outcome;
+use crate::robot::Robot;
+use nalgebra::DMatrix;
+use std::sync::Mutex;
+
+/// Combinations that move the FRF by less than this many standard deviations of its noise are left out.
+const UNSEEN: f64 = 0.3;
+/// At most this many are kept.
+const MOST: usize = 20;
+
+impl<'a> Machine<'a> {
+    /// The machine of `robot` at `joints` (rad); `data` tells what is seen.
+    ///
+    /// # Errors
+    /// No equilibrium, or nothing elastic.
+    pub fn new(robot: &'a Robot, joints: &'a [f64], known: Known, data: &Data) -> Outcome<Self> {
+        let structure = Structure::of(robot, joints)?;
+        let numbers = structure.bodies(robot).nrows();
+        let mut machine = Self {
+            robot,
+            joints,
+            known,
+            seen: DMatrix::identity(numbers, numbers),
+            structure,
+            masses: Mutex::default(),
+        };
+        machine.seen = machine.combinations(data)?;
+        machine.masses = Mutex::default();
+        Ok(machine)
+    }
+
+    /// Unit combinations of the bodies' numbers, the best seen first.
+    fn combinations(&self, data: &Data) -> Outcome<DMatrix<f64>> {
+        let mut point = Point::nothing();
+        let nuisance: Nuisance = self.nuisance(&point)?;
+        point.theta.resize(nuisance.len(), 0.0);
+        let columns = self.slopes(&nuisance, &point, data)?.columns;
+        let mut bodies = columns.columns(INSTRUMENT, self.seen.nrows()).into_owned();
+        let weights = weights(data);
+        for mut column in bodies.column_iter_mut() {
+            column.iter_mut().zip(&weights).for_each(|(x, w)| *x *= w);
+        }
+        let eigen = (bodies.transpose() * &bodies).symmetric_eigen();
+        let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
+        order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+        order.retain(|i| eigen.eigenvalues[*i] > UNSEEN * UNSEEN);
+        order.truncate(MOST);
+        Ok(eigen.eigenvectors.select_columns(&order).transpose())
+    }
+}
+
+impl Point {
+    /// No cause, everything as stated.
+    pub fn nothing() -> Self {
+        Self {
+            set: Vec::new(),
+            amounts: Vec::new(),
+            theta: Vec::new(),
+        }
+    }
+
+    /// With one more cause, at `amounts` (spreads).
+    #[must_use]
+    pub fn and(&self, suspect: &super::prediction::Suspect, amounts: &[f64]) -> Self {
+        let mut point = self.clone();
+        point.set.push(suspect.clone());
+        point.amounts.extend(amounts);
+        point
+    }
+}

@@ -1,0 +1,25 @@
+//! Hammer tests of the whole robot.
+//!
+//! The way of a hammer test: FRFs of all good hits, seen through a short exponential window (broad
+//! peaks, so that far starts arrive) and through a long one → what is uncertain although nothing is
+//! wrong fits along, with its prior → sets of causes by evidence → what cannot be told apart → gain on
+//! hits that were not fitted → is anything left, does the FRF depend on the force → verdict.
+
+pub mod adequacy;
+pub mod data;
+pub mod diagnosis;
+pub mod discrepancy;
+pub mod doubled;
+pub mod extended;
+pub mod linearity;
+pub mod machine;
+pub mod map;
+pub mod next;
+pub mod nuisance;
+pub mod posterior;
+pub mod prediction;
+pub mod search;
+pub mod structure;
+pub mod unseen;
+
+pub use diagnosis::{Diagnosis, diagnose};

@@ -1,0 +1,295 @@
+//! What a robot with a set of causes would have shown in a hammer test.
+
+use super::data::Data;
+use super::nuisance::{INSTRUMENT, Known, Nuisance, UPPER, instrument_slope, read};
+use super::structure::Structure;
+use crate::causes::Cause;
+use crate::causes::contract::Accelerance;
+use crate::effects::Family;
+use crate::ground::problem::Outcome;
+use crate::motion::Linear;
+use crate::motion::frf::C64;
+use crate::motion::receptance::{accelerance, coordinates};
+use crate::robot::Robot;
+use nalgebra::DMatrix;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex};
+
+/// Step of a derivative by an amount, relative to the amount or to a hundredth of its spread.
+const STEP: f64 = 1e-4;
+/// Where an amount that cannot be negative starts to exist, in spreads.
+const LEAST: f64 = 1e-3;
+
+/// A cause at a place.
+#[derive(Clone)]
+pub struct Suspect {
+    /// The cause.
+    pub cause: &'static dyn Cause,
+    /// Its site.
+    pub site: String,
+}
+
+impl Suspect {
+    /// Its name.
+    pub fn name(&self) -> &'static str {
+        self.cause.card().name
+    }
+
+    /// Spread of each amount: the prior's standard deviation, as far as its starts reach.
+    pub fn spreads(&self) -> Vec<f64> {
+        let amounts = self.cause.card().amounts.iter();
+        amounts
+            .map(|a| a.starts.iter().fold(0.0_f64, |m, s| m.max(s.abs())))
+            .collect()
+    }
+
+    /// Bounds of each amount, in spreads.
+    pub fn bounds(&self) -> Vec<[f64; 2]> {
+        let amounts = self.cause.card().amounts.iter().zip(self.spreads());
+        amounts
+            .map(|(a, spread)| {
+                let [low, high] = a.bounds.map(|b| b / spread);
+                [if low == 0.0 { LEAST } else { low }, high]
+            })
+            .collect()
+    }
+
+    /// Where to start, in spreads: the first of every amount, the second of every amount, ...
+    pub fn starts(&self) -> Vec<Vec<f64>> {
+        let amounts = self.cause.card().amounts;
+        let count = amounts.iter().map(|a| a.starts.len()).max().unwrap_or(0);
+        let at = |j: usize| {
+            let each = amounts.iter().zip(self.spreads());
+            each.map(|(a, spread)| a.starts[j.min(a.starts.len() - 1)] / spread)
+                .collect()
+        };
+        (0..count).map(at).collect()
+    }
+
+    /// Whether it changes the robot.
+    pub fn is_physical(&self) -> bool {
+        self.cause.card().family == Family::Physics
+    }
+}
+
+/// The robot as simulated now, at the pose of the test, with what is uncertain about it.
+pub struct Machine<'a> {
+    /// The robot.
+    pub robot: &'a Robot,
+    /// Joint angles, rad.
+    pub joints: &'a [f64],
+    /// What a laboratory knows.
+    pub known: Known,
+    /// The combinations of the bodies' numbers that the FRF sees.
+    pub seen: DMatrix<f64>,
+    /// Its matrices.
+    pub structure: Structure,
+    /// What the bodies' numbers do to the mass matrix, by the names of the coordinates.
+    pub masses: Mutex<BTreeMap<Vec<String>, Arc<DMatrix<f64>>>>,
+}
+
+/// A point of the search: a set of causes with amounts in spreads, and the nuisances.
+#[derive(Clone)]
+pub struct Point {
+    /// The causes.
+    pub set: Vec<Suspect>,
+    /// All their amounts in spreads, one after the other.
+    pub amounts: Vec<f64>,
+    /// The nuisances in standard deviations.
+    pub theta: Vec<f64>,
+}
+
+impl Point {
+    /// Cause by cause: its amounts, SI.
+    pub fn each(&self) -> Vec<(&Suspect, Vec<f64>)> {
+        let mut rest = self.amounts.iter();
+        let own = |suspect: &Suspect| -> Vec<f64> {
+            let spreads = suspect.spreads().into_iter();
+            spreads.zip(rest.by_ref()).map(|(s, a)| s * a).collect()
+        };
+        let amounts: Vec<Vec<f64>> = self.set.iter().map(own).collect();
+        self.set.iter().zip(amounts).collect()
+    }
+
+    /// Bounds of all amounts.
+    pub fn bounds(&self) -> Vec<[f64; 2]> {
+        self.set.iter().flat_map(Suspect::bounds).collect()
+    }
+
+    /// The robot with the physical causes in it.
+    pub fn robot(&self, robot: &Robot) -> Robot {
+        let mut robot = robot.clone();
+        for (suspect, amounts) in self.each() {
+            suspect.cause.alter(&mut robot, &suspect.site, &amounts);
+        }
+        robot
+    }
+
+    fn is_physical(&self) -> bool {
+        self.set.iter().any(Suspect::is_physical)
+    }
+
+    /// Rate of all undeclared windows, 1/s.
+    fn rate(&self) -> f64 {
+        let each = self.each();
+        let rates = each.iter().map(|(s, a)| s.cause.undeclared_rate(a));
+        rates.sum()
+    }
+}
+
+/// Values and slopes of one point on the lines of some data, unweighted, in the order of the rows.
+pub struct Slopes {
+    /// Prediction.
+    pub values: Vec<f64>,
+    /// Per nuisance, then per amount.
+    pub columns: DMatrix<f64>,
+}
+
+impl Machine<'_> {
+    /// The matrices with the physical causes of `point`.
+    pub fn structure_of(&self, point: &Point) -> Outcome<Structure> {
+        match point.is_physical() {
+            true => self.structure.altered(&point.robot(self.robot)),
+            false => Ok(self.structure.clone()),
+        }
+    }
+
+    /// The nuisances of the structure of `point`.
+    pub fn nuisance(&self, point: &Point) -> Outcome<Nuisance> {
+        let structure = self.structure_of(point)?;
+        let mass = self.masses(&structure, point);
+        let known = self.known;
+        Ok(Nuisance::new(self.robot, &structure.linear, mass, known))
+    }
+
+    /// Computed once per set of coordinates, with the bodies as simulated now.
+    fn masses(&self, structure: &Structure, point: &Point) -> Arc<DMatrix<f64>> {
+        let mut known = match self.masses.lock() {
+            Ok(known) => known,
+            Err(poisoned) => poisoned.into_inner(),
+        };
+        let names = structure.linear.names.clone();
+        let made = known.entry(names).or_insert_with(|| {
+            let mut robot = point.robot(self.robot);
+            robot.tool.body = self.robot.tool.body;
+            let links = robot.joints.iter_mut().zip(&self.robot.joints);
+            links.for_each(|(joint, own)| joint.link = own.link);
+            Arc::new(&self.seen * structure.bodies(&robot))
+        });
+        Arc::clone(made)
+    }
+
+    /// The predicted accelerances on the lines of `data`.
+    pub fn predict(
+        &self,
+        nuisance: &Nuisance,
+        point: &Point,
+        data: &Data,
+    ) -> Outcome<Vec<Accelerance>> {
+        let linear = nuisance.applied(&self.structure_of(point)?.linear, &point.theta);
+        let s = shifted(point, data);
+        let answers = coordinates(&linear, &s);
+        Ok(read_all(point, &linear, &answers, &s))
+    }
+
+    /// Prediction and slopes.
+    pub fn slopes(&self, nuisance: &Nuisance, point: &Point, data: &Data) -> Outcome<Slopes> {
+        let linear = nuisance.applied(&self.structure_of(point)?.linear, &point.theta);
+        let s = shifted(point, data);
+        let answers = coordinates(&linear, &s);
+        let values = read_all(point, &linear, &answers, &s);
+        let mut columns =
+            Vec::with_capacity(data.rows() * (point.theta.len() + point.amounts.len()));
+        for number in 0..INSTRUMENT {
+            let slope: Vec<Accelerance> = values
+                .iter()
+                .zip(&s)
+                .map(|(a, s)| instrument_slope(number, *s, a))
+                .collect();
+            stack(data, &slope, &mut columns);
+        }
+        let each = point.each();
+        for slope in nuisance.slopes(&linear, &answers, &s) {
+            let full: Vec<Accelerance> = slope
+                .iter()
+                .zip(&s)
+                .map(|(v, s)| {
+                    let mut a = symmetric(v);
+                    each.iter().for_each(|(c, amounts)| {
+                        c.cause.read_accelerance(&c.site, amounts, *s, &mut a)
+                    });
+                    a
+                })
+                .collect();
+            stack(data, &full, &mut columns);
+        }
+        for index in 0..point.amounts.len() {
+            let slope = self.amount_slope(nuisance, point, data, &values, index)?;
+            stack(data, &slope, &mut columns);
+        }
+        let rows = data.rows();
+        let mut stacked = Vec::with_capacity(rows);
+        stack(data, &values, &mut stacked);
+        let count = columns.len() / rows.max(1);
+        Ok(Slopes {
+            values: stacked,
+            columns: DMatrix::from_vec(rows, count, columns),
+        })
+    }
+
+    fn amount_slope(
+        &self,
+        nuisance: &Nuisance,
+        point: &Point,
+        data: &Data,
+        values: &[Accelerance],
+        index: usize,
+    ) -> Outcome<Vec<Accelerance>> {
+        let mut moved = point.clone();
+        let step = STEP * point.amounts[index].abs().max(0.01);
+        moved.amounts[index] += step;
+        let mut after = self.predict(nuisance, &moved, data)?;
+        for (after, before) in after.iter_mut().zip(values) {
+            for (a, b) in after.iter_mut().flatten().zip(before.iter().flatten()) {
+                *a = (*a - b) / step;
+            }
+        }
+        Ok(after)
+    }
+}
+
+fn shifted(point: &Point, data: &Data) -> Vec<C64> {
+    let rate = point.rate();
+    data.s.iter().map(|s| s + rate).collect()
+}
+
+fn read_all(point: &Point, linear: &Linear, answers: &[[C64; 3]], s: &[C64]) -> Vec<Accelerance> {
+    let each = point.each();
+    let line = |(k, s): (usize, &C64)| {
+        let mut a = accelerance(linear, &answers[k * linear.n..(k + 1) * linear.n], *s);
+        each.iter()
+            .for_each(|(c, amounts)| c.cause.read_accelerance(&c.site, amounts, *s, &mut a));
+        read(&point.theta, *s, &mut a);
+        a
+    };
+    s.iter().enumerate().map(line).collect()
+}
+
+fn symmetric(upper: &[C64; 6]) -> Accelerance {
+    let mut a = Accelerance::default();
+    for ((i, j), v) in UPPER.into_iter().zip(upper) {
+        a[i][j] = *v;
+        a[j][i] = *v;
+    }
+    a
+}
+
+/// Appends the rows of `data`: per pair, real and imaginary part of every line.
+pub fn stack(data: &Data, values: &[Accelerance], rows: &mut Vec<f64>) {
+    for pair in &data.pairs {
+        for a in values {
+            let h = a[pair.output][pair.input];
+            rows.extend([h.re, h.im]);
+        }
+    }
+}

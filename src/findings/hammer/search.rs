@@ -1,0 +1,194 @@
+//! The search for sets of causes: every single one from all its starts on broad peaks, pairs where a
+//! single one leaves something that another would explain, then the best sets on sharp peaks.
+
+use super::data::Data;
+use super::map::{Fit, fit, measured, weights};
+use super::prediction::{Machine, Point, Suspect, stack};
+use crate::causes::{self, Sight};
+use crate::ground::problem::Outcome;
+use crate::robot::Robot;
+use nalgebra::DVector;
+use rayon::prelude::*;
+
+/// Steps of a descent: while starts compete, on broad peaks, on sharp ones.
+const STEPS: [usize; 3] = [2, 5, 6];
+/// Suspects that are tried by descent, those of them that go on, singles continued to pairs, partners
+/// tried for each.
+const TRIED: usize = 14;
+const KEPT: usize = 7;
+const BASES: usize = 3;
+const PARTNERS: usize = 4;
+/// Nats that a partner must promise to be tried.
+const PROMISE: f64 = 4.0;
+/// How far a partner may be from its start for the straight line to count, in starts.
+const REACH: f64 = 2.0;
+/// Sets on broad peaks go on to sharp ones within these nats of the best, or this share of what the
+/// best explains.
+const HOPE: (f64, f64) = (30.0, 0.15);
+
+/// Everything that was compared, on sharp peaks; the empty set first.
+pub struct Found {
+    /// The fits.
+    pub fits: Vec<Fit>,
+}
+
+/// Every cause at every place of this robot that a hammer test with these outputs would show.
+pub fn suspects(robot: &Robot, outputs: &[String]) -> Vec<Suspect> {
+    let all = causes::seen_by(Sight::Hammer).filter(|c| !c.card().amounts.is_empty());
+    let places = all.flat_map(|cause| {
+        let sites = cause.sites(robot).into_iter();
+        sites.map(move |site| Suspect { cause, site })
+    });
+    let measured = |s: &Suspect| match s.site.strip_prefix("sensor-") {
+        Some(axis) => outputs.len() > 1 && outputs.iter().any(|o| o == axis),
+        None => true,
+    };
+    places.filter(measured).collect()
+}
+
+/// Searches on `broad` and `sharp` data.
+///
+/// # Errors
+/// The robot as simulated now cannot be computed.
+pub fn search(
+    machine: &Machine,
+    suspects: &[Suspect],
+    broad: &Data,
+    sharp: &Data,
+) -> Outcome<Found> {
+    let nothing = fit(machine, broad, Point::nothing(), 2 * STEPS[1])?;
+    let singles = singles(machine, suspects, broad, &nothing);
+    let pairs = pairs(machine, suspects, broad, &singles);
+    let mut points = vec![nothing.point.clone()];
+    for fits in [&singles, &pairs] {
+        points.extend(hopeful(fits, &nothing).map(|f| f.point.clone()));
+    }
+    let sharpened = points
+        .into_par_iter()
+        .map(|point| fit(machine, sharp, point, STEPS[2]).ok())
+        .collect::<Vec<_>>();
+    let fits: Vec<Fit> = sharpened.into_iter().flatten().collect();
+    Ok(Found { fits })
+}
+
+/// The fits that may still turn out best.
+fn hopeful<'a>(fits: &'a [Fit], nothing: &'a Fit) -> impl Iterator<Item = &'a Fit> {
+    let best = fits.first().map_or(0.0, |f| f.evidence);
+    let within = HOPE.0 + HOPE.1 * (best - nothing.evidence).max(0.0);
+    fits.iter().filter(move |f| f.evidence > best - within)
+}
+
+/// Every single cause that promises something, best first.
+fn singles(machine: &Machine, suspects: &[Suspect], data: &Data, nothing: &Fit) -> Vec<Fit> {
+    let promised = suspects
+        .par_iter()
+        .filter_map(|s| Some((promise(machine, data, nothing, s)?.0, s)))
+        .collect::<Vec<_>>();
+    let mut promised: Vec<(f64, &Suspect)> = promised;
+    promised.sort_by(|a, b| b.0.total_cmp(&a.0));
+    promised.truncate(TRIED);
+    let begun = promised
+        .par_iter()
+        .map(|(_, suspect)| begin(machine, data, nothing, suspect))
+        .collect::<Vec<_>>();
+    let mut begun: Vec<Fit> = begun.into_iter().flatten().collect();
+    sort(&mut begun);
+    begun.truncate(KEPT);
+    let ended = begun
+        .into_par_iter()
+        .map(|begun| fit(machine, data, begun.point, STEPS[1]).ok())
+        .collect::<Vec<_>>();
+    let mut ended: Vec<Fit> = ended.into_iter().flatten().collect();
+    sort(&mut ended);
+    ended
+}
+
+/// Best first.
+pub fn sort(fits: &mut [Fit]) {
+    fits.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+}
+
+/// The first steps of a cause from all its starts, and from nearly nothing with the nuisances of the
+/// empty set.
+fn begin(machine: &Machine, data: &Data, nothing: &Fit, suspect: &Suspect) -> Option<Fit> {
+    let from =
+        |theta: &Point, start: &[f64]| fit(machine, data, theta.and(suspect, start), STEPS[0]).ok();
+    let clean = Point::nothing();
+    let starts = suspect.starts();
+    let fresh = starts.iter().filter_map(|start| from(&clean, start));
+    let small: Vec<f64> = starts.first()?.iter().map(|s| 0.02 * s).collect();
+    let near = from(&nothing.point, &small);
+    fresh.chain(near).min_by(|a, b| a.cost.total_cmp(&b.cost))
+}
+
+/// The best singles with those partners that promise to explain what is left, best first.
+fn pairs(machine: &Machine, suspects: &[Suspect], data: &Data, singles: &[Fit]) -> Vec<Fit> {
+    let bases: Vec<&Fit> = singles.iter().take(BASES).collect();
+    let points: Vec<Point> = bases
+        .par_iter()
+        .flat_map_iter(|base| partners(machine, suspects, data, base))
+        .collect();
+    let tried = points
+        .into_par_iter()
+        .map(|point| fit(machine, data, point, STEPS[1]).ok())
+        .collect::<Vec<_>>();
+    let mut tried: Vec<Fit> = tried.into_iter().flatten().collect();
+    sort(&mut tried);
+    tried
+}
+
+fn partners(machine: &Machine, suspects: &[Suspect], data: &Data, base: &Fit) -> Vec<Point> {
+    let others = suspects
+        .iter()
+        .filter(|s| !base.point.set.iter().any(|own| same(own, s)));
+    let tried = others.filter_map(|s| promise(machine, data, base, s));
+    let mut promised: Vec<(f64, Point)> = tried.filter(|(nats, _)| *nats > PROMISE).collect();
+    promised.sort_by(|a, b| b.0.total_cmp(&a.0));
+    promised.truncate(PARTNERS);
+    promised.into_iter().map(|(_, point)| point).collect()
+}
+
+/// Whether two suspects are one.
+pub fn same(a: &Suspect, b: &Suspect) -> bool {
+    a.name() == b.name() && a.site == b.site
+}
+
+/// Nats that `suspect` promises beside what is found, along the straight line to its best start.
+pub fn promise(
+    machine: &Machine,
+    data: &Data,
+    base: &Fit,
+    suspect: &Suspect,
+) -> Option<(f64, Point)> {
+    let weights = weights(data);
+    let now: Vec<f64> = (0..weights.len())
+        .map(|i| weights[i])
+        .zip(measured(data))
+        .zip(base.residual.iter())
+        .map(|((w, m), r)| m * w - r)
+        .collect();
+    let along = |start: &Vec<f64>| {
+        let point = base.point.and(suspect, start);
+        let nuisance = machine.nuisance(&point).ok()?;
+        let mut full = point.clone();
+        full.theta.resize(nuisance.len(), 0.0);
+        let mut rows = Vec::with_capacity(weights.len());
+        stack(
+            data,
+            &machine.predict(&nuisance, &full, data).ok()?,
+            &mut rows,
+        );
+        let column = rows
+            .iter()
+            .zip(&weights)
+            .zip(&now)
+            .map(|((p, w), now)| p * w - now);
+        let column = DVector::from_iterator(weights.len(), column);
+        Some((base.promise(&column, REACH), point))
+    };
+    let tried = suspect
+        .starts()
+        .into_iter()
+        .filter_map(|start| along(&start));
+    tried.max_by(|a, b| a.0.total_cmp(&b.0))
+}
