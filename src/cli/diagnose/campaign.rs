@@ -9,7 +9,7 @@ use crate::findings::{Answer, Verdict, sentence::sentences};
 use crate::fit::axis_tests;
 use crate::fit::identified_robot::with_axis_tests;
 use crate::ground::problem::{Outcome, Problem};
-use crate::measurement::workspace::Place;
+use crate::measurement::workspace::{Place, fact_of};
 use crate::robot::{Robot, write};
 use crate::sheet::number::engineering;
 use crate::sheet::page::{Block, Page};
@@ -17,6 +17,9 @@ use crate::sheet::table::Table;
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
+
+/// Role of a file that is measured only to be compared with another.
+const COMPARISON: &str = "comparison";
 
 /// Everything that a campaign's files say together.
 pub struct Campaign {
@@ -39,7 +42,10 @@ pub struct Campaign {
 pub fn examine(place: &Place, progress: bool) -> Outcome<Campaign> {
     let mut paths: Vec<PathBuf> = Vec::new();
     for (name, _) in KINDS {
-        paths.extend(place.files_of(name)?);
+        for path in place.files_of(name)? {
+            let role = fact_of(&path, "role").map_err(|problem| problem.in_file(&path))?;
+            paths.extend(role.is_none_or(|role| role != COMPARISON).then_some(path));
+        }
     }
     if paths.is_empty() {
         let remedy = "put measurements there whose front matter says `kind`";

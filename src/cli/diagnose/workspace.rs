@@ -83,6 +83,24 @@ impl Diagnosed for Workspace {
         vec![remaining(self)]
     }
 
+    fn robot(&self) -> Option<&Robot> {
+        Some(&self.robot.robot)
+    }
+
+    fn extended(&self) -> Option<&Robot> {
+        Some(&self.found.extended)
+    }
+
+    fn under(&self, robot: &Robot) -> Option<Box<dyn Diagnosed>> {
+        let found = diagnose(&self.test, robot);
+        let robot = Loaded {
+            robot: robot.clone(),
+            ..self.robot.clone()
+        };
+        let test = self.test.clone();
+        Some(Box::new(Workspace { test, robot, found }))
+    }
+
     fn model(&self) -> Outcome<Option<String>> {
         let changed = self.found.extended != self.robot.robot;
         Ok(changed.then(|| self.extended()))
