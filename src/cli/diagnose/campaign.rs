@@ -79,12 +79,24 @@ fn one(path: &Path, place: &Place, tests: &[axis_tests::AxisTest]) -> Outcome<On
     let (kind, diagnose) = kind(path)?;
     let found = diagnose(path)?;
     let informed = found.robot().filter(|_| !tests.is_empty());
-    let informed = informed.and_then(|robot| found.under(&with_axis_tests(robot, tests)));
+    let informed = informed.and_then(|robot| found.under(&stiffened(robot, tests)));
     Ok(One {
         kind,
         place: place.clone(),
         found: informed.unwrap_or(found),
     })
+}
+
+/// A robot with the stiffness that the axis tests found, their gaps left closed: weight presses each
+/// joint to one side, and whether it does is what a test of the whole robot says.
+fn stiffened(robot: &Robot, tests: &[axis_tests::AxisTest]) -> Robot {
+    let mut informed = with_axis_tests(robot, tests);
+    let gaps = robot.springs().map(|(_, spring)| spring.backlash.clone());
+    let gaps: Vec<Vec<f64>> = gaps.collect();
+    for ((_, spring), own) in informed.springs_mut().zip(gaps) {
+        spring.backlash = own;
+    }
+    informed
 }
 
 /// Every pair of tests of the whole robot of which one changed the robot.
@@ -205,11 +217,6 @@ impl Campaign {
             .iter()
             .filter(|one| one.found.answer().verdict != Verdict::Sufficient);
         let wrong: Vec<String> = wrong.map(One::stem).collect();
-        let held = self
-            .checks
-            .iter()
-            .filter(|check| check.word() == "confirmed")
-            .count();
         let said = match wrong.len() {
             0 => format!(
                 "The simulation agrees with all {} experiments to within their noise.",
@@ -221,10 +228,14 @@ impl Campaign {
                 wrong.join(", ")
             ),
         };
-        match self.checks.len() {
-            0 => said,
-            n => format!(
-                "{said} Of {n} predictions from one experiment to another {held} are confirmed."
+        let count = |word: &str| {
+            let checks = self.checks.iter();
+            checks.filter(|check| check.word() == word).count()
+        };
+        match (count("confirmed"), count("contradicted")) {
+            (0, 0) => said,
+            (good, bad) => format!(
+                "{said} Of what one experiment predicts for another, {good} predictions are confirmed and {bad} contradicted."
             ),
         }
     }
