@@ -7,6 +7,7 @@ pub mod compliance;
 pub mod convex;
 pub mod damping;
 pub mod damping_store;
+pub mod derived;
 pub mod force_steps;
 pub mod frf_identifiability;
 pub mod frf_match;
