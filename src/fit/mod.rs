@@ -7,6 +7,7 @@ pub mod compliance;
 pub mod convex;
 pub mod damping;
 pub mod damping_store;
+pub mod derived;
 mod force_rest;
 pub mod force_shapes;
 pub mod force_steps;

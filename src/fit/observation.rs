@@ -36,6 +36,12 @@ const WILD: f64 = 3.5;
 const LONE: f64 = 6.5;
 
 impl Observation {
+    /// Smallest and largest load.
+    pub fn load_range(&self) -> (f64, f64) {
+        let load = self.scene.load.iter();
+        load.fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)))
+    }
+
     /// Prepares the first sensor of a file, averaged down to at most `most` rows.
     pub fn of(file: &LoadCycle, most: usize) -> Self {
         let block = file.load.len().div_ceil(most.max(4)).max(1);
