@@ -21,6 +21,8 @@ pub struct Adequacy {
     pub local: f64,
     /// Middle of that window, Hz.
     pub at_hz: f64,
+    /// Highest line, Hz.
+    pub to_hz: f64,
     /// The pair in which it is largest, as `zz`: force first.
     pub pair: String,
     /// Share of what is left that lies in that window.
@@ -58,6 +60,7 @@ impl Adequacy {
             whole: total / freedom,
             local,
             at_hz,
+            to_hz: hz.last().copied().unwrap_or(0.0),
             pair: pair.map_or(String::new(), |p| data.name(p)),
             concentrated: sum / total.max(f64::MIN_POSITIVE),
             p_value: chance.unwrap_or(1.0),
@@ -79,6 +82,11 @@ impl Adequacy {
             .map(String::from)
             .unwrap_or_default();
         let known = AXES.contains(&axis.as_str());
+        if self.at_hz > 0.9 * self.to_hz {
+            return format!(
+                "an error that grows towards the upper end of the band (largest about {place}): as of a resonance above it, of the sensor's mount or of the tool"
+            );
+        }
         match self.concentrated > 0.35 && known {
             true => format!(
                 "an extra resonance about {place}: as of a body hung up elastically (an absorber, a loose part, a hose) that swings along {axis}"

@@ -10,7 +10,7 @@ use crate::signal::frf::CrossSpectra;
 pub const AXES: [&str; 3] = ["x", "y", "z"];
 /// A linear model of a robot misses its accelerance by this share of it, and of its root mean square
 /// in the band: calibration, the point and the angle of the hits, bodies that are not quite rigid.
-const MODEL_ERROR: [f64; 2] = [0.0015, 0.0007];
+const MODEL_ERROR: [f64; 2] = [0.0045, 0.002];
 
 /// Which band, and how dense.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -38,8 +38,8 @@ const FORMULA_ERROR: f64 = 0.05;
 const TOLERATED_NATS: f64 = 5.0;
 /// Folds of hits for the gain.
 const FOLDS: usize = 2;
-/// Share of the whole error above which what is left is the story.
-const NOT_THE_STORY: f64 = 0.3;
+/// Share of the misfit that a cause must take away to be named although something is left.
+const THE_STORY: f64 = 0.95;
 /// Most members of a group that are named.
 const MEMBERS: usize = 6;
 
@@ -305,7 +305,8 @@ impl Case<'_> {
         );
         let bent = level.filter(Linearity::broken);
         let left = adequacy.left() || bent.is_some();
-        let verdict = verdict(&named, left, share);
+        let explained = self.explained(posterior, chosen);
+        let verdict = verdict(&named, left, explained);
         let description = match (&bent, adequacy.left()) {
             (Some(level), _) => level.description(),
             (None, true) => adequacy.description(),
@@ -357,17 +358,27 @@ impl Case<'_> {
         })
     }
 
+    /// Share of the weighted misfit of the present simulation that the chosen set takes away. While
+    /// something is left, several causes may imitate an unknown one together: they count as nothing.
+    fn explained(&self, posterior: &Posterior, chosen: &Fit) -> f64 {
+        let nothing = posterior.sets.iter().find(|s| s.0.point.set.is_empty());
+        match (nothing, chosen.point.set.len()) {
+            (Some(set), 1) => 1.0 - chosen.misfit / set.0.misfit.max(f64::MIN_POSITIVE),
+            _ => 0.0,
+        }
+    }
+
     fn nats(&self, posterior: &Posterior, fit: &Fit) -> f64 {
         let nothing = posterior.sets.iter().find(|s| s.0.point.set.is_empty());
         nothing.map_or(0.0, |s| s.0.cost - fit.cost)
     }
 }
 
-fn verdict(named: &Named, left: bool, share: f64) -> Verdict {
+fn verdict(named: &Named, left: bool, explained: f64) -> Verdict {
     match (named.causes.is_empty() && named.groups.is_empty(), left) {
         (true, true) => Verdict::UnknownCause,
         (true, false) => Verdict::Sufficient,
-        (false, true) if share > NOT_THE_STORY => Verdict::UnknownCause,
+        (false, true) if explained < THE_STORY => Verdict::UnknownCause,
         (false, true) => Verdict::PartlyExplained,
         (false, false) if named.causes.is_empty() => Verdict::CannotTell,
         (false, false) => Verdict::Explained,

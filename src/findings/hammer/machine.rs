@@ -13,7 +13,7 @@ use std::sync::Mutex;
 /// Combinations that move the FRF by less than this many standard deviations of its noise are left out.
 const UNSEEN: f64 = 0.3;
 /// At most this many are kept.
-const MOST: usize = 20;
+const MOST: usize = 40;
 
 impl<'a> Machine<'a> {
     /// The machine of `robot` at `joints` (rad); `data` tells what is seen.

@@ -11,13 +11,16 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 
 /// Steps of a descent: while starts compete, on broad peaks, on sharp ones.
-const STEPS: [usize; 3] = [2, 5, 6];
+const STEPS: [usize; 3] = [2, 8, 20];
 /// Suspects that are tried by descent, those of them that go on, singles continued to pairs, partners
 /// tried for each.
-const TRIED: usize = 14;
-const KEPT: usize = 7;
-const BASES: usize = 3;
-const PARTNERS: usize = 4;
+const TRIED: usize = 40;
+const KEPT: usize = 12;
+const BASES: usize = 4;
+const PARTNERS: usize = 6;
+/// Rounds in which the best set is continued on sharp peaks, and causes of a set at most.
+const ROUNDS: usize = 2;
+const LARGEST: usize = 2;
 /// Nats that a partner must promise to be tried.
 const PROMISE: f64 = 4.0;
 /// How far a partner may be from its start for the straight line to count, in starts.
@@ -63,12 +66,39 @@ pub fn search(
     for fits in [&singles, &pairs] {
         points.extend(hopeful(fits, &nothing).map(|f| f.point.clone()));
     }
-    let sharpened = points
+    let mut fits = sharpened(machine, sharp, points);
+    for _ in 0..ROUNDS {
+        let more = continued(machine, suspects, sharp, &fits);
+        if more.is_empty() {
+            break;
+        }
+        fits.extend(sharpened(machine, sharp, more));
+    }
+    Ok(Found { fits })
+}
+
+fn sharpened(machine: &Machine, sharp: &Data, points: Vec<Point>) -> Vec<Fit> {
+    let fits = points
         .into_par_iter()
         .map(|point| fit(machine, sharp, point, STEPS[2]).ok())
         .collect::<Vec<_>>();
-    let fits: Vec<Fit> = sharpened.into_iter().flatten().collect();
-    Ok(Found { fits })
+    fits.into_iter().flatten().collect()
+}
+
+/// What only sharp peaks show beside the best set (dampings above all), where it is not yet compared.
+fn continued(machine: &Machine, suspects: &[Suspect], sharp: &Data, fits: &[Fit]) -> Vec<Point> {
+    let best = fits.iter().max_by(|a, b| a.evidence.total_cmp(&b.evidence));
+    let Some(best) = best.filter(|best| best.point.set.len() < LARGEST) else {
+        return Vec::new();
+    };
+    let new = |point: &Point| !fits.iter().any(|fit| same_set(&fit.point, point));
+    let partners = partners(machine, suspects, sharp, best).into_iter();
+    partners.filter(new).collect()
+}
+
+fn same_set(a: &Point, b: &Point) -> bool {
+    let held = |s: &Suspect| b.set.iter().any(|other| same(s, other));
+    a.set.len() == b.set.len() && a.set.iter().all(held)
 }
 
 /// The fits that may still turn out best.
@@ -130,11 +160,23 @@ fn pairs(machine: &Machine, suspects: &[Suspect], data: &Data, singles: &[Fit]) 
         .collect();
     let tried = points
         .into_par_iter()
-        .map(|point| fit(machine, data, point, STEPS[1]).ok())
+        .map(|point| pair(machine, data, point))
         .collect::<Vec<_>>();
     let mut tried: Vec<Fit> = tried.into_iter().flatten().collect();
     sort(&mut tried);
     tried
+}
+
+/// A pair from where its first cause left the nuisances, and from nuisances as stated.
+fn pair(machine: &Machine, data: &Data, point: Point) -> Option<Fit> {
+    let fresh = Point {
+        theta: Vec::new(),
+        ..point.clone()
+    };
+    let begun = [point, fresh].into_iter();
+    let begun = begun.filter_map(|point| fit(machine, data, point, STEPS[0]).ok());
+    let best = begun.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+    fit(machine, data, best.point, STEPS[1]).ok()
 }
 
 fn partners(machine: &Machine, suspects: &[Suspect], data: &Data, base: &Fit) -> Vec<Point> {
