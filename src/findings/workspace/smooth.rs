@@ -6,6 +6,9 @@ use crate::experiments::workspace::Response;
 use crate::fit::weighing::Weighing;
 use crate::ground::spatial::{M3, V3};
 
+/// With so many parts free at once each is held this much closer: noise must not be fitted.
+const NARROW: f64 = 0.2;
+
 /// Slopes without their noise, m/N.
 pub struct Smooth {
     /// As they are read.
@@ -40,7 +43,11 @@ pub fn smooth(
     }
     let readings = weighing.measured() - weighing.whiten(|p, d| scene.base.slopes[p][d]);
     let mut normal = design.tr_mul(&design);
-    let prior = |j: usize| if j < k { spread } else { parts[j - k].prior };
+    let width = if suspect.is_empty() { NARROW } else { 1.0 };
+    let prior = |j: usize| match j < k {
+        true => spread,
+        false => width * parts[j - k].prior,
+    };
     (0..normal.nrows()).for_each(|j| normal[(j, j)] += prior(j).powi(-2));
     let Some(root) = normal.cholesky() else {
         let same = || scene.base.slopes.clone();
