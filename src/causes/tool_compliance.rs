@@ -1,8 +1,9 @@
 //! The tool or its mount bends.
 
 use super::contract::{Blame, Card, Cause, Sight};
-use super::places::{Said, add_axes_along, added, drive_compliance, said_axes};
+use super::places::{Said, add_axes_along, added, drive_compliance, said_added, said_axes};
 use crate::effects::Family;
+use crate::ground::spatial::{M3, V3, dot, normals, scale, sub};
 use crate::robot::Robot;
 
 /// See the card.
@@ -22,7 +23,10 @@ const CARD: Card = Card {
         added("about_x", "compliance about x of the tool"),
         added("about_y", "compliance about y of the tool"),
         added("about_z", "compliance about z of the tool"),
-        added("across", "compliance about x and y of the tool alike"),
+        added(
+            "across",
+            "compliance about both axes across the line from the flange to the tool centre point alike",
+        ),
     ],
 };
 
@@ -32,8 +36,7 @@ impl Cause for ToolCompliance {
     }
 
     fn sites(&self, robot: &Robot) -> Vec<String> {
-        let lever = [0, 1, 2].map(|k| robot.tool.tcp[k] - robot.tool.flange[k]);
-        let reaches = lever.iter().any(|x| x.abs() > 1e-6);
+        let reaches = dot(lever(robot), lever(robot)) > 0.5;
         reaches.then(|| "tool".to_string()).into_iter().collect()
     }
 
@@ -53,19 +56,27 @@ impl Cause for ToolCompliance {
     }
 
     fn alter(&self, robot: &mut Robot, site: &str, amounts: &[f64]) {
-        let (last, flange) = (robot.dof(), robot.tool.flange);
+        let at = (robot.dof(), robot.tool.flange);
         let frame = robot.tool.rotation;
-        let own = total(amounts);
-        add_axes_along(robot, site, (last, flange), &frame, &own);
+        add_axes_along(robot, site, at, &frame, &amounts[..3]);
+        let across = columns(normals(lever(robot)));
+        let both = [amounts[3], amounts[3], 0.0];
+        add_axes_along(robot, &format!("{site}-across"), at, &across, &both);
     }
 
     fn said(&self, _robot: &Robot, _site: &str, amounts: &[f64]) -> Said {
-        said_axes(&total(amounts))
+        let across = said_added("stiffness_across", amounts[3]);
+        said_axes(amounts).into_iter().chain(across).collect()
     }
 }
 
-/// About x, y and z.
-fn total(amounts: &[f64]) -> [f64; 3] {
-    let across = amounts[3];
-    [amounts[0] + across, amounts[1] + across, amounts[2]]
+/// From the flange to the tool centre point, unit length.
+fn lever(robot: &Robot) -> V3 {
+    let lever = sub(robot.tool.tcp, robot.tool.flange);
+    scale(1.0 / dot(lever, lever).sqrt().max(1e-9), lever)
+}
+
+/// Two vectors as the first columns of a matrix.
+fn columns((a, b): (V3, V3)) -> M3 {
+    [0, 1, 2].map(|k| [a[k], b[k], 0.0])
 }

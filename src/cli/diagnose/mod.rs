@@ -9,6 +9,7 @@ mod load_cycle;
 mod page;
 mod tables;
 mod workspace;
+mod workspace_figures;
 
 use super::output::{print, tell};
 use super::progress::Progress;

@@ -1,22 +1,25 @@
 //! A diagnosed workspace test: its figures and its extended robot.
 
 use super::kind::{Diagnosed, Source};
+use super::workspace_figures as figures;
+use crate::findings::Answer;
 use crate::findings::workspace::{WorkspaceDiagnosis, diagnose};
-use crate::findings::{Answer, Verdict};
 use crate::fit::force_steps::Setup;
+use crate::fit::validation::mean_and_max;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::M3;
 use crate::measurement::workspace_test::{DIRECTIONS, WorkspaceTest};
 use crate::robot::load::{Loaded, load};
 use crate::robot::{Robot, check, write};
-use crate::sheet::chart::{Axis, Chart, Panel, Series};
+use crate::sheet::chart::Chart;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
-struct Workspace {
-    test: WorkspaceTest,
+/// A test with its robot and what was found.
+pub(super) struct Workspace {
+    pub(super) test: WorkspaceTest,
     robot: Loaded,
-    found: WorkspaceDiagnosis,
+    pub(super) found: WorkspaceDiagnosis,
 }
 
 /// Diagnoses a file of this kind.
@@ -76,11 +79,11 @@ impl Diagnosed for Workspace {
     }
 
     fn before_and_after(&self) -> Vec<Chart> {
-        vec![stiffness(self), errors(self)]
+        figures::before_and_after(self)
     }
 
     fn remaining(&self) -> Vec<Chart> {
-        vec![remaining(self)]
+        vec![figures::remaining(self)]
     }
 
     fn robot(&self) -> Option<&Robot> {
@@ -111,6 +114,18 @@ impl Diagnosed for Workspace {
         let limit = |l: &crate::findings::workspace::Limit| json!({"effect": l.effect, "site": l.site, "unnoticed_excess_of_compliance": l.unnoticed});
         let limits = self.found.limits.iter().map(limit);
         map.insert("limits".into(), Value::Array(limits.collect()));
+        let error = |d: usize| {
+            let before = mean_error(self, &self.found.simulated, d)?;
+            let after = mean_error(self, &self.found.unseen, d)?;
+            Some(
+                json!({"direction": DIRECTIONS[d], "before_percent": before, "after_percent": after}),
+            )
+        };
+        let errors = (0..3).filter_map(error).collect();
+        map.insert(
+            "stiffness_error_at_unseen_points".into(),
+            Value::Array(errors),
+        );
         map
     }
 }
@@ -139,95 +154,20 @@ impl Workspace {
         format!("{label}{}", write::write(&robot))
     }
 
-    fn along(&self, direction: usize) -> Vec<&Setup> {
+    /// The set-ups loaded in one direction.
+    pub(super) fn along(&self, direction: usize) -> Vec<&Setup> {
         let all = self.found.shapes.setups.iter();
         all.filter(|s| s.direction == direction).collect()
     }
 }
 
-fn at(slopes: &[M3], setup: &Setup, k: usize) -> f64 {
-    slopes[setup.point][setup.direction][k]
-}
-
-fn stiffness(result: &Workspace) -> Chart {
-    let panel = |d: usize| {
-        let own = result.along(d);
-        let bars = |slopes: &[M3]| {
-            own.iter()
-                .map(|s| 1e-3 / at(slopes, s, d))
-                .collect::<Vec<_>>()
-        };
-        let measured = own
-            .iter()
-            .map(|s| s.lines[d].map_or(f64::NAN, |l| 1e-3 / l.slope));
-        let y = Axis::new(format!("Stiffness in {}", DIRECTIONS[d]), "N/mm");
-        Panel::new(Axis::new("Point", ""), y)
-            .over(own.iter().map(|s| format!("P{}", s.point + 1)))
-            .with(Series::bars("measured", &measured.collect::<Vec<_>>()))
-            .with(Series::bars("simulated", &bars(&result.found.simulated)))
-            .with(Series::bars(
-                "with the causes",
-                &bars(&result.found.explained),
-            ))
+/// Mean error of the simulated stiffness along the force, %, by direction.
+fn mean_error(result: &Workspace, slopes: &[M3], direction: usize) -> Option<f64> {
+    let own = result.along(direction);
+    let error = |s: &&Setup| {
+        let measured = s.lines[direction]?.slope;
+        let simulated = slopes[s.point][direction][direction];
+        Some(100.0 * (measured / simulated - 1.0)).filter(|e| e.is_finite())
     };
-    let chart = Chart::new(
-        format!("{}-diagnosis", result.test.stem()),
-        "Stiffness at the points: measured, simulated, and with the causes in the model",
-        "Force over displacement along the same direction.",
-    );
-    let panels = (0..3).filter(|d| !result.along(*d).is_empty()).map(panel);
-    panels
-        .fold(chart, Chart::with)
-        .synthetic(result.test.facts.synthetic)
-}
-
-fn errors(result: &Workspace) -> Chart {
-    let panel = |k: usize| {
-        let own: Vec<&Setup> = result
-            .found
-            .shapes
-            .setups
-            .iter()
-            .filter(|s| s.lines[k].is_some())
-            .collect();
-        let bars = |slopes: &[M3]| {
-            let error = |s: &&Setup| s.lines[k].map_or(0.0, |l| 1e9 * (l.slope - at(slopes, s, k)));
-            own.iter().map(error).collect::<Vec<f64>>()
-        };
-        let y = Axis::new(format!("Error in {}", DIRECTIONS[k]), "µm/kN");
-        Panel::new(Axis::new("Point and direction of the force", ""), y)
-            .over(
-                own.iter()
-                    .map(|s| format!("{}{}", s.point + 1, DIRECTIONS[s.direction])),
-            )
-            .with(Series::bars(
-                "present simulation",
-                &bars(&result.found.simulated),
-            ))
-            .with(Series::bars(
-                "with the causes",
-                &bars(&result.found.explained),
-            ))
-    };
-    let chart = Chart::new(
-        format!("{}-errors", result.test.stem()),
-        "Measured less simulated displacement, by component",
-        "Every component of the displacement under force in every direction.",
-    );
-    (0..3)
-        .map(panel)
-        .filter(|p| !p.categories.is_empty())
-        .fold(chart, Chart::with)
-        .synthetic(result.test.facts.synthetic)
-}
-
-fn remaining(result: &Workspace) -> Chart {
-    let mut rest = errors(result);
-    rest.name = format!("{}-remaining", result.test.stem());
-    rest.title = "What no named cause explains".into();
-    for panel in &mut rest.panels {
-        panel.series.remove(0);
-    }
-    let _ = Verdict::Sufficient;
-    rest
+    mean_and_max(own.iter().filter_map(error)).map(|found| found.0)
 }

@@ -44,15 +44,15 @@ impl<'a> Case<'a> {
     pub(super) fn of(test: &'a WorkspaceTest, robot: &'a Robot) -> Self {
         let first = Self::about(test, robot, &[]);
         let best = &first.posterior.sets[0].0;
-        let blamed = |c: &usize| first.seats.columns[*c].instrument;
-        let suspect: Vec<usize> = first.columns_of(best).into_iter().filter(blamed).collect();
-        match suspect.is_empty() {
-            true => first,
-            false => Self::about(test, robot, &suspect),
+        let columns = first.columns_of(best);
+        let blamed = columns.iter().any(|c| first.seats.columns[*c].instrument);
+        match blamed {
+            false => first,
+            true => Self::about(test, robot, &columns),
         }
     }
 
-    /// With the columns of instruments that are suspect.
+    /// With the columns of the causes that are suspect.
     fn about(test: &'a WorkspaceTest, robot: &'a Robot, suspect: &[usize]) -> Self {
         let points = &test.facts.joint_angles;
         let shapes = Shapes::of(test);
@@ -66,16 +66,16 @@ impl<'a> Case<'a> {
             .nominal_rel_std
             .unwrap_or(DEFAULT_SPREAD)
             .max(1e-6);
-        for _ in 0..2 {
+        for _ in 0..3 {
             let smooth = smooth(&scene, &seats, &weighing, (&response, spread), suspect);
             let size = |p: usize, d: usize| {
                 let error: V3 =
-                    std::array::from_fn(|k| smooth[p][d][k] - scene.base.slopes[p][d][k]);
-                (MODEL * norm(&smooth[p][d])).hypot(LAW * norm(&error))
+                    std::array::from_fn(|k| smooth.read[p][d][k] - scene.base.slopes[p][d][k]);
+                (MODEL * norm(&smooth.read[p][d])).hypot(LAW * norm(&error))
             };
             weighing.tolerate(size);
-            weighing.about_slopes(|p, d| smooth[p][d]);
-            scene.reference = smooth;
+            weighing.about_slopes(|p, d| smooth.read[p][d]);
+            scene.reference = smooth.real;
             seats.read_again(&scene, &shapes);
         }
         let left = shapes.left();

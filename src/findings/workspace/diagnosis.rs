@@ -57,7 +57,12 @@ impl Case<'_> {
             .copied();
         let (causes, groups) = self.name(&chosen);
         let mut answer = Answer {
-            verdict: verdict(&causes, &groups, &adequacy, strange.is_some()),
+            verdict: verdict(
+                &causes,
+                &groups,
+                &adequacy,
+                strange.is_some() || scattered(&causes),
+            ),
             discrepancy: self.discrepancy(),
             causes,
             groups,
@@ -99,6 +104,12 @@ impl Case<'_> {
         }
         robot
     }
+}
+
+/// Whether so many points are blamed that it is none of them: stiffness depends on the posture.
+fn scattered(causes: &[Cause]) -> bool {
+    let points = causes.iter().filter(|c| c.site.starts_with("point"));
+    points.count() > 2
 }
 
 fn verdict(causes: &[Cause], groups: &[Group], adequacy: &Adequacy, strange: bool) -> Verdict {

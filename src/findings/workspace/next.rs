@@ -53,25 +53,37 @@ struct Probe {
 
 /// Below this the candidates stay as they are, nats.
 const TELLS: f64 = 3.0;
+/// More separation than this is no better, nats.
+const ENOUGH: f64 = 30.0;
 /// No model is right to better than this share of a deflection.
 const MODEL: f64 = 0.01;
 
-/// The best proposal in words, with the separation that it would give.
+/// The best proposal in words, with the separation that it would give: the one that tells the first
+/// suspect from most others.
 pub fn would_tell(known: &Known, suspects: &[Suspect]) -> String {
-    let mut best: (f64, String) = (0.0, String::new());
+    let mut best: (f64, Vec<f64>, String) = (0.0, Vec::new(), String::new());
     for probe in probes(known) {
-        let nats = separation(known, &probe, suspects);
-        if nats > 1.1 * best.0 {
-            best = (nats, probe.text);
+        let nats = separations(known, &probe, suspects);
+        let worth = nats.iter().map(|n| n.min(ENOUGH)).sum();
+        if worth > 1.1 * best.0 {
+            best = (worth, nats, probe.text);
         }
     }
-    match best.0 > TELLS {
-        true => format!(
-            "{} (simulated, this separates them by {:.0} nats)",
-            best.1,
-            best.0.min(9999.0)
+    let told: Vec<f64> = best.1.into_iter().filter(|n| *n > TELLS).collect();
+    let least = told.iter().fold(f64::INFINITY, |m, n| n.min(m));
+    let nats = if least > 999.0 {
+        "more than 999".into()
+    } else {
+        format!("{least:.0}")
+    };
+    match told.len() {
+        0 => "an axis test (`ident stiffness`) of each candidate: other postures, another tool, sensors on foot and link and dead weights would not, as simulated".into(),
+        n if n + 1 == suspects.len() => format!("{} (simulated, this separates them by {nats} nats)", best.2),
+        n => format!(
+            "{} (simulated, this separates the first from {n} of the {} others by {nats} nats), then an axis test (`ident stiffness`)",
+            best.2,
+            suspects.len() - 1
         ),
-        false => "nothing among other postures, another tool, sensors on foot and link, dead weights: an axis test (`ident stiffness`) of each candidate".into(),
     }
 }
 
@@ -184,8 +196,8 @@ fn turned(robot: &Robot, q: &[f64], by: [f64; 6]) -> Vec<f64> {
     q.iter().enumerate().map(joint).collect()
 }
 
-/// Nats by which the first suspect would stand out from the one that imitates it best.
-fn separation(known: &Known, probe: &Probe, suspects: &[Suspect]) -> f64 {
+/// Nats by which the first suspect and each other would stand out from one another.
+fn separations(known: &Known, probe: &Probe, suspects: &[Suspect]) -> Vec<f64> {
     let scene = Scene::seen_at(&probe.robot, &probe.points, probe.sensor);
     let mut weighing = Weighing::new(
         &complete(&known.shapes.setups, probe.complete),
@@ -220,22 +232,24 @@ fn separation(known: &Known, probe: &Probe, suspects: &[Suspect]) -> f64 {
         columns: rows(&known.springs.columns, &springs),
         spread: known.springs.spread,
     };
-    let mut least = f64::INFINITY;
-    for other in 1..suspects.len() {
-        for (a, b) in [(0, other), (other, 0)] {
-            let signal = columns[a].iter().zip(&suspects[a].amounts);
-            let zero = DVector::zeros(springs.columns.nrows());
-            let signal = signal.fold(zero, |sum, (column, x)| sum + column * *x);
-            let rival = DMatrix::from_columns(&columns[b]);
-            let n = rival.ncols();
-            let wide = (vec![1e6; n], vec![f64::MIN; n]);
-            let field = Field::new(&signal, &rival, &springs, wide);
-            let all: Vec<usize> = (0..n).collect();
-            let left = 0.5 * field.base - field.amounts(&all, |_| 1.0).nats;
-            least = least.min(left.max(0.0));
-        }
-    }
-    least
+    let left = |a: usize, b: usize| {
+        let signal = columns[a].iter().zip(&suspects[a].amounts);
+        let zero = DVector::zeros(springs.columns.nrows());
+        let signal = signal.fold(zero, |sum, (column, x)| sum + column * *x);
+        imitated(&signal, &columns[b], &springs)
+    };
+    let others = 1..suspects.len();
+    others.map(|b| left(0, b).min(left(b, 0))).collect()
+}
+
+/// Nats of a signal that a rival, its amounts free, leaves.
+fn imitated(signal: &DVector<f64>, rival: &[DVector<f64>], springs: &Springs) -> f64 {
+    let rival = DMatrix::from_columns(rival);
+    let n = rival.ncols();
+    let wide = (vec![1e6; n], vec![f64::MIN; n]);
+    let field = Field::new(signal, &rival, springs, wide);
+    let all: Vec<usize> = (0..n).collect();
+    (0.5 * field.base - field.amounts(&all, |_| 1.0).nats).max(0.0)
 }
 
 /// The set-ups with every component read, if asked for.

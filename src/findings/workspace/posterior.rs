@@ -47,10 +47,11 @@ impl Posterior {
         let mut found = Vec::new();
         for (set, p) in &self.sets {
             let mut extra = set.seats.iter().filter(|s| !rest.contains(s));
-            if let (Some(other), None) = (extra.next(), extra.next()) {
-                if set.seats.len() == rest.len() + 1 && *other != seat {
-                    found.push((*other, set, p / (p + own)));
-                }
+            if let (Some(other), None) = (extra.next(), extra.next())
+                && set.seats.len() == rest.len() + 1
+                && *other != seat
+            {
+                found.push((*other, set, p / (p + own)));
             }
         }
         found

@@ -49,10 +49,10 @@ pub fn search(seats: &Seats, field: &Field) -> Vec<Set> {
     }
     singles.sort_by(|a, b| b.0.total_cmp(&a.0));
     book.keep(&singles);
-    let leaders: Vec<usize> = book.kept.iter().take(LEADERS).copied().collect();
-    for (at, f) in leaders.iter().enumerate() {
-        for g in book.kept[at + 1..].to_vec() {
-            book.add(&[*f, g]);
+    let kept = book.kept.clone();
+    for (at, f) in kept.iter().take(LEADERS).enumerate() {
+        for g in &kept[at + 1..] {
+            book.add(&[*f, *g]);
         }
     }
     book.grow();

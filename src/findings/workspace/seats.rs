@@ -144,6 +144,7 @@ impl Seats {
                 (true, false) => SUSPECT - 6.0_f64.ln(),
                 (true, true) => LIKELY,
                 (false, true) => AGAIN.max(first),
+                (false, false) if faulty(own, &seats[..at], &self.seats) => first + SHARED,
                 (false, false) if name == "sensor_gain" && own.site == "sensor" => first + SHARED,
                 (false, false) => first,
             };
@@ -159,6 +160,13 @@ const LIKELY: f64 = -1.5;
 const SUSPECT: f64 = -1.5;
 /// Several sensors hardly ever share an error that one load cell explains.
 const SHARED: f64 = -2.0;
+
+/// Whether one point is blamed where another one is already: few set-ups slip.
+fn faulty(seat: &Seat, others: &[usize], all: &[Seat]) -> bool {
+    let name = seat.cause.card().name;
+    let same = |s: &usize| all[*s].cause.card().name == name;
+    seat.site.starts_with("point") && others.iter().any(same)
+}
 
 /// Logarithm of the odds of a kind of cause, wherever it sits.
 fn odds(blame: Blame, stranger: bool) -> f64 {
