@@ -1,6 +1,7 @@
 //! `ident diagnose`: what the simulation gets wrong, and why.
 
 mod hammer;
+mod hammer_figures;
 mod json;
 mod kind;
 mod load_cycle;
