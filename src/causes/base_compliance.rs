@@ -60,6 +60,10 @@ impl Cause for BaseCompliance {
         vec!["base".to_string()]
     }
 
+    fn heard(&self) -> usize {
+        3
+    }
+
     fn blame(&self) -> Blame {
         Blame::Structure
     }

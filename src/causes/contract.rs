@@ -117,6 +117,11 @@ pub trait Cause: Sync {
         vec![(0..self.card().amounts.len()).collect()]
     }
 
+    /// How many of its leading amounts a hammer test can tell; the others stay zero there.
+    fn heard(&self) -> usize {
+        self.card().amounts.len()
+    }
+
     /// Whether without load it stays where the load before has left it.
     fn remembers(&self, _amounts: &[f64]) -> bool {
         false

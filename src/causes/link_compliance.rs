@@ -80,6 +80,10 @@ impl Cause for LinkCompliance {
         (1..robot.dof()).map(|i| format!("link{i}")).collect()
     }
 
+    fn heard(&self) -> usize {
+        3
+    }
+
     fn blame(&self) -> Blame {
         Blame::Structure
     }

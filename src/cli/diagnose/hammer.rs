@@ -1,5 +1,6 @@
 //! A diagnosed hammer test: its figures and its extended robot.
 
+use super::hammer_figures;
 use super::kind::{Diagnosed, Source};
 use crate::findings::Answer;
 use crate::findings::hammer::{Diagnosis, diagnose};
@@ -40,6 +41,18 @@ pub fn diagnosed(path: &Path) -> Outcome<Box<dyn Diagnosed>> {
     }))
 }
 
+impl HammerDiagnosis {
+    fn stem(&self) -> String {
+        let stem = self.path.file_stem().unwrap_or_default();
+        format!("{}-diagnosis", stem.to_string_lossy())
+    }
+
+    fn labelled(&self, charts: Vec<Chart>) -> Vec<Chart> {
+        let synthetic = self.record.synthetic;
+        charts.into_iter().map(|c| c.synthetic(synthetic)).collect()
+    }
+}
+
 impl Diagnosed for HammerDiagnosis {
     fn answer(&self) -> &Answer {
         &self.found.answer
@@ -58,11 +71,12 @@ impl Diagnosed for HammerDiagnosis {
     }
 
     fn before_and_after(&self) -> Vec<Chart> {
-        Vec::new()
+        let charts = hammer_figures::before_and_after(&self.found, &self.stem());
+        self.labelled(charts)
     }
 
     fn remaining(&self) -> Vec<Chart> {
-        Vec::new()
+        self.labelled(hammer_figures::remaining(&self.found, &self.stem()))
     }
 
     fn robot(&self) -> Option<&Robot> {

@@ -2,6 +2,7 @@
 
 mod campaign;
 mod hammer;
+mod hammer_figures;
 mod joint_motion;
 mod json;
 mod kind;

@@ -23,7 +23,7 @@ pub struct Adequacy {
     pub at_hz: f64,
     /// Highest line, Hz.
     pub to_hz: f64,
-    /// The pair in which it is largest, as `zz`: force first.
+    /// The pair in which it is largest, as `zz`: acceleration first.
     pub pair: String,
     /// Share of what is left that lies in that window.
     pub concentrated: f64,

@@ -120,10 +120,10 @@ impl Data {
         self.rows() as f64 / self.correlated
     }
 
-    /// Name of a pair: output by input, as in `zx`.
+    /// Name of a pair, output before input: `zx` is the acceleration along z under a force along x.
     pub fn name(&self, pair: usize) -> String {
         let pair = &self.pairs[pair];
-        format!("{}{}", AXES[pair.input], AXES[pair.output])
+        format!("{}{}", AXES[pair.output], AXES[pair.input])
     }
 }
 

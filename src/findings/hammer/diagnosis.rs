@@ -57,7 +57,15 @@ pub struct Diagnosis {
     pub extended: Option<Robot>,
     /// The FRFs, hits judged.
     pub frf: HammerFrf,
-    pub debug: String,
+    /// How the FRF depends on the force; none where the hits cannot tell.
+    pub level: Option<Linearity>,
+}
+
+impl Diagnosis {
+    /// Whether anything was named: else the extended model is the present one.
+    pub fn causes_named(&self) -> bool {
+        !(self.answer.causes.is_empty() && self.answer.groups.is_empty())
+    }
 }
 
 /// Everything that the steps of a diagnosis share.
@@ -288,26 +296,11 @@ impl Case<'_> {
         let (left_rms, _) = discrepancy::between(&self.sharp, &after);
         let noise = discrepancy::noise(&self.sharp);
         let share = ((left_rms.powi(2) - noise.powi(2)) / rms.powi(2)).clamp(0.0, 1.0);
-        let debug = format!(
-            "whole {:.2} local {:.2} at {:.1} conc {:.2} level {:?} chosen {}",
-            adequacy.whole,
-            adequacy.local,
-            adequacy.at_hz,
-            adequacy.concentrated,
-            level,
-            chosen
-                .point
-                .each()
-                .iter()
-                .map(|(s, a)| format!("{}@{}{a:.3?}", s.name(), s.site))
-                .collect::<Vec<_>>()
-                .join("+")
-        );
-        let bent = level.filter(Linearity::broken);
+        let bent = level.as_ref().filter(|level| level.broken());
         let left = adequacy.left() || bent.is_some();
         let explained = self.explained(posterior, chosen);
         let verdict = verdict(&named, left, explained);
-        let description = match (&bent, adequacy.left()) {
+        let description = match (bent, adequacy.left()) {
             (Some(level), _) => level.description(),
             (None, true) => adequacy.description(),
             (None, false) => "nothing above the noise".into(),
@@ -354,7 +347,7 @@ impl Case<'_> {
             after,
             extended,
             frf: self.frf,
-            debug,
+            level,
         })
     }
 

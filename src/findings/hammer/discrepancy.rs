@@ -62,3 +62,14 @@ pub fn spectrum(data: &Data, simulated: &Curves) -> Vec<[f64; 2]> {
     };
     data.hz().into_iter().enumerate().map(line).collect()
 }
+
+/// Standard deviation of the measured values, root mean square over the pairs, over frequency.
+pub fn noise_spectrum(data: &Data) -> Vec<[f64; 2]> {
+    let line = |(k, hz): (usize, f64)| {
+        let pairs = data.pairs.iter();
+        let sum: f64 = pairs.map(|p| 2.0 / p.weight[k].powi(2)).sum();
+        let count = data.correlated * data.pairs.len().max(1) as f64;
+        [hz, (sum / count).sqrt()]
+    };
+    data.hz().into_iter().enumerate().map(line).collect()
+}

@@ -239,10 +239,10 @@ impl Fit {
     }
 
     /// Nats that one more column (weighted rows) would explain, everything else following, when its
-    /// amount may be at most `most` either way.
-    pub fn promise(&self, column: &DVector<f64>, most: f64) -> f64 {
+    /// amount may be at most `most` either way; and that amount.
+    pub fn promise(&self, column: &DVector<f64>, most: f64) -> (f64, f64) {
         let Some(factor) = self.precision.clone().cholesky() else {
-            return 0.0;
+            return (0.0, 0.0);
         };
         let across = self.slopes.tr_mul(column);
         let own = column.norm_squared() - across.dot(&factor.solve(&across));
@@ -256,7 +256,7 @@ impl Fit {
         let slope = self.slopes.tr_mul(&self.residual) - DVector::from_vec(x);
         let pull = column.dot(&self.residual) - across.dot(&factor.solve(&slope));
         let amount = (pull / own.max(1e-12)).clamp(-most, most);
-        amount * pull - 0.5 * amount * amount * own
+        (amount * pull - 0.5 * amount * amount * own, amount)
     }
 }
 

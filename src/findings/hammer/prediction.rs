@@ -3,6 +3,7 @@
 use super::data::Data;
 use super::nuisance::{INSTRUMENT, Known, Nuisance, UPPER, instrument_slope, read};
 use super::structure::Structure;
+use crate::causes::Amount;
 use crate::causes::Cause;
 use crate::causes::contract::Accelerance;
 use crate::effects::Family;
@@ -35,9 +36,14 @@ impl Suspect {
         self.cause.card().name
     }
 
+    /// The amounts that a hammer test can tell.
+    fn amounts(&self) -> &'static [Amount] {
+        &self.cause.card().amounts[..self.cause.heard()]
+    }
+
     /// Spread of each amount: the prior's standard deviation, as far as its starts reach.
     pub fn spreads(&self) -> Vec<f64> {
-        let amounts = self.cause.card().amounts.iter();
+        let amounts = self.amounts().iter();
         amounts
             .map(|a| a.starts.iter().fold(0.0_f64, |m, s| m.max(s.abs())))
             .collect()
@@ -45,7 +51,7 @@ impl Suspect {
 
     /// Bounds of each amount, in spreads.
     pub fn bounds(&self) -> Vec<[f64; 2]> {
-        let amounts = self.cause.card().amounts.iter().zip(self.spreads());
+        let amounts = self.amounts().iter().zip(self.spreads());
         amounts
             .map(|(a, spread)| {
                 let [low, high] = a.bounds.map(|b| b / spread);
@@ -56,7 +62,7 @@ impl Suspect {
 
     /// Where to start, in spreads: the first of every amount, the second of every amount, ...
     pub fn starts(&self) -> Vec<Vec<f64>> {
-        let amounts = self.cause.card().amounts;
+        let amounts = self.amounts();
         let count = amounts.iter().map(|a| a.starts.len()).max().unwrap_or(0);
         let at = |j: usize| {
             let each = amounts.iter().zip(self.spreads());

@@ -4,6 +4,7 @@
 use super::data::Data;
 use super::map::{Fit, fit, measured, weights};
 use super::prediction::{Machine, Point, Suspect, stack};
+use super::unseen::without;
 use crate::causes::{self, Sight};
 use crate::ground::problem::Outcome;
 use crate::robot::Robot;
@@ -18,6 +19,8 @@ const TRIED: usize = 40;
 const KEPT: usize = 12;
 const BASES: usize = 4;
 const PARTNERS: usize = 6;
+/// A start this near shows the tangent.
+const NEAR: f64 = 0.05;
 /// Rounds in which the best set is continued on sharp peaks, and causes of a set at most.
 const ROUNDS: usize = 2;
 const LARGEST: usize = 2;
@@ -74,7 +77,20 @@ pub fn search(
         }
         fits.extend(sharpened(machine, sharp, more));
     }
+    let parts = parts(&fits);
+    fits.extend(sharpened(machine, sharp, parts));
     Ok(Found { fits })
+}
+
+/// The best pairs with either cause left out, from where they ended: a pair is no better than its
+/// parts only because these did not arrive.
+fn parts(fits: &[Fit]) -> Vec<Point> {
+    let mut best: Vec<&Fit> = fits.iter().collect();
+    best.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+    let pairs = best.into_iter().take(2).filter(|f| f.point.set.len() > 1);
+    pairs
+        .flat_map(|f| f.point.set.iter().map(|s| without(&f.point, s)))
+        .collect()
 }
 
 fn sharpened(machine: &Machine, sharp: &Data, points: Vec<Point>) -> Vec<Fit> {
@@ -209,28 +225,34 @@ pub fn promise(
         .zip(base.residual.iter())
         .map(|((w, m), r)| m * w - r)
         .collect();
-    let along = |start: &Vec<f64>| {
-        let point = base.point.and(suspect, start);
+    let along = |start: &Vec<f64>, share: f64| {
+        let scaled: Vec<f64> = start.iter().map(|s| s * share).collect();
+        let point = base.point.and(suspect, &scaled);
         let nuisance = machine.nuisance(&point).ok()?;
         let mut full = point.clone();
         full.theta.resize(nuisance.len(), 0.0);
         let mut rows = Vec::with_capacity(weights.len());
-        stack(
-            data,
-            &machine.predict(&nuisance, &full, data).ok()?,
-            &mut rows,
-        );
-        let column = rows
-            .iter()
-            .zip(&weights)
-            .zip(&now)
-            .map(|((p, w), now)| p * w - now);
+        let shown = machine.predict(&nuisance, &full, data).ok()?;
+        stack(data, &shown, &mut rows);
+        let column = rows.iter().zip(&weights).zip(&now);
+        let column = column.map(|((p, w), now)| p * w - now);
         let column = DVector::from_iterator(weights.len(), column);
-        Some((base.promise(&column, REACH), point))
+        let (nats, times) = base.promise(&column, REACH / share);
+        let amounts: Vec<f64> = scaled.iter().map(|s| s * times).collect();
+        Some((nats, base.point.and(suspect, &within(suspect, &amounts))))
     };
-    let tried = suspect
-        .starts()
-        .into_iter()
-        .filter_map(|start| along(&start));
-    tried.max_by(|a, b| a.0.total_cmp(&b.0))
+    let starts = suspect.starts();
+    let near = starts.first().and_then(|start| along(start, NEAR));
+    let tried = starts.iter().filter_map(|start| along(start, 1.0));
+    tried.chain(near).max_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// Amounts inside their bounds, and not quite nothing.
+fn within(suspect: &Suspect, amounts: &[f64]) -> Vec<f64> {
+    let bounds = suspect.bounds().into_iter();
+    let inside = |([low, high], a): ([f64; 2], &f64)| match a.abs() < NEAR {
+        true => NEAR.clamp(low, high),
+        false => a.clamp(low, high),
+    };
+    bounds.zip(amounts).map(inside).collect()
 }
