@@ -14,11 +14,13 @@ pub fn page(result: &dyn Diagnosed, stem: &str) -> Page {
     let subtitle = format!("{}, from {}", result.about(), name.to_string_lossy());
     let mut page = Page::new(format!("Diagnosis of {stem}"), subtitle);
     page.synthetic = source.synthetic;
-    page = page
-        .with(Block::verdict(tone(answer.verdict), sentence(answer)))
-        .with(Block::heading(
-            "What the simulation shows and what was measured",
-        ));
+    page = page.with(Block::verdict(tone(answer.verdict), sentence(answer)));
+    if let Some(said) = result.present() {
+        page = page.with(Block::text(said));
+    }
+    page = page.with(Block::heading(
+        "What the simulation shows and what was measured",
+    ));
     page = charts(page, result.before_and_after());
     page = why(page, answer);
     page = page
