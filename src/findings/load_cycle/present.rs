@@ -67,6 +67,18 @@ fn rms(values: impl Iterator<Item = f64>) -> f64 {
     (sum / n.max(1) as f64).sqrt()
 }
 
+/// A curve without what a spring of another stiffness would make of it.
+fn less_spring(mut curve: Vec<f64>, load: &[f64]) -> Vec<f64> {
+    let own: f64 = load.iter().map(|m| m * m).sum();
+    let cross: f64 = load.iter().zip(&curve).map(|(m, y)| m * y).sum();
+    let share = cross / own.max(f64::MIN_POSITIVE);
+    curve
+        .iter_mut()
+        .zip(load)
+        .for_each(|(y, m)| *y -= share * m);
+    curve
+}
+
 impl Present {
     /// The causes that it has, in the order of its effects.
     pub fn causes(&self) -> Vec<&'static str> {
@@ -171,8 +183,9 @@ impl Case<'_> {
         let whole = model.predict(p, scene);
         let (bare, q) = without(model, p, place.as_slice());
         let bare = bare.predict(&q, scene);
-        let found: Vec<f64> = whole.iter().zip(&bare).map(|(a, b)| a - b).collect();
-        let own = present.beyond_spring(scene, Some(cause));
+        let found = whole.iter().zip(&bare).map(|(a, b)| a - b).collect();
+        let found = less_spring(found, &scene.load);
+        let own = less_spring(present.beyond_spring(scene, Some(cause)), &scene.load);
         let moved = rms(found.iter().zip(&own).map(|(a, b)| a - b));
         let size = rms(found.iter().copied()).max(rms(own.iter().copied()));
         let after = held_out(model, p, &self.data, &self.screen.colour, Split::Cycles);
