@@ -5,6 +5,7 @@ pub mod answer;
 pub mod campaign;
 pub mod gain;
 pub mod load_cycle;
+pub mod next_setups;
 pub mod sentence;
 
 pub use answer::{Answer, Cause, Group, Verdict};
