@@ -8,6 +8,8 @@ mod joint_motion;
 mod json;
 mod kind;
 mod load_cycle;
+mod next;
+mod overview;
 mod page;
 mod tables;
 mod workspace;
@@ -40,11 +42,15 @@ pub const VERB: Verb = Verb {
 #[derive(Args)]
 struct Arguments {
     /// Measurement files (a bare name is looked up under measurements/), or the folder of a campaign
-    #[arg(required = true)]
+    #[arg(required_unless_present = "next")]
     files: Vec<PathBuf>,
     /// Simulate load cycles with the model of a fit that `stiffness` or `diagnose` wrote
     #[arg(long, value_name = "FIT")]
     model: Option<PathBuf>,
+    /// Plan the next N set-ups on the whole robot instead, by the information each would bring; takes a
+    /// workspace file or a folder, without either the only campaign under measurements/
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=50))]
+    next: Option<u16>,
     /// Print one JSON document instead of the account
     #[arg(long)]
     json: bool,
@@ -67,6 +73,9 @@ pub struct One {
 
 fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let arguments: Arguments = parsed(matches);
+    if let Some(count) = arguments.next {
+        return next::run(&arguments, usize::from(count));
+    }
     if let [folder] = &arguments.files[..]
         && folder.is_dir()
     {
