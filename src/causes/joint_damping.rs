@@ -11,7 +11,7 @@ pub struct JointDamping;
 const CARD: Card = Card {
     name: "joint_damping",
     family: Family::Physics,
-    summary: "The drive of an axis is damped more or less than the model says.",
+    summary: "An axis is damped more or less than the model says; `ident damping` identifies all of them together.",
     equation: "d = d₀·eˣ",
     source: "source 000, eq. 2.2: τ = K(θ − q) + D(θ̇ − q̇)",
     shows: &[(

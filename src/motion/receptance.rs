@@ -108,8 +108,8 @@ impl Space {
         for y in &mut self.y {
             for i in (0..self.n).rev() {
                 let mut value = y[i].times(&self.inverse[i]);
-                for j in i + 1..self.n {
-                    value.minus_product(&self.lower[j * self.n + i], &y[j]);
+                for (j, known) in y.iter().enumerate().skip(i + 1) {
+                    value.minus_product(&self.lower[j * self.n + i], known);
                 }
                 y[i] = value;
             }

@@ -33,7 +33,7 @@ fn driving_point(found: &Diagnosis, p: usize, stem: &str) -> Chart {
     Chart::new(
         format!("{stem}-{name}"),
         format!("Accelerance {name}: measured against simulated"),
-        "Driving point at the tool, seen through an exponential window that all three curves share. The band is the 95 % interval of the measured magnitude, small errors of any model included.",
+        "Driving point at the tool, seen through an exponential window that all three curves share. The band is the 95 % interval of the measured magnitude, small errors of any model included. With the causes, what is uncertain although nothing is wrong (stiffnesses, dampings, masses, mounting) lies where it fits best within its spread.",
     )
     .with(magnitude(found, p))
     .with(phase(found, p))
@@ -96,7 +96,10 @@ pub fn remaining(found: &Diagnosis, stem: &str) -> Vec<Chart> {
     let left = |curves: &Curves| spectrum(&found.data, curves);
     let axis = Axis::new("Rms of measured − simulated", "(m/s²)/N").log();
     let mut panel = Panel::new(frequencies(), axis)
-        .with(Series::line("noise", noise_spectrum(&found.data)))
+        .with(Series::line(
+            "noise and tolerance",
+            noise_spectrum(&found.data),
+        ))
         .with(Series::dotted(NAMES[1], left(&found.before)));
     if found.causes_named() {
         panel = panel.with(Series::dashed(NAMES[2], left(&found.after)));
@@ -104,7 +107,7 @@ pub fn remaining(found: &Diagnosis, stem: &str) -> Vec<Chart> {
     let chart = Chart::new(
         format!("{stem}-remaining"),
         "What no named cause explains",
-        "Root mean square over all pairs of directions. Noise: the scatter of the hits and what any linear model of a robot misses.",
+        "Root mean square over all pairs of directions. Noise and tolerance: the scatter of the hits, and 0.45 % of the accelerance, which any linear model of a robot misses.",
     )
     .with(panel);
     std::iter::once(chart).chain(levels(found, stem)).collect()

@@ -29,6 +29,7 @@ impl<'a> Machine<'a> {
             known,
             seen: DMatrix::identity(numbers, numbers),
             structure,
+            sensor: None,
             masses: Mutex::default(),
         };
         machine.seen = machine.combinations(data)?;
@@ -68,7 +69,7 @@ impl Point {
 
     /// With one more cause, at `amounts` (spreads).
     #[must_use]
-    pub fn and(&self, suspect: &super::prediction::Suspect, amounts: &[f64]) -> Self {
+    pub fn and(&self, suspect: &super::suspect::Suspect, amounts: &[f64]) -> Self {
         let mut point = self.clone();
         point.set.push(suspect.clone());
         point.amounts.extend(amounts);

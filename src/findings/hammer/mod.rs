@@ -6,6 +6,7 @@
 //! hits that were not fitted → is anything left, does the FRF depend on the force → verdict.
 
 pub mod adequacy;
+pub mod case;
 pub mod data;
 pub mod diagnosis;
 pub mod discrepancy;
@@ -20,6 +21,7 @@ pub mod posterior;
 pub mod prediction;
 pub mod search;
 pub mod structure;
+pub mod suspect;
 pub mod unseen;
 
 pub use diagnosis::{Diagnosis, diagnose};

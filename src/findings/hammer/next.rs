@@ -9,6 +9,7 @@ use crate::ground::problem::Outcome;
 use crate::motion::frf::C64;
 use crate::robot::{Body, Robot};
 use nalgebra::{DMatrix, DVector};
+use std::sync::Mutex;
 
 /// A proposed experiment must separate by this many nats.
 const ENOUGH: f64 = 5.0;
@@ -16,6 +17,10 @@ const ENOUGH: f64 = 5.0;
 const STRIDE: usize = 3;
 /// The known mass that is proposed, kg.
 const KNOWN_MASS: f64 = 20.0;
+/// Links on which a sensor is proposed.
+const LINKS: [usize; 2] = [2, 3];
+/// Step of a difference, in standard deviations or spreads.
+const STEP: f64 = 1e-3;
 /// Turn of the joints for another pose, rad.
 const TURNS: [(&str, [f64; 6]); 2] = [
     (
@@ -33,6 +38,7 @@ struct Experiment {
     words: String,
     mass: f64,
     turn: Vec<f64>,
+    sensor: Option<usize>,
     fresh: bool,
 }
 
@@ -44,43 +50,55 @@ pub fn would_tell(machine: &Machine, data: &Data, a: &Fit, b: &Fit) -> String {
         Some((nats, best)) if nats > ENOUGH => {
             format!("{} (separates them by {nats:.0} nats)", best.words)
         }
-        _ => format!(
-            "none of the hammer tests simulated here (another pose, a known mass, another accelerometer) separates them; {}",
-            "load cycles of the axes named, with a second sensor on the foot"
-        ),
+        _ => "none of the single tests simulated here (another pose, a known mass, a sensor on the foot or on a link, another accelerometer) separates them: hits at several poses together, ten per direction".into(),
     }
 }
 
 fn experiments(machine: &Machine) -> Vec<Experiment> {
     let dof = machine.robot.dof();
-    let still = vec![0.0; dof];
+    let plain = |words: String| Experiment {
+        words,
+        mass: 0.0,
+        turn: vec![0.0; dof],
+        sensor: None,
+        fresh: false,
+    };
     let mut all = vec![
         Experiment {
-            words: "the same hits with another, calibrated accelerometer, mounted anew".into(),
-            mass: 0.0,
-            turn: still.clone(),
             fresh: true,
+            ..plain("the same hits with another, calibrated accelerometer, mounted anew".into())
         },
         Experiment {
-            words: format!("the same hits with a known mass of {KNOWN_MASS:.0} kg at the tool"),
             mass: KNOWN_MASS,
-            turn: still,
-            fresh: false,
+            ..plain(format!(
+                "the same hits with a known mass of {KNOWN_MASS:.0} kg at the tool"
+            ))
+        },
+        Experiment {
+            sensor: Some(0),
+            ..plain("the same hits with an accelerometer on the foot".into())
         },
     ];
-    for (words, turn) in TURNS {
-        all.push(Experiment {
-            words: format!("the same hits at another pose, {words}"),
-            mass: 0.0,
+    all.extend(
+        LINKS
+            .iter()
+            .filter(|link| **link < dof)
+            .map(|link| Experiment {
+                sensor: Some(*link),
+                ..plain(format!("the same hits with an accelerometer on link{link}"))
+            }),
+    );
+    all.extend(TURNS.iter().map(|(words, turn)| {
+        Experiment {
             turn: turn
                 .iter()
                 .copied()
                 .chain(std::iter::repeat(0.0))
                 .take(dof)
                 .collect(),
-            fresh: false,
-        });
-    }
+            ..plain(format!("the same hits at another pose, {words}"))
+        }
+    }));
     all
 }
 
@@ -92,12 +110,8 @@ fn separation(
     a: &Fit,
     b: &Fit,
 ) -> Outcome<f64> {
-    let joints: Vec<f64> = machine
-        .joints
-        .iter()
-        .zip(&experiment.turn)
-        .map(|(q, t)| q + t)
-        .collect();
+    let turned = machine.joints.iter().zip(&experiment.turn);
+    let joints: Vec<f64> = turned.map(|(q, t)| q + t).collect();
     let robot = loaded(machine.robot, experiment.mass);
     let there = Machine {
         robot: &robot,
@@ -105,25 +119,44 @@ fn separation(
         known: machine.known,
         seen: machine.seen.clone(),
         structure: Structure::of(&robot, &joints)?,
-        masses: Default::default(),
+        sensor: experiment.sensor,
+        masses: Mutex::default(),
     };
     let lines = thinned(data);
-    let (one, other) = (carried(a, experiment.fresh), carried(b, experiment.fresh));
+    let fresh = experiment.fresh || experiment.sensor.is_some();
+    let (one, other) = (carried(a, fresh), carried(b, fresh));
     let shown = rows(&there, &one, &lines)?;
-    let nuisance = there.nuisance(&other)?;
-    let told = there.slopes(&nuisance, &other, &lines)?;
+    let (told, mut columns) = slopes(&there, &other, &lines)?;
     let weights = weights(&lines);
-    let apart: Vec<f64> = shown
-        .iter()
-        .zip(&told.values)
-        .zip(&weights)
-        .map(|((s, t), w)| (s - t) * w)
-        .collect();
-    let mut columns = told.columns;
+    let apart = shown.iter().zip(&told).zip(&weights);
+    let apart: Vec<f64> = apart.map(|((s, t), w)| (s - t) * w).collect();
     for mut column in columns.column_iter_mut() {
         column.iter_mut().zip(&weights).for_each(|(x, w)| *x *= w);
     }
     Ok(left(&DVector::from_vec(apart), &columns, &kept(b, &other)))
+}
+
+/// Prediction and slopes; of a sensor elsewhere by differences.
+fn slopes(machine: &Machine, point: &Point, data: &Data) -> Outcome<(Vec<f64>, DMatrix<f64>)> {
+    if machine.sensor.is_none() {
+        let found = machine.slopes(&machine.nuisance(point)?, point, data)?;
+        return Ok((found.values, found.columns));
+    }
+    let here = rows(machine, point, data)?;
+    let nuisances = point.theta.len();
+    let mut columns = Vec::new();
+    for i in 0..nuisances + point.amounts.len() {
+        let mut moved = point.clone();
+        match i.checked_sub(nuisances) {
+            None => moved.theta[i] += STEP,
+            Some(k) => moved.amounts[k] += STEP,
+        }
+        let there = rows(machine, &moved, data)?;
+        columns.extend(there.iter().zip(&here).map(|(t, h)| (t - h) / STEP));
+    }
+    let count = nuisances + point.amounts.len();
+    let columns = DMatrix::from_vec(here.len(), count, columns);
+    Ok((here, columns))
 }
 
 /// Half the square of what the present uncertainties (`precision`) do not imitate.

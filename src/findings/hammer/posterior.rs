@@ -1,8 +1,7 @@
 //! How probable the compared sets are, and what can stand in for what.
 
 use super::map::Fit;
-use super::prediction::Suspect;
-use super::search::same;
+use super::suspect::{Suspect, same};
 
 /// Sets within these nats of the best explain the data as well.
 const TIE: f64 = 3.0;

@@ -3,10 +3,8 @@
 use super::data::Data;
 use super::nuisance::{INSTRUMENT, Known, Nuisance, UPPER, instrument_slope, read};
 use super::structure::Structure;
-use crate::causes::Amount;
-use crate::causes::Cause;
+use super::suspect::Suspect;
 use crate::causes::contract::Accelerance;
-use crate::effects::Family;
 use crate::ground::problem::Outcome;
 use crate::motion::Linear;
 use crate::motion::frf::C64;
@@ -18,65 +16,6 @@ use std::sync::{Arc, Mutex};
 
 /// Step of a derivative by an amount, relative to the amount or to a hundredth of its spread.
 const STEP: f64 = 1e-4;
-/// Where an amount that cannot be negative starts to exist, in spreads.
-const LEAST: f64 = 1e-3;
-
-/// A cause at a place.
-#[derive(Clone)]
-pub struct Suspect {
-    /// The cause.
-    pub cause: &'static dyn Cause,
-    /// Its site.
-    pub site: String,
-}
-
-impl Suspect {
-    /// Its name.
-    pub fn name(&self) -> &'static str {
-        self.cause.card().name
-    }
-
-    /// The amounts that a hammer test can tell.
-    fn amounts(&self) -> &'static [Amount] {
-        &self.cause.card().amounts[..self.cause.heard()]
-    }
-
-    /// Spread of each amount: the prior's standard deviation, as far as its starts reach.
-    pub fn spreads(&self) -> Vec<f64> {
-        let amounts = self.amounts().iter();
-        amounts
-            .map(|a| a.starts.iter().fold(0.0_f64, |m, s| m.max(s.abs())))
-            .collect()
-    }
-
-    /// Bounds of each amount, in spreads.
-    pub fn bounds(&self) -> Vec<[f64; 2]> {
-        let amounts = self.amounts().iter().zip(self.spreads());
-        amounts
-            .map(|(a, spread)| {
-                let [low, high] = a.bounds.map(|b| b / spread);
-                [if low == 0.0 { LEAST } else { low }, high]
-            })
-            .collect()
-    }
-
-    /// Where to start, in spreads: the first of every amount, the second of every amount, ...
-    pub fn starts(&self) -> Vec<Vec<f64>> {
-        let amounts = self.amounts();
-        let count = amounts.iter().map(|a| a.starts.len()).max().unwrap_or(0);
-        let at = |j: usize| {
-            let each = amounts.iter().zip(self.spreads());
-            each.map(|(a, spread)| a.starts[j.min(a.starts.len() - 1)] / spread)
-                .collect()
-        };
-        (0..count).map(at).collect()
-    }
-
-    /// Whether it changes the robot.
-    pub fn is_physical(&self) -> bool {
-        self.cause.card().family == Family::Physics
-    }
-}
 
 /// The robot as simulated now, at the pose of the test, with what is uncertain about it.
 pub struct Machine<'a> {
@@ -90,6 +29,8 @@ pub struct Machine<'a> {
     pub seen: DMatrix<f64>,
     /// Its matrices.
     pub structure: Structure,
+    /// Where the sensor sits: at the tool, else on the body that this joint moves, 0 being the foot.
+    pub sensor: Option<usize>,
     /// What the bodies' numbers do to the mass matrix, by the names of the coordinates.
     pub masses: Mutex<BTreeMap<Vec<String>, Arc<DMatrix<f64>>>>,
 }
@@ -192,9 +133,13 @@ impl Machine<'_> {
         point: &Point,
         data: &Data,
     ) -> Outcome<Vec<Accelerance>> {
-        let linear = nuisance.applied(&self.structure_of(point)?.linear, &point.theta);
+        let structure = self.structure_of(point)?;
+        let mut linear = nuisance.applied(&structure.linear, &point.theta);
         let s = shifted(point, data);
         let answers = coordinates(&linear, &s);
+        if let Some(joint) = self.sensor {
+            linear.tool = structure.sensor(&point.robot(self.robot), joint);
+        }
         Ok(read_all(point, &linear, &answers, &s))
     }
 

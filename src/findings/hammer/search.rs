@@ -3,11 +3,10 @@
 
 use super::data::Data;
 use super::map::{Fit, fit, measured, weights};
-use super::prediction::{Machine, Point, Suspect, stack};
+use super::prediction::{Machine, Point, stack};
+use super::suspect::{Suspect, same};
 use super::unseen::without;
-use crate::causes::{self, Sight};
 use crate::ground::problem::Outcome;
-use crate::robot::Robot;
 use nalgebra::DVector;
 use rayon::prelude::*;
 
@@ -36,20 +35,6 @@ const HOPE: (f64, f64) = (30.0, 0.15);
 pub struct Found {
     /// The fits.
     pub fits: Vec<Fit>,
-}
-
-/// Every cause at every place of this robot that a hammer test with these outputs would show.
-pub fn suspects(robot: &Robot, outputs: &[String]) -> Vec<Suspect> {
-    let all = causes::seen_by(Sight::Hammer).filter(|c| !c.card().amounts.is_empty());
-    let places = all.flat_map(|cause| {
-        let sites = cause.sites(robot).into_iter();
-        sites.map(move |site| Suspect { cause, site })
-    });
-    let measured = |s: &Suspect| match s.site.strip_prefix("sensor-") {
-        Some(axis) => outputs.len() > 1 && outputs.iter().any(|o| o == axis),
-        None => true,
-    };
-    places.filter(measured).collect()
 }
 
 /// Searches on `broad` and `sharp` data.
@@ -204,11 +189,6 @@ fn partners(machine: &Machine, suspects: &[Suspect], data: &Data, base: &Fit) ->
     promised.sort_by(|a, b| b.0.total_cmp(&a.0));
     promised.truncate(PARTNERS);
     promised.into_iter().map(|(_, point)| point).collect()
-}
-
-/// Whether two suspects are one.
-pub fn same(a: &Suspect, b: &Suspect) -> bool {
-    a.name() == b.name() && a.site == b.site
 }
 
 /// Nats that `suspect` promises beside what is found, along the straight line to its best start.

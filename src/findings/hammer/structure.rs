@@ -1,14 +1,18 @@
 //! A robot at the pose of the test as matrices, and how its bodies' uncertain numbers change them.
 
 use crate::ground::problem::Outcome;
+use crate::ground::spatial::V3;
 use crate::motion::linear::gravity_stiffness;
 use crate::motion::swing::State;
 use crate::motion::{self, Linear, Work, linearise};
+use crate::robot::model::Tool;
 use crate::robot::{Body, Robot};
 use nalgebra::DMatrix;
 
 /// Masses are known to this share, centres of mass to these metres, inertias to that share.
 const BODY: (f64, f64, f64) = (0.02, 0.005, 0.05);
+/// Where a sensor on the foot sits, m, base frame.
+const FOOT: V3 = [0.4, 0.4, 0.0];
 /// Uncertain numbers of a body: mass, centre, inertia.
 const NUMBERS: usize = 10;
 
@@ -56,11 +60,32 @@ impl Structure {
     /// Angles of the hinges of these names; the tilts of one bearing stand in their order.
     fn angles(&self, names: &[String]) -> Vec<f64> {
         let mut known: Vec<&(String, f64)> = self.rest.iter().collect();
-        let mut angle = |name: &String| match known.iter().position(|k| k.0 == *name) {
+        let angle = |name: &String| match known.iter().position(|k| k.0 == *name) {
             Some(i) => known.remove(i).1,
             None => 0.0,
         };
-        names.iter().map(|name| angle(name)).collect()
+        names.iter().map(angle).collect()
+    }
+
+    /// Translation per coordinate, m/rad, of a sensor on the mass centre of the body that joint
+    /// `joint` moves, or for 0 on the foot, 0.4 m beside the middle.
+    pub fn sensor(&self, robot: &Robot, joint: usize) -> Vec<V3> {
+        let mut part = robot.clone();
+        part.joints.truncate(joint);
+        part.elastic.retain(|axis| axis.after < joint.max(1));
+        let body = part.joints.last().and_then(|joint| joint.link);
+        let at = body.map_or(FOOT, |body| body.com);
+        part.tool = Tool {
+            flange: at,
+            tcp: at,
+            ..Tool::default()
+        };
+        let chain = motion::elastic(&part);
+        let angles = self.angles(&chain.names);
+        let linear = linearise(&chain, &mut Work::new(&chain), &angles);
+        let mut levers = linear.map_or(Vec::new(), |linear| linear.tool);
+        levers.resize(self.linear.n, [0.0; 3]);
+        levers
     }
 
     /// What one standard deviation of every uncertain number of every body adds to the mass matrix,

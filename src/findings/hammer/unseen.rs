@@ -3,8 +3,8 @@
 use super::data::{Data, Pair};
 use super::discrepancy::simulated;
 use super::map::{Fit, fit};
-use super::prediction::{Machine, Point, Suspect};
-use super::search::same;
+use super::prediction::{Machine, Point};
+use super::suspect::{Suspect, same};
 use crate::findings::gain::Gain;
 use crate::motion::frf::C64;
 

@@ -94,5 +94,5 @@ fn learn_points(belief: &mut Belief, unknowns: &Unknowns, test: &WorkspaceTest) 
     let mut weighing = Weighing::new(&setups(test), repeatability);
     weighing.about_model(&response, &unknowns.compliances());
     let design = weighing.design(&response, &unknowns.sites);
-    belief.learn(&design, &weighing.slopes());
+    belief.learn(&design, &weighing.measured());
 }

@@ -1,0 +1,258 @@
+//! From what was compared to what is said.
+
+use super::adequacy::Adequacy;
+use super::data::{Data, Grid};
+use super::diagnosis::{Diagnosis, UNIT};
+use super::linearity::{Linearity, linearity};
+use super::map::{Fit, fit};
+use super::next::would_tell;
+use super::posterior::{Posterior, holds};
+use super::prediction::{Machine, Point};
+use super::search::Found;
+use super::suspect::Suspect;
+use super::unseen::{folds, gain, without};
+use super::{discrepancy, doubled, extended};
+use crate::experiments::hammer_frf::{HammerFrf, Settings};
+use crate::findings::answer::{Answer, Cause, Discrepancy, Group, Structure, Verdict};
+use crate::findings::gain::Gain;
+use crate::ground::problem::Outcome;
+use crate::measurement::hammer::HammerRecord;
+
+/// A law may miss nature by this share of its size; such a misfit is worth these nats at most.
+const FORMULA_ERROR: f64 = 0.05;
+const TOLERATED_NATS: f64 = 5.0;
+/// Folds of hits for the gain.
+const FOLDS: usize = 2;
+/// Share of the misfit that a cause must take away to be named although something is left.
+const THE_STORY: f64 = 0.95;
+/// Most members of a group that are named.
+const MEMBERS: usize = 6;
+
+/// Everything that the steps of a diagnosis share.
+pub(super) struct Case<'a> {
+    pub(super) machine: Machine<'a>,
+    pub(super) frf: HammerFrf,
+    pub(super) sharp: Data,
+    pub(super) grid: Grid,
+    pub(super) settings: Settings,
+}
+
+/// What was named.
+#[derive(Default)]
+struct Named {
+    causes: Vec<Cause>,
+    groups: Vec<Group>,
+}
+
+impl Case<'_> {
+    /// Names what is found and judges what is left.
+    pub(super) fn conclude(self, found: &Found, record: &HammerRecord) -> Outcome<Diagnosis> {
+        let temper = self.temper(found);
+        let posterior = Posterior::new(&found.fits, temper);
+        let nothing = self.nothing(found)?;
+        let best = posterior.sets.first().map_or(&nothing, |s| s.0);
+        let (chosen, mut named) = self.name(&posterior, best)?;
+        let double = doubled::cause(
+            &self.machine,
+            record,
+            &self.settings,
+            self.grid,
+            &self.frf,
+            &chosen,
+        );
+        named.causes.extend(double);
+        let adequacy = Adequacy::of(&self.sharp, &chosen.residual);
+        let level = linearity(&self.frf, self.grid);
+        self.answer(&posterior, &chosen, named, &adequacy, level)
+    }
+
+    fn nothing(&self, found: &Found) -> Outcome<Fit> {
+        match found.fits.iter().find(|f| f.point.set.is_empty()) {
+            Some(fit) => Ok(fit.clone()),
+            None => fit(&self.machine, &self.sharp, Point::nothing(), 10),
+        }
+    }
+
+    /// A misfit larger than the noise of even the best set makes all of them less sure, and so does
+    /// the size of what is explained: a law that misses nature by a few percent still counts as right.
+    fn temper(&self, found: &Found) -> f64 {
+        let least =
+            |of: &dyn Fn(&Fit) -> f64| found.fits.iter().map(of).fold(f64::INFINITY, f64::min);
+        let mean = least(&|f| 2.0 * f.misfit) / self.sharp.freedom();
+        let nothing = found.fits.iter().find(|f| f.point.set.is_empty());
+        let nats = nothing.map_or(0.0, |n| n.cost - least(&|f| f.cost));
+        1.0 / mean.max(1.0) / (1.0 + FORMULA_ERROR.powi(2) * nats.max(0.0) / TOLERATED_NATS)
+    }
+
+    /// Names the causes of `best`, one after the other dropping those without a gain.
+    fn name(&self, posterior: &Posterior, best: &Fit) -> Outcome<(Fit, Named)> {
+        let mut chosen = best.clone();
+        loop {
+            let parts = (0..FOLDS).filter_map(|k| Data::fold(&self.frf, self.grid, k, FOLDS));
+            let folds = folds(&self.machine, parts.collect(), &chosen);
+            let each = chosen.point.each();
+            let gains = each.iter().map(|(s, _)| gain(&self.machine, &folds, s));
+            let gains: Vec<Gain> = gains.collect();
+            let Some(useless) = gains.iter().position(|g| !g.is_real()) else {
+                let mut named = Named::default();
+                for ((suspect, amounts), gain) in each.into_iter().zip(gains) {
+                    self.sort_in(posterior, &chosen, (suspect, &amounts), gain, &mut named);
+                }
+                named.causes.sort_by(|a, b| {
+                    b.gain
+                        .reduction_percent
+                        .total_cmp(&a.gain.reduction_percent)
+                });
+                return Ok((chosen, named));
+            };
+            let rest = without(&chosen.point, each[useless].0);
+            chosen = self.refit(posterior, rest)?;
+        }
+    }
+
+    /// The compared fit of this set, else a new one.
+    fn refit(&self, posterior: &Posterior, point: Point) -> Outcome<Fit> {
+        let known = posterior.sets.iter().find(|s| {
+            let set = &s.0.point.set;
+            set.len() == point.set.len() && point.set.iter().all(|p| holds(s.0, p))
+        });
+        match known {
+            Some(set) => Ok(set.0.clone()),
+            None => fit(&self.machine, &self.sharp, point, 8),
+        }
+    }
+
+    fn sort_in(
+        &self,
+        posterior: &Posterior,
+        chosen: &Fit,
+        (suspect, amounts): (&Suspect, &[f64]),
+        gain: Gain,
+        named: &mut Named,
+    ) {
+        let stand_ins = posterior.stand_ins(chosen, suspect);
+        if let Some((rival, _)) = stand_ins.first() {
+            let others = stand_ins.iter().map(|(_, s)| s).take(MEMBERS - 1);
+            let members: Vec<&Suspect> = std::iter::once(suspect).chain(others).collect();
+            named.groups.push(Group {
+                effects: members.iter().map(|s| s.name()).collect(),
+                sites: members.iter().map(|s| s.site.clone()).collect(),
+                would_tell: would_tell(&self.machine, &self.sharp, chosen, rival),
+                gain,
+            });
+            return;
+        }
+        let alternatives = posterior.alternatives(chosen, suspect);
+        let card = suspect.cause.card();
+        named.causes.push(Cause {
+            effect: card.name,
+            site: suspect.site.clone(),
+            probability: posterior.of(suspect).min(gain.probability()),
+            summary: card.summary,
+            alternatives: alternatives
+                .into_iter()
+                .take(5)
+                .map(|(s, p)| (s.name(), s.site, p))
+                .collect(),
+            parameters: suspect
+                .cause
+                .said(self.machine.robot, &suspect.site, amounts),
+            gain,
+        });
+    }
+
+    fn answer(
+        self,
+        posterior: &Posterior,
+        chosen: &Fit,
+        named: Named,
+        adequacy: &Adequacy,
+        level: Option<Linearity>,
+    ) -> Outcome<Diagnosis> {
+        let before = discrepancy::simulated(&self.machine, &self.sharp, &Point::nothing())?;
+        let after = discrepancy::simulated(&self.machine, &self.sharp, &chosen.point)?;
+        let (rms, place) = discrepancy::between(&self.sharp, &before);
+        let (left_rms, _) = discrepancy::between(&self.sharp, &after);
+        let noise = discrepancy::noise(&self.sharp);
+        let share = ((left_rms.powi(2) - noise.powi(2)) / rms.powi(2)).clamp(0.0, 1.0);
+        let bent = level.as_ref().filter(|level| level.broken());
+        let left = adequacy.left() || bent.is_some();
+        let explained = self.explained(posterior, chosen);
+        let verdict = verdict(&named, left, explained);
+        let description = match (bent, adequacy.left()) {
+            (Some(level), _) => level.description(),
+            (None, true) => adequacy.description(),
+            (None, false) => "nothing above the noise".into(),
+        };
+        let unknown = verdict == Verdict::UnknownCause;
+        let named = if unknown { Named::default() } else { named };
+        let extended = extended::robot(&self.machine, chosen, &named.causes);
+        let candidates = posterior.sets.iter().take(8);
+        let candidates = candidates.map(|(fit, _, p)| {
+            let names = fit
+                .point
+                .set
+                .iter()
+                .map(|s| format!("{} at {}", s.name(), s.site));
+            (names.collect(), *p, self.nats(posterior, fit))
+        });
+        let answer = Answer {
+            verdict,
+            discrepancy: Discrepancy {
+                rms,
+                noise_rms: noise,
+                place,
+            },
+            causes: named.causes,
+            groups: named.groups,
+            unexplained: Structure {
+                share_of_variance: share,
+                shape: discrepancy::spectrum(&self.sharp, &after),
+                over_time: Vec::new(),
+                description,
+            },
+            p_value: adequacy.p_value,
+            candidates: candidates.collect(),
+            unit: UNIT,
+            noise: format!(
+                "the scatter of {} hits, and 0.45 % of the accelerance, which any linear model of a robot misses",
+                self.frf.screened.iter().filter(|h| h.used()).count()
+            ),
+        };
+        Ok(Diagnosis {
+            answer,
+            data: self.sharp,
+            before,
+            after,
+            extended,
+            frf: self.frf,
+            level,
+        })
+    }
+
+    /// Share of the weighted misfit of the present simulation that the chosen set takes away. While
+    /// something is left, several causes may imitate an unknown one together: they count as nothing.
+    fn explained(&self, posterior: &Posterior, chosen: &Fit) -> f64 {
+        let nothing = posterior.sets.iter().find(|s| s.0.point.set.is_empty());
+        match (nothing, chosen.point.set.len()) {
+            (Some(set), 1) => 1.0 - chosen.misfit / set.0.misfit.max(f64::MIN_POSITIVE),
+            _ => 0.0,
+        }
+    }
+
+    fn nats(&self, posterior: &Posterior, fit: &Fit) -> f64 {
+        let nothing = posterior.sets.iter().find(|s| s.0.point.set.is_empty());
+        nothing.map_or(0.0, |s| s.0.cost - fit.cost)
+    }
+}
+
+fn verdict(named: &Named, left: bool, explained: f64) -> Verdict {
+    match (named.causes.is_empty() && named.groups.is_empty(), left) {
+        (true, true) => Verdict::UnknownCause,
+        (true, false) => Verdict::Sufficient,
+        (false, true) if explained < THE_STORY => Verdict::UnknownCause,
+        (false, true) => Verdict::PartlyExplained,
+        (false, false) if named.causes.is_empty() => Verdict::CannotTell,
+        (false, false) => Verdict::Explained,
+    }
+}
