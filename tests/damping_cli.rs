@@ -286,6 +286,12 @@ fn bad_inputs_are_refused_with_place_and_remedy() {
             }),
             ["a.csv:", "number"],
         ),
+        (
+            refused(&["a.csv"], |t| {
+                t.replace("# synthetic", "# role = \"spare\"\n# synthetic")
+            }),
+            ["`spare`", "role = \"comparison\""],
+        ),
         (refused(&["b.csv"], same), ["b.csv", "check the path"]),
         (
             refused(&[], same),

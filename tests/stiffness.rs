@@ -163,3 +163,46 @@ fn intervals_cover_as_often_as_they_say() {
     assert!(middle < 0.003, "median error {middle}");
     assert!(worst < 0.02, "worst error {worst}");
 }
+
+/// What a joint may lack altogether.
+const MAY_BE_ABSENT: [&str; 4] = ["backlash", "width", "hysteresis_loss", "loss_factor"];
+
+#[test]
+fn what_may_be_absent_is_a_limit_and_never_an_interval_around_zero() {
+    let truth = truth();
+    let plain = LoadCycleTruth {
+        effects: Default::default(),
+        ..truth.load_cycle[5].clone()
+    };
+    let (mut limits, mut held) = (0, 0);
+    for (seed, bootstrap) in (0..12).map(|seed| (seed, if seed < 2 { 40 } else { 0 })) {
+        let recording = plain.record(&truth.robot, &truth.source, seed).unwrap();
+        let text = recording.text();
+        let table = Table::from_reader(Path::new(&plain.file), text.as_bytes(), text.len() as u64);
+        let file = LoadCycle::from_table(table.unwrap()).unwrap();
+        let request = Request {
+            bootstrap,
+            ..request()
+        };
+        let account = identify(&file, &request);
+        assert!(account.parameters[0].value.is_some(), "seed {seed}");
+        for name in MAY_BE_ABSENT {
+            let found = account.parameters.iter().find(|p| p.name == name).unwrap();
+            println!("{seed} {name}: {:?} {:?}", found.ci95, found.limit95);
+            match found.value {
+                Some(_) => assert!(found.ci95.unwrap()[0] > 0.0, "seed {seed}: {found:?}"),
+                None => {
+                    let limit = found.limit95.expect("a limit");
+                    assert!(limit > 0.0 && found.ci95.is_none() && found.stderr.is_none());
+                    limits += 1;
+                    held += usize::from(name != "backlash" || limit < 1e-4);
+                }
+            }
+        }
+    }
+    // nothing was hidden: of 48 statements some chance may call significant, not many
+    assert!(
+        limits >= 38 && held == limits,
+        "{limits} limits, {held} small"
+    );
+}

@@ -6,7 +6,7 @@
 //! the simulation alike; an instrument changes what one experiment reads.
 
 use crate::effects::Family;
-use crate::ground::spatial::V3;
+use crate::ground::spatial::{M3, V3};
 use crate::robot::Robot;
 use nalgebra::Complex;
 
@@ -64,6 +64,20 @@ pub struct StepSeen {
     pub force: f64,
     /// Displacement of the tool per component, m, base frame.
     pub displacement: V3,
+    /// Axes of the tool frame as columns, base frame.
+    pub tool: M3,
+}
+
+/// Who is blamed first: a doubtful instrument before a doubtful number, a doubtful number before a
+/// part that the model lacks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Blame {
+    /// What reads.
+    Instrument,
+    /// A number of a part that the model has.
+    Parameter,
+    /// A part that the model lacks.
+    Structure,
 }
 
 /// Accelerance of the tool at one `s`: output by input, (m/s²)/N, base frame.
@@ -76,6 +90,42 @@ pub trait Cause: Sync {
 
     /// Where on this robot it may sit: `A6`, `A6-tilt`, `base`, `link2`, `tool`, `sensor`, `sensor-x`.
     fn sites(&self, robot: &Robot) -> Vec<String>;
+
+    /// The sites in a test with that many points: more than [`Cause::sites`] where a point is one.
+    fn sites_at(&self, robot: &Robot, _points: usize) -> Vec<String> {
+        self.sites(robot)
+    }
+
+    /// How soon it is blamed.
+    fn blame(&self) -> Blame {
+        match self.card().family {
+            Family::Measurement => Blame::Instrument,
+            Family::Physics => Blame::Parameter,
+        }
+    }
+
+    /// Size that each amount has where the cause is of ordinary strength, in the units of the amounts.
+    fn scale(&self, _robot: &Robot, _site: &str) -> Vec<f64> {
+        let largest = |starts: &[f64]| starts.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
+        let own = self.card().amounts.iter();
+        own.map(|amount| largest(amount.starts)).collect()
+    }
+
+    /// The forms in which it comes: which amounts act, the others staying zero. A cause is a family
+    /// of patterns; the narrow forms are what most authors and most robots have.
+    fn forms(&self) -> Vec<Vec<usize>> {
+        vec![(0..self.card().amounts.len()).collect()]
+    }
+
+    /// How many of its leading amounts a hammer test can tell; the others stay zero there.
+    fn heard(&self) -> usize {
+        self.card().amounts.len()
+    }
+
+    /// Whether without load it stays where the load before has left it.
+    fn remembers(&self, _amounts: &[f64]) -> bool {
+        false
+    }
 
     /// Physics: changes the robot.
     fn alter(&self, _robot: &mut Robot, _site: &str, _amounts: &[f64]) {}

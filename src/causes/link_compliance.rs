@@ -1,7 +1,7 @@
 //! A link bends.
 
-use super::contract::{Card, Cause, Sight};
-use super::places::{Said, add_axes, added, said_axes};
+use super::contract::{Amount, Blame, Card, Cause, Sight};
+use super::places::{Said, add_axes, added, drive_compliance, number_in, said_axes};
 use crate::effects::Family;
 use crate::robot::Robot;
 
@@ -12,24 +12,64 @@ const CARD: Card = Card {
     name: "link_compliance",
     family: Family::Physics,
     summary: "A link bends or twists, and the model holds it rigid.",
-    equation: "rotations about three axes in the middle of the link, compliance added",
+    equation: "rotations about three axes at one place along the link, from its near to its far end, compliance added",
     source: "virtual axes as in sources 000 and 002, Table 1",
     shows: &[
         (
             Sight::Workspace,
-            "error that turns with that link and grows with the distance from its middle",
+            "error that turns with that link and grows with the distance from where it bends",
         ),
         (
             Sight::Hammer,
-            "modes in which the parts before and behind the middle of the link move apart",
+            "modes in which the parts before and behind the bend of the link move apart",
         ),
     ],
-    amounts: &[
-        added("about_x", "compliance about x, with every joint at zero"),
-        added("about_y", "compliance about y, with every joint at zero"),
-        added("about_z", "compliance about z, with every joint at zero"),
-    ],
+    amounts: &AMOUNTS,
 };
+
+macro_rules! turns_at {
+    ($at:literal) => {
+        [
+            added(
+                concat!("x_at_", $at),
+                concat!("compliance about x at ", $at, " of the length"),
+            ),
+            added(
+                concat!("y_at_", $at),
+                concat!("compliance about y at ", $at, " of the length"),
+            ),
+            added(
+                concat!("z_at_", $at),
+                concat!("compliance about z at ", $at, " of the length"),
+            ),
+        ]
+    };
+}
+
+static AMOUNTS: [Amount; 3 * ALONG.len()] = flat([
+    turns_at!("1/2"),
+    turns_at!("0"),
+    turns_at!("1"),
+    turns_at!("1/4"),
+    turns_at!("3/4"),
+    turns_at!("1/8"),
+    turns_at!("3/8"),
+    turns_at!("5/8"),
+    turns_at!("7/8"),
+]);
+
+const fn flat(triples: [[Amount; 3]; ALONG.len()]) -> [Amount; 3 * ALONG.len()] {
+    let mut all = [triples[0][0]; 3 * ALONG.len()];
+    let mut i = 0;
+    while i < all.len() {
+        all[i] = triples[i / 3][i % 3];
+        i += 1;
+    }
+    all
+}
+
+/// Where along the link the triples of amounts act, as a share of its length.
+const ALONG: [f64; 9] = [0.5, 0.0, 1.0, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875];
 
 impl Cause for LinkCompliance {
     fn card(&self) -> &'static Card {
@@ -40,17 +80,42 @@ impl Cause for LinkCompliance {
         (1..robot.dof()).map(|i| format!("link{i}")).collect()
     }
 
+    fn heard(&self) -> usize {
+        3
+    }
+
+    fn blame(&self) -> Blame {
+        Blame::Structure
+    }
+
+    fn scale(&self, robot: &Robot, site: &str) -> Vec<f64> {
+        let i = number_in(site, "link").unwrap_or(1);
+        let near = drive_compliance(robot, i);
+        let far = drive_compliance(robot, i + 1);
+        vec![(near * far).sqrt(); 3 * ALONG.len()]
+    }
+
+    fn forms(&self) -> Vec<Vec<usize>> {
+        let count = 3 * ALONG.len();
+        let one = (0..count).map(|k| vec![k]);
+        let two = (0..count).map(|k| vec![k, 3 * (k / 3) + (k + 1) % 3]);
+        let all = (0..ALONG.len()).map(|at| (3 * at..3 * at + 3).collect());
+        one.chain(two).chain(all).collect()
+    }
+
     fn alter(&self, robot: &mut Robot, site: &str, amounts: &[f64]) {
-        let number: Option<usize> = site.strip_prefix("link").and_then(|n| n.parse().ok());
+        let number = number_in(site, "link");
         let Some(i) = number.filter(|i| *i >= 1 && *i < robot.dof()) else {
             return;
         };
         let (from, to) = (robot.joints[i - 1].point, robot.joints[i].point);
-        let middle = [0, 1, 2].map(|k| 0.5 * (from[k] + to[k]));
-        add_axes(robot, site, i, middle, amounts);
+        for (own, along) in amounts.chunks(3).zip(ALONG) {
+            let at = [0, 1, 2].map(|k| from[k] + along * (to[k] - from[k]));
+            add_axes(robot, site, i, at, own);
+        }
     }
 
     fn said(&self, _robot: &Robot, _site: &str, amounts: &[f64]) -> Said {
-        said_axes(amounts)
+        amounts.chunks(3).flat_map(said_axes).collect()
     }
 }

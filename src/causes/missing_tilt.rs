@@ -1,7 +1,7 @@
 //! The model has a rigid bearing where the robot tilts.
 
-use super::contract::{Card, Cause, Sight};
-use super::places::{Said, added, added_spring, said_added};
+use super::contract::{Blame, Card, Cause, Sight};
+use super::places::{Said, added, added_spring, drive_compliance, said_added};
 use crate::effects::Family;
 use crate::robot::Robot;
 
@@ -35,6 +35,15 @@ impl Cause for MissingTilt {
     fn sites(&self, robot: &Robot) -> Vec<String> {
         let rigid = robot.joints.iter().filter(|joint| joint.tilt.is_none());
         rigid.map(|joint| joint.tilt_site()).collect()
+    }
+
+    fn blame(&self) -> Blame {
+        Blame::Structure
+    }
+
+    fn scale(&self, robot: &Robot, site: &str) -> Vec<f64> {
+        let own = robot.joints.iter().position(|j| j.tilt_site() == site);
+        vec![drive_compliance(robot, own.map_or(0, |i| i + 1))]
     }
 
     fn alter(&self, robot: &mut Robot, site: &str, amounts: &[f64]) {

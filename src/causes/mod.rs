@@ -10,18 +10,23 @@ pub mod places;
 mod accelerometer_gain;
 mod accelerometer_misalignment;
 mod added_mass;
+mod backlash;
 mod base_compliance;
 mod double_hit;
 mod drive_stiffness;
 mod exponential_window;
+mod force_gain;
 mod joint_damping;
 mod link_compliance;
+mod load_misalignment;
 mod missing_tilt;
+mod outlier_point;
+mod sensor_gain;
 mod tilt_stiffness;
 mod time_skew;
 mod tool_compliance;
 
-pub use contract::{Amount, Card, Cause, Sight};
+pub use contract::{Amount, Blame, Card, Cause, Sight};
 
 /// Every cause: physics first, then the instruments.
 pub const CAUSES: &[&dyn Cause] = &[
@@ -33,6 +38,11 @@ pub const CAUSES: &[&dyn Cause] = &[
     &tool_compliance::ToolCompliance,
     &added_mass::AddedMass,
     &joint_damping::JointDamping,
+    &backlash::Backlash,
+    &force_gain::ForceGain,
+    &sensor_gain::SensorGain,
+    &load_misalignment::LoadMisalignment,
+    &outlier_point::OutlierPoint,
     &accelerometer_gain::AccelerometerGain,
     &accelerometer_misalignment::AccelerometerMisalignment,
     &time_skew::TimeSkew,

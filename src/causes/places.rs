@@ -1,7 +1,7 @@
 //! What causes do to the places of a robot.
 
 use super::contract::Amount;
-use crate::ground::spatial::V3;
+use crate::ground::spatial::{IDENTITY, M3, V3};
 use crate::robot::model::ElasticAxis;
 use crate::robot::{Robot, Spring};
 
@@ -67,23 +67,55 @@ pub fn said_added(name: &'static str, amount: f64) -> Said {
         .collect()
 }
 
+/// Compliance of the drive of joint `i` (from 1), else of its bearing, in units of
+/// [`UNIT_COMPLIANCE`]: the measure for what is added near it.
+pub fn drive_compliance(robot: &Robot, i: usize) -> f64 {
+    let joint = robot.joints.get(i.wrapping_sub(1));
+    let spring = joint.and_then(|joint| joint.drive.as_ref().or(joint.tilt.as_ref()));
+    spring.map_or(1.0, |s| 1.0 / (s.stiffness * UNIT_COMPLIANCE))
+}
+
+/// The number in a site as `link2`.
+pub fn number_in(site: &str, stem: &str) -> Option<usize> {
+    site.strip_prefix(stem)?.parse().ok()
+}
+
 /// Adds elastic axes about x, y and z through `point` (base axes, every joint at zero), behind the
 /// body that joint `after` moves.
 pub fn add_axes(robot: &mut Robot, site: &str, after: usize, point: V3, amounts: &[f64]) {
+    add_axes_along(robot, site, (after, point), &IDENTITY, amounts);
+}
+
+/// [`add_axes`] about the columns of `frame` instead of x, y and z.
+pub fn add_axes_along(
+    robot: &mut Robot,
+    site: &str,
+    (after, point): (usize, V3),
+    frame: &M3,
+    amounts: &[f64],
+) {
     for (k, amount) in amounts.iter().enumerate().take(3) {
         let Some(spring) = added_spring(*amount) else {
             continue;
         };
-        let mut axis = [0.0; 3];
-        axis[k] = 1.0;
+        let axis = [0, 1, 2].map(|row| frame[row][k]);
+        let name = free_name(robot, &format!("{site}-{}", ["x", "y", "z"][k]));
         robot.elastic.push(ElasticAxis {
-            name: format!("{site}-{}", ["x", "y", "z"][k]),
+            name,
             after,
             axis,
             point,
             spring,
         });
     }
+}
+
+/// The name, with a number behind it if the robot has such an axis already.
+fn free_name(robot: &Robot, name: &str) -> String {
+    let taken = |name: &str| robot.elastic.iter().any(|axis| axis.name == name);
+    let numbered = (2..).map(|n| format!("{name}{n}"));
+    let mut names = std::iter::once(name.to_string()).chain(numbered);
+    names.find(|n| !taken(n)).unwrap_or_else(|| name.into())
 }
 
 /// The stiffnesses of [`add_axes`].

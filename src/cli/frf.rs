@@ -38,6 +38,9 @@ pub struct FrfArgs {
     /// Write the FRFs and coherences as universal file (data set 58b, SI)
     #[arg(long, value_name = "FILE")]
     uff: Option<PathBuf>,
+    /// Write that universal file as text (data set 58) instead
+    #[arg(long, requires = "uff")]
+    uff_ascii: bool,
     /// Estimator for the account and the universal file (the JSON holds all three)
     #[arg(long, value_enum, default_value_t = Choice::H1)]
     estimator: Choice,
@@ -89,7 +92,11 @@ pub fn run(matches: &ArgMatches) -> Outcome<Ending> {
     }
     if let Some(path) = &args.uff {
         let file = universal_file(&frf, args.estimator.estimator());
-        files::replace(path, &uff::write(&file, uff::Encoding::Binary))?;
+        let encoding = match args.uff_ascii {
+            true => uff::Encoding::Ascii,
+            false => uff::Encoding::Binary,
+        };
+        files::replace(path, &uff::write(&file, encoding))?;
     }
     let modes = args.modes.then(|| modes(&frf, args.band_hz));
     if args.json {

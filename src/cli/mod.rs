@@ -1,5 +1,6 @@
 //! Floor 9: one file per verb. A new verb is one file, one `mod` line and one line in [`VERBS`].
 
+mod chapter;
 mod damping;
 mod diagnose;
 mod effects;
@@ -8,7 +9,9 @@ mod inspect;
 mod lab;
 mod output;
 mod progress;
+mod report;
 mod robot;
+mod run;
 mod simulate;
 mod stiffness;
 mod validate;
@@ -43,6 +46,8 @@ pub const VERBS: &[Verb] = &[
     stiffness::VERB,
     damping::VERB,
     diagnose::VERB,
+    run::VERB,
+    report::VERB,
     frf::VERB,
     validate::VERB,
     robot::VERB,
@@ -59,6 +64,12 @@ pub fn arguments<A: Args>(command: Command) -> Command {
 /// Reads a derived `Args` type back. The matches were made by the same type.
 pub fn parsed<A: FromArgMatches>(matches: &ArgMatches) -> A {
     A::from_arg_matches(matches).unwrap_or_else(|error| error.exit())
+}
+
+/// A derived `Args` type as if only these words had been typed.
+pub fn from_words<A: Args + FromArgMatches>(words: &[std::path::PathBuf]) -> A {
+    let command = A::augment_args(Command::new("ident").no_binary_name(true));
+    parsed(&command.get_matches_from(words))
 }
 
 /// The whole command line.

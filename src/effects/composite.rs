@@ -23,6 +23,13 @@ pub struct Slot {
     pub amplitude: bool,
 }
 
+impl Slot {
+    /// An amplitude that cannot be negative, and at zero of which the effect is absent.
+    pub fn may_vanish(&self) -> bool {
+        self.amplitude && self.parameter.bounds.0 == 0.0
+    }
+}
+
 impl Composite {
     /// The spring and these effects (the spring may be among them).
     pub fn new(effects: &[&'static dyn Effect]) -> Self {

@@ -1,10 +1,10 @@
 //! The workspace test as the model predicts it: how far the tool moves per newton at every point,
 //! site by site. Deflection is linear in the compliances: C = Σ Jᵥ Jᵥᵀ / k (Abele et al. 2008).
 
-use crate::ground::spatial::{M3, V3};
-use crate::motion::kinematics::{column, place, tcp};
-use crate::motion::statics::springs;
-use crate::motion::{Work, elastic};
+use crate::ground::spatial::{M3, V3, add, rotate, sub};
+use crate::motion::kinematics::{column, hinge_point, hinge_rotation, place, tcp};
+use crate::motion::statics::{compliance, springs};
+use crate::motion::{Chain, Work, elastic, gravity_torque};
 use crate::robot::Robot;
 
 /// One place whose compliance acts as one number: a drive, a bearing (two equal axes), a virtual axis.
@@ -85,5 +85,124 @@ impl Response {
     pub fn matrix(&self, point: usize) -> M3 {
         let own = self.compliances();
         [0, 1, 2].map(|direction| self.slope(point, direction, &own))
+    }
+}
+
+/// A drive with lost motion, as every point loads it.
+#[derive(Debug, Clone)]
+struct Gap {
+    /// From stop to stop, rad.
+    size: f64,
+    /// Translation of the tool at every point, m/rad, base frame.
+    levers: Vec<V3>,
+    /// Torque of the weight on the axis at every point, N·m.
+    weights: Vec<f64>,
+}
+
+/// The force steps as the model predicts them: compliance, and jumps where a torque changes sign.
+#[derive(Debug, Clone)]
+pub struct Deflection {
+    /// Movement of the tool per newton at every point, m/N: one vector per direction of the force.
+    pub slopes: Vec<M3>,
+    gaps: Vec<Gap>,
+}
+
+impl Deflection {
+    /// Of a robot at the joint angles of each point, rad.
+    pub fn of(robot: &Robot, points: &[Vec<f64>]) -> Self {
+        let chain = elastic(robot);
+        let mut work = Work::new(&chain);
+        let mut slopes = Vec::with_capacity(points.len());
+        let loose = springs(&chain).filter(|(_, spring)| spring.gap() > 0.0);
+        let loose: Vec<(usize, f64)> = loose.map(|(i, spring)| (i, spring.gap())).collect();
+        let mut gaps: Vec<Gap> = loose.iter().map(|(_, size)| Gap::new(*size)).collect();
+        for angles in points {
+            let q = chain.spread(angles);
+            place(&chain, &mut work, &q);
+            slopes.push(compliance(&chain, &work));
+            for ((hinge, _), gap) in loose.iter().zip(&mut gaps) {
+                gap.meet(&chain, &mut work, *hinge, &q);
+            }
+        }
+        Self { slopes, gaps }
+    }
+
+    /// The same with the displacement read elsewhere: at a point (m, base frame, every joint at zero)
+    /// fixed to the body behind joint `after`, or to the foundation for 0. Without jumps.
+    pub fn seen_at(robot: &Robot, points: &[Vec<f64>], after: usize, at: V3) -> Self {
+        let chain = elastic(robot);
+        let mut work = Work::new(&chain);
+        let behind = match after {
+            0 => robot.elastic.iter().filter(|axis| axis.after == 0).count(),
+            _ => chain.drives.get(after - 1).map_or(0, |drive| drive + 1),
+        };
+        let zero = chain.points_at_zero();
+        let slopes = points.iter().map(|angles| {
+            place(&chain, &mut work, &chain.spread(angles));
+            let tool = tcp(&chain, &work).point;
+            let here = match behind.checked_sub(1) {
+                Some(last) => {
+                    let arm = rotate(&hinge_rotation(&work, last), sub(at, zero[last]));
+                    add(hinge_point(&work, last), arm)
+                }
+                None => at,
+            };
+            let mut slope = [[0.0; 3]; 3];
+            for (i, spring) in springs(&chain).filter(|(i, _)| *i < behind) {
+                let (pushed, moved) = (column(&work, i, tool).0, column(&work, i, here).0);
+                for (direction, own) in slope.iter_mut().enumerate() {
+                    let turn = pushed[direction] / spring.stiffness;
+                    (0..3).for_each(|k| own[k] += moved[k] * turn);
+                }
+            }
+            slope
+        });
+        Self {
+            slopes: slopes.collect(),
+            gaps: Vec::new(),
+        }
+    }
+
+    /// Whether force and displacement are in proportion.
+    pub fn is_linear(&self) -> bool {
+        self.gaps.is_empty()
+    }
+
+    /// Displacement of the tool beyond that in proportion to the force, m, base frame: every gap
+    /// stands at the stop that force (N, along `direction`) and weight press it to; with too little
+    /// to press it, between the stops, or at the one where the force `before` has left it.
+    pub fn jump(&self, point: usize, direction: usize, force: f64, before: Option<f64>) -> V3 {
+        let mut sum = [0.0; 3];
+        for gap in &self.gaps {
+            let lever = gap.levers[point];
+            let torque = |force: f64| lever[direction] * force + gap.weights[point];
+            let side = match before {
+                Some(before) if torque(force).abs() < STOP => torque(before) / STOP,
+                _ => torque(force) / STOP,
+            };
+            let side = side.clamp(-1.0, 1.0);
+            (0..3).for_each(|k| sum[k] += 0.5 * gap.size * side * lever[k]);
+        }
+        sum
+    }
+}
+
+/// A gap is crossed within this torque to either side, N·m: no drive moves without any.
+const STOP: f64 = 5.0;
+
+impl Gap {
+    fn new(size: f64) -> Self {
+        Self {
+            size,
+            levers: Vec::new(),
+            weights: Vec::new(),
+        }
+    }
+
+    fn meet(&mut self, chain: &Chain, work: &mut Work, hinge: usize, q: &[f64]) {
+        let weight = gravity_torque(chain, work, q)[hinge];
+        let at = tcp(chain, work).point;
+        self.levers.push(column(work, hinge, at).0);
+        self.weights.push(-weight);
     }
 }

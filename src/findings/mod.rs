@@ -2,10 +2,13 @@
 //! all of them answer in the same form.
 
 pub mod answer;
+pub mod campaign;
 pub mod gain;
 pub mod hammer;
+pub mod joint_motion;
 pub mod load_cycle;
 pub mod sentence;
+pub mod workspace;
 
 pub use answer::{Answer, Cause, Group, Verdict};
 pub use load_cycle::{Diagnosis, Settings, diagnose};

@@ -126,7 +126,7 @@ impl Step {
         weighing: &Weighing,
     ) -> Outcome<Self> {
         let design = weighing.design(response, sites);
-        let slopes = weighing.slopes();
+        let slopes = weighing.measured();
         let mut hessian = design.transpose() * &design;
         let mut gradient = design.transpose() * &slopes;
         for (i, prior) in priors.iter().enumerate() {

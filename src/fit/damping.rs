@@ -148,7 +148,7 @@ fn at_pose(
 fn joints<'a>(test: &'a Test, robot: &Robot) -> Outcome<&'a [f64]> {
     let (wanted, remedy) = (
         robot.dof(),
-        "write `# joint_angles_deg = [...]`, one angle per joint",
+        "write `# joint_angles_deg = [...]`, one angle per joint; for a universal file, add --joints-deg",
     );
     match &test.record.joint_angles {
         Some(angles) if angles.len() == wanted => Ok(angles),

@@ -46,6 +46,8 @@ pub struct StoredInput {
 pub struct StoredProduct {
     /// As in `A4^0.70 · A6^-0.70`.
     pub product: String,
+    /// Its value over that of the robot before.
+    pub times_before: f64,
     /// Its relative standard error.
     pub relative_stderr: f64,
 }

@@ -51,44 +51,72 @@ pub struct Stiffness {
 }
 
 /// Readings further from the line than this many robust standard deviations are wild.
-const WILD: f64 = 6.0;
+pub(super) const WILD: f64 = 6.0;
 /// Above this relative standard deviation a slope is no measurement.
 const UNSUPPORTED: f64 = 0.5;
 
 /// Every set-up of a file, by point and direction.
 pub fn setups(test: &WorkspaceTest) -> Vec<Setup> {
-    let mut keys: Vec<(usize, usize)> = test.steps.iter().map(|s| (s.point, s.direction)).collect();
-    keys.sort_unstable();
-    keys.dedup();
     let noise = test.facts.sensor_noise;
-    let of = |(point, direction): (usize, usize)| {
-        let own = test.steps.iter();
-        let own = own.filter(|s| s.point == point && s.direction == direction);
-        let own: Vec<&Step> = own.collect();
-        let mut cycles: Vec<i64> = own.iter().map(|s| s.cycle).collect();
-        cycles.sort_unstable();
-        cycles.dedup();
-        let line = |component: usize| {
-            let readings = own.iter().map(|step| Reading::of(step, &cycles, component));
-            line(&readings.flatten().collect::<Vec<_>>(), cycles.len(), noise)
-        };
-        Setup {
-            point,
-            direction,
-            cycles: cycles.len(),
-            rows: own.len(),
-            lines: [line(0), line(1), line(2)],
-        }
+    let line = |own: &SetupSteps, component: usize| {
+        straight(&own.readings(component), own.cycles.len(), noise).map(|fit| fit.line)
     };
-    keys.into_iter().map(of).collect()
+    let of = |own: SetupSteps| Setup {
+        point: own.point,
+        direction: own.direction,
+        cycles: own.cycles.len(),
+        rows: own.steps.len(),
+        lines: [line(&own, 0), line(&own, 1), line(&own, 2)],
+    };
+    by_setup(test).into_iter().map(of).collect()
 }
 
-/// One reading of one component.
+/// The steps of one set-up, in the order of the file.
+pub(super) struct SetupSteps<'a> {
+    pub point: usize,
+    pub direction: usize,
+    pub steps: Vec<&'a Step>,
+    pub cycles: Vec<i64>,
+}
+
+/// The steps of a file by point and direction.
+pub(super) fn by_setup(test: &WorkspaceTest) -> Vec<SetupSteps<'_>> {
+    let mut found: std::collections::BTreeMap<(usize, usize), Vec<&Step>> = Default::default();
+    for step in &test.steps {
+        let key = (step.point, step.direction);
+        found.entry(key).or_default().push(step);
+    }
+    let all = found.into_iter();
+    all.map(|((point, direction), steps)| SetupSteps::new(point, direction, steps))
+        .collect()
+}
+
+impl<'a> SetupSteps<'a> {
+    fn new(point: usize, direction: usize, steps: Vec<&'a Step>) -> Self {
+        let mut cycles: Vec<i64> = steps.iter().map(|s| s.cycle).collect();
+        cycles.sort_unstable();
+        cycles.dedup();
+        Self {
+            point,
+            direction,
+            steps,
+            cycles,
+        }
+    }
+
+    /// What was measured of one component.
+    pub fn readings(&self, component: usize) -> Vec<Reading> {
+        let reading = |step: &&Step| Reading::of(step, &self.cycles, component);
+        self.steps.iter().filter_map(reading).collect()
+    }
+}
+
+/// One reading of one component: index of its cycle, N, m.
 #[derive(Clone, Copy)]
-struct Reading {
-    cycle: usize,
-    force: f64,
-    displacement: f64,
+pub(super) struct Reading {
+    pub cycle: usize,
+    pub force: f64,
+    pub displacement: f64,
 }
 
 impl Reading {
@@ -103,8 +131,18 @@ impl Reading {
     }
 }
 
+/// A line with what it leaves of every reading, m.
+pub(super) struct Straight {
+    pub line: Line,
+    pub residuals: Vec<f64>,
+}
+
 /// Robust start, then least squares over what is not wild.
-fn line(readings: &[Reading], cycles: usize, noise: Option<f64>) -> Option<Line> {
+pub(super) fn straight(
+    readings: &[Reading],
+    cycles: usize,
+    noise: Option<f64>,
+) -> Option<Straight> {
     let mut weights = vec![1.0; readings.len()];
     let mut scale = 0.0;
     for _ in 0..30 {
@@ -124,7 +162,12 @@ fn line(readings: &[Reading], cycles: usize, noise: Option<f64>) -> Option<Line>
         .or_else(|| ordinary(readings, &vec![1.0; kept.len()], cycles, noise))
 }
 
-fn ordinary(readings: &[Reading], kept: &[f64], cycles: usize, noise: Option<f64>) -> Option<Line> {
+fn ordinary(
+    readings: &[Reading],
+    kept: &[f64],
+    cycles: usize,
+    noise: Option<f64>,
+) -> Option<Straight> {
     let (fit, residuals) = weighted(readings, kept, cycles)?;
     let used = kept.iter().filter(|w| **w > 0.0).count();
     let freedom = used as f64 - 1.0 - fit.cycles as f64;
@@ -134,24 +177,31 @@ fn ordinary(readings: &[Reading], kept: &[f64], cycles: usize, noise: Option<f64
         (false, Some(noise)) => (noise, f64::INFINITY),
         (false, None) => return None,
     };
-    Some(Line {
-        slope: fit.slope,
-        stderr: scatter / fit.force_squares.sqrt(),
-        freedom,
-        scatter,
-        rows: used,
-        wild: readings.len() - used,
+    Some(Straight {
+        line: Line {
+            slope: fit.slope,
+            stderr: scatter / fit.force_squares.sqrt(),
+            freedom,
+            scatter,
+            rows: used,
+            wild: readings.len() - used,
+        },
+        residuals,
     })
 }
 
-struct Weighted {
-    slope: f64,
-    force_squares: f64,
+pub(super) struct Weighted {
+    pub slope: f64,
+    pub force_squares: f64,
     cycles: usize,
 }
 
 /// Weighted least squares of one slope and an intercept per cycle; `None` without any change of force.
-fn weighted(readings: &[Reading], weights: &[f64], cycles: usize) -> Option<(Weighted, Vec<f64>)> {
+pub(super) fn weighted(
+    readings: &[Reading],
+    weights: &[f64],
+    cycles: usize,
+) -> Option<(Weighted, Vec<f64>)> {
     let mut sums = vec![[0.0; 3]; cycles];
     for (reading, w) in readings.iter().zip(weights) {
         let sum = &mut sums[reading.cycle];
@@ -185,7 +235,7 @@ fn weighted(readings: &[Reading], weights: &[f64], cycles: usize) -> Option<(Wei
 }
 
 /// Standard deviation by the median of the magnitudes; the root mean square if that is zero.
-fn spread(residuals: &[f64]) -> f64 {
+pub(super) fn spread(residuals: &[f64]) -> f64 {
     let mut sizes: Vec<f64> = residuals.iter().map(|r| r.abs()).collect();
     sizes.sort_by(f64::total_cmp);
     match sizes.get(sizes.len() / 2) {

@@ -2,13 +2,18 @@
 
 use super::frf_tuning::{Linearised, Tuning};
 use crate::signal::jackknife::t95;
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 /// Standard deviation of a logarithm above which a constant is not identifiable: a factor of 2 either
 /// way at 95 %.
 const IDENTIFIABLE: f64 = 0.35;
 /// Standard deviation of the logarithm of a combination that the data fix.
 const FIXED: f64 = 0.1;
+/// Relative standard deviation that no calibration of hammer and sensors is better than. It is the same
+/// on all lines, so that no number of lines averages it out.
+const CALIBRATION: f64 = 0.001;
+/// Exponents below which a factor is left out of a combination, as long as it stays fixed without.
+const SMALL: [f64; 4] = [0.1, 0.03, 0.01, 0.0];
 
 /// What became of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,15 +80,20 @@ pub(super) fn uncertainty(
     let statement = |i: usize| {
         let apart = rivals.iter().map(|rival| (rival[i] - theta[i]).abs());
         let apart = apart.fold(0.0, f64::max) / t95(freedom);
-        let deviation = covariance[(i, i)].sqrt() + apart;
-        let alone = data_only[(i, i)].sqrt() + apart < IDENTIFIABLE;
+        let deviation = calibrated(covariance[(i, i)]) + apart;
+        let alone = calibrated(data_only[(i, i)]) + apart < IDENTIFIABLE;
         statement(task, theta, i, deviation, alone, freedom)
     };
     Uncertainty {
         statements: (0..theta.len()).map(statement).collect(),
-        fixed: combinations(&data, scale),
+        fixed: combinations(&data, scale, &data_only),
         ln_covariance: covariance,
     }
+}
+
+/// Standard deviation from the variance of a logarithm, what calibrations leave included.
+fn calibrated(variance: f64) -> f64 {
+    variance.sqrt().hypot(CALIBRATION)
 }
 
 /// Inverse of a semidefinite matrix; directions without information get a deviation of 1000.
@@ -120,25 +130,34 @@ fn statement(
     }
 }
 
-fn combinations(data: &DMatrix<f64>, scale: f64) -> Vec<Combination> {
+fn combinations(data: &DMatrix<f64>, scale: f64, covariance: &DMatrix<f64>) -> Vec<Combination> {
     let eigen = SymmetricEigen::new(data.clone());
-    let mut fixed: Vec<Combination> = eigen
+    let columns = eigen
         .eigenvalues
         .iter()
-        .zip(eigen.eigenvectors.column_iter())
-        .filter(|(value, _)| **value > scale / (FIXED * FIXED))
-        .map(|(value, vector)| {
-            let large = vector
-                .iter()
-                .copied()
-                .enumerate()
-                .filter(|(_, w)| w.abs() > 0.1);
-            Combination {
-                weights: large.collect(),
-                ln_std: (scale / value).sqrt(),
-            }
-        })
+        .zip(eigen.eigenvectors.column_iter());
+    let informed = columns.filter(|(value, _)| **value > scale / (FIXED * FIXED));
+    let mut fixed: Vec<Combination> = informed
+        .filter_map(|(_, vector)| shortened(&vector.into_owned(), covariance))
         .collect();
     fixed.sort_by(|a, b| a.ln_std.total_cmp(&b.ln_std));
     fixed
+}
+
+/// The combination `vector` with as few factors as are still fixed: a small power of a constant that
+/// nothing fixes may spoil it.
+fn shortened(vector: &DVector<f64>, covariance: &DMatrix<f64>) -> Option<Combination> {
+    let without = |least: f64| {
+        let large = vector.map(|w| if w.abs() > least { w } else { 0.0 });
+        let ln_std = calibrated(large.dot(&(covariance * &large)));
+        let weights = large.iter().copied().enumerate();
+        Combination {
+            weights: weights.filter(|(_, w)| *w != 0.0).collect(),
+            ln_std,
+        }
+    };
+    SMALL
+        .into_iter()
+        .map(without)
+        .find(|one| one.ln_std < FIXED)
 }

@@ -18,6 +18,11 @@ pub enum Residuals {
 }
 
 impl Residuals {
+    /// How many terms each channel has.
+    pub(super) fn terms(self) -> usize {
+        self.powers().len()
+    }
+
     fn powers(self) -> &'static [i32] {
         match self {
             Self::None => &[],

@@ -7,8 +7,8 @@ use super::frf_match::{FrfMatch, frf_match};
 use super::frf_model::{Kind, Measured, Pose};
 pub use super::frf_residuals::Residuals;
 use super::frf_residuals::{residual_basis, with_residuals};
+use super::frf_starts::starts;
 use crate::ground::problem::{Outcome, Problem};
-use crate::ground::random::Random;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
@@ -42,7 +42,7 @@ pub struct Tuning {
     pub poses: Vec<Pose>,
     /// Residual terms.
     pub residuals: Residuals,
-    /// Number of starts; the first is at the first guesses.
+    /// Number of starts (`frf_starts`); the first is at the first guesses.
     pub starts: usize,
 }
 
@@ -53,7 +53,8 @@ pub struct Tuned {
     pub values: Vec<f64>,
     /// What the data say about each of them.
     pub uncertainty: Uncertainty,
-    /// Weighted sum of squares over the degrees of freedom; 1 is noise alone.
+    /// Weighted sum of squares over the degrees of freedom, an exponential window counted: 1 is noise
+    /// alone.
     pub reduced_chi_square: f64,
     /// Per pose and measured pair, before and after.
     pub matches: Vec<Vec<[FrfMatch; 2]>>,
@@ -72,11 +73,7 @@ pub(super) struct Linearised {
 pub fn tune(task: &Tuning) -> Outcome<Tuned> {
     check(task)?;
     let kinds: Vec<Kind> = task.parameters.iter().map(|p| p.kind).collect();
-    let mut random = Random::new(11);
-    let starts: Vec<Vec<f64>> = (0..task.starts.max(1))
-        .map(|i| start(task, i, &mut random))
-        .collect();
-    let descents = starts
+    let descents = starts(task, &kinds)
         .into_par_iter()
         .map(|start| descend(task, &kinds, start));
     let runs: Vec<(Vec<f64>, f64)> = descents.collect::<Vec<_>>().into_iter().flatten().collect();
@@ -87,7 +84,7 @@ pub fn tune(task: &Tuning) -> Outcome<Tuned> {
         .filter(|run| run.1 <= 1.01 * cost + 1e-12)
         .count();
     let at = linearise(task, &kinds, theta).ok_or_else(singular)?;
-    let freedom = (rows(task) as f64 - task.parameters.len() as f64).max(1.0);
+    let freedom = freedom(task);
     let values: Vec<f64> = theta.iter().map(|t| t.exp()).collect();
     let reduced = at.cost / freedom;
     let rivals: Vec<&[f64]> = runs
@@ -97,7 +94,7 @@ pub fn tune(task: &Tuning) -> Outcome<Tuned> {
         .collect();
     Ok(Tuned {
         uncertainty: uncertainty(task, theta, &at, &rivals, (reduced, freedom)),
-        reduced_chi_square: at.cost / freedom,
+        reduced_chi_square: reduced,
         matches: matches(task, &kinds, &values),
         agreeing_starts: agreeing as f64 / runs.len() as f64,
         values,
@@ -139,17 +136,15 @@ fn rows(task: &Tuning) -> usize {
     pairs(task).map(|(_, pair)| 2 * pair.frf.len()).sum()
 }
 
-/// Logarithms of the first guesses, or of values drawn within a factor of 10 about them.
-fn start(task: &Tuning, number: usize, random: &mut Random) -> Vec<f64> {
-    let guess = |p: &Parameter| {
-        let spread = if number == 0 {
-            0.0
-        } else {
-            random.uniform(-2.3, 2.3)
-        };
-        (p.start.ln() + spread).clamp(p.bounds[0].ln(), p.bounds[1].ln())
+/// Independent real numbers measured, less what was fitted to them. Under an exponential window
+/// neighbouring lines repeat each other: the weights count each for its share only, and so does this.
+fn freedom(task: &Tuning) -> f64 {
+    let of = |pair: &Measured| {
+        2.0 * pair.frf.len() as f64 / pair.lines_per_independent_one()
+            - task.residuals.terms() as f64
     };
-    task.parameters.iter().map(guess).collect()
+    let measured: f64 = pairs(task).map(|(_, pair)| of(pair)).sum();
+    (measured - task.parameters.len() as f64).max(1.0)
 }
 
 /// Levenberg-Marquardt, steps cut at the bounds.

@@ -32,7 +32,16 @@ pub const MOST_ROWS: usize = 6000;
 /// reading wild.
 const WILD: f64 = 3.5;
 
+/// The same beside a fitted model, in robust standard deviations of the distance itself.
+const LONE: f64 = 6.5;
+
 impl Observation {
+    /// Smallest and largest load.
+    pub fn load_range(&self) -> (f64, f64) {
+        let load = self.scene.load.iter();
+        load.fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)))
+    }
+
     /// Prepares the first sensor of a file, averaged down to at most `most` rows.
     pub fn of(file: &LoadCycle, most: usize) -> Self {
         let block = file.load.len().div_ceil(most.max(4)).max(1);
@@ -65,6 +74,20 @@ impl Observation {
             block,
             wild,
         }
+    }
+
+    /// Replaces readings that stand alone in the residual (reading − model) of a model that fits them;
+    /// says whether there were any.
+    pub fn repair_about(&mut self, residual: &[f64]) -> bool {
+        let lone = outliers::lone(residual, LONE);
+        for i in &lone {
+            self.reading[*i] += outliers::neighbours(residual, *i) - residual[*i];
+        }
+        let found = !lone.is_empty();
+        self.wild.extend(lone);
+        self.wild.sort_unstable();
+        self.wild.dedup();
+        found
     }
 
     /// Number of readings.

@@ -33,7 +33,8 @@ pub struct Identified {
     pub status: Status,
     /// What it means, one sentence.
     pub meaning: String,
-    /// For a parameter at its bound: the largest magnitude the data allow (95 %).
+    /// For a parameter at its bound, or whose interval reaches zero: the largest magnitude that the
+    /// data allow (95 %).
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub limit95: Option<f64>,
 }
@@ -65,5 +66,18 @@ impl Identified {
         }
         (self.value, self.stderr, self.ci95, self.status) = (None, None, None, status);
         self
+    }
+
+    /// A parameter that may be absent: no number is printed, only how large it may be at most.
+    #[must_use]
+    pub fn limited(mut self, status: Status, limit: f64) -> Self {
+        self.limit95 = (limit.is_finite() && limit > 0.0).then_some(limit);
+        (self.value, self.stderr, self.ci95, self.status) = (None, None, None, status);
+        self
+    }
+
+    /// Whether the 95 % interval reaches down to zero or beyond.
+    pub fn may_be_zero(&self) -> bool {
+        self.ci95.is_some_and(|[low, _]| low <= 0.0)
     }
 }

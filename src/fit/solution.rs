@@ -2,8 +2,9 @@
 
 use super::least_squares::{Optimum, Problem, Search, minimise};
 use super::observation::Observation;
-use super::parameter::{Identified, Status};
+use super::parameter::{Identified, Status, Z95};
 use super::starts::starts;
+use crate::effects::composite::Slot;
 use crate::effects::{Composite, Scale};
 use crate::measurement::load_cycle::Port;
 use crate::signal::colour::Colour;
@@ -17,6 +18,8 @@ pub struct Solution {
     pub p: Vec<f64>,
     /// Their covariance, SI; infinite variance for what the data do not fix.
     pub covariance: DMatrix<f64>,
+    /// The same as if no amplitude sat on a bound: how far from there the truth may be.
+    pub reach: DMatrix<f64>,
     /// What the data say of each.
     pub status: Vec<Status>,
     /// The noise they left.
@@ -108,7 +111,6 @@ fn leverage(jacobian: &DMatrix<f64>) -> Vec<f64> {
 /// A solution found by plain least squares, its covariance widened for noise of another colour:
 /// (JᵀJ)⁻¹ JᵀSJ (JᵀJ)⁻¹ (White 1980), S the noise variance over the one assumed.
 pub fn conclude_with(problem: &Problem, optimum: Optimum, colour: Colour) -> Solution {
-    let narrow = covariance(problem.model, &optimum);
     let mut weighed = optimum.jacobian.clone();
     for (k, (actual, assumed)) in colour.sigma.iter().zip(&problem.colour.sigma).enumerate() {
         weighed.row_mut(k).scale_mut(actual / assumed);
@@ -116,10 +118,16 @@ pub fn conclude_with(problem: &Problem, optimum: Optimum, colour: Colour) -> Sol
     for (j, scale) in optimum.scale.iter().enumerate() {
         weighed.column_mut(j).scale_mut(1.0 / scale);
     }
-    let covariance = &narrow * weighed.tr_mul(&weighed) * &narrow;
+    let score = weighed.tr_mul(&weighed);
+    let widened = |pinned: bool| {
+        let narrow = covariance(problem.model, &optimum, pinned);
+        &narrow * &score * &narrow
+    };
+    let (covariance, reach) = (widened(true), widened(false));
     let status = judge(problem.model, &optimum, &covariance);
     Solution {
         covariance,
+        reach,
         status,
         colour,
         ..conclude(problem, optimum)
@@ -142,12 +150,12 @@ fn conclude(problem: &Problem, optimum: Optimum) -> Solution {
         .map(|(r, _)| *r)
         .collect();
     let rms = (counted.iter().map(|r| r * r).sum::<f64>() / counted.len().max(1) as f64).sqrt();
-    let covariance = covariance(problem.model, &optimum);
-    let status = judge(problem.model, &optimum, &covariance);
+    let pinned = covariance(problem.model, &optimum, true);
     Solution {
         model: problem.model.clone(),
-        status,
-        covariance,
+        status: judge(problem.model, &optimum, &pinned),
+        reach: covariance(problem.model, &optimum, false),
+        covariance: pinned,
         colour: problem.colour.clone(),
         rms,
         rows: counted.len(),
@@ -159,9 +167,10 @@ fn conclude(problem: &Problem, optimum: Optimum) -> Solution {
 /// (JᵀJ)⁻¹ over the free parameters; directions the data do not see get infinite variance.
 ///
 /// A shape that ended on a bound still widens the others: the truth need not lie on that bound.
-fn covariance(model: &Composite, optimum: &Optimum) -> DMatrix<f64> {
+/// Amplitudes on a bound are known to lie there if `pinned`.
+fn covariance(model: &Composite, optimum: &Optimum, pinned: bool) -> DMatrix<f64> {
     let slots = model.slots();
-    let counts = |j: &usize| optimum.active[*j] == 0 || !slots[*j].amplitude;
+    let counts = |j: &usize| !pinned || optimum.active[*j] == 0 || !slots[*j].amplitude;
     let free: Vec<usize> = (0..optimum.p.len()).filter(counts).collect();
     let n = optimum.p.len();
     let columns = optimum.jacobian.select_columns(&free);
@@ -225,20 +234,25 @@ impl Solution {
         self.covariance[(j, j)].sqrt()
     }
 
+    /// Largest value of parameter j that the data allow (95 %), also where it sits on a bound.
+    pub fn limit(&self, j: usize) -> f64 {
+        self.p[j] + Z95 * self.reach[(j, j)].sqrt()
+    }
+
     /// The parameters as they are reported.
     pub fn parameters(&self, site: &str, port: Port) -> Vec<Identified> {
         let slots = self.model.slots();
-        let report = |(j, slot): (usize, &crate::effects::composite::Slot)| {
+        let report = |(j, slot): (usize, &Slot)| {
             let unit = unit_of(slot.parameter.scale, port);
-            let value = Identified::new(
-                slot.parameter.name,
-                site,
-                self.p[j],
-                unit,
-                self.stderr(j),
-                slot.parameter.meaning,
-            );
+            let (name, meaning) = (slot.parameter.name, slot.parameter.meaning);
+            let value = Identified::new(name, site, self.p[j], unit, self.stderr(j), meaning);
+            let vanishing = slot.may_vanish() && (value.may_be_zero() || self.p[j] <= 0.0);
             match self.status[j] {
+                Status::AtBound if vanishing => value.limited(Status::AtBound, self.limit(j)),
+                Status::Identified if vanishing => {
+                    value.limited(Status::NotIdentifiable, self.limit(j))
+                }
+                Status::AtBound if slot.amplitude => value.limited(Status::AtBound, 0.0),
                 Status::Identified => value,
                 other => value.without_value(other),
             }

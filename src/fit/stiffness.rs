@@ -1,12 +1,13 @@
 //! From one load-cycle file to its stiffness account.
 
 use super::bootstrap;
+use super::derived::derived;
 use super::imposed::{self, fit_imposed, is_imposed};
 use super::observation::{MOST_ROWS, Observation};
 use super::parameter::{Identified, Status, Z95};
 use super::solution::{Solution, fit};
 use crate::effects::{Composite, EFFECTS, shapes};
-use crate::experiments::load_cycle::{Settled, enclosed, settle, settled_cycle, straight_line};
+use crate::experiments::load_cycle::{enclosed, settled_cycle, straight_line};
 use crate::fit::candidates::Candidates;
 use crate::fit::screen::screen;
 use crate::fit::second::log_ratio;
@@ -89,7 +90,7 @@ fn pressed(file: &LoadCycle, request: &Request) -> Account {
     let mut solution = fit(&request.model, &data);
     let candidates = Candidates::new(&shapes(EFFECTS), &data);
     let noise = screen(&data, &candidates).colour;
-    let (low, high) = range(&data.scene.load);
+    let (low, high) = data.load_range();
     let branches = settled_cycle(&solution.model, &solution.p, &data.scene, low, high);
     let site = file.site();
     let mut parameters = solution.parameters(&site, file.port);
@@ -98,7 +99,7 @@ fn pressed(file: &LoadCycle, request: &Request) -> Account {
         widen(&mut parameters, &intervals, &mut solution);
     }
     rename(&mut parameters);
-    parameters.extend(derived(&solution, &data, file, (low, high)));
+    parameters.extend(derived(&solution, &data, file));
     let straight = straight_line(&file.load, &file.deflection);
     let second = log_ratio(file);
     Account {
@@ -116,18 +117,20 @@ fn pressed(file: &LoadCycle, request: &Request) -> Account {
     }
 }
 
-fn range(load: &[f64]) -> (f64, f64) {
-    load.iter()
-        .fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)))
-}
-
 fn widen(parameters: &mut [Identified], intervals: &[[f64; 2]], solution: &mut Solution) {
+    let slots = solution.model.slots();
     for (j, (parameter, interval)) in parameters.iter_mut().zip(intervals).enumerate() {
-        if parameter.status == Status::Identified {
-            let stderr = (interval[1] - interval[0]) / (2.0 * Z95);
-            parameter.ci95 = Some(*interval);
-            parameter.stderr = Some(stderr);
-            solution.covariance[(j, j)] = stderr * stderr;
+        if parameter.status != Status::Identified {
+            continue;
+        }
+        let stderr = (interval[1] - interval[0]) / (2.0 * Z95);
+        parameter.ci95 = Some(*interval);
+        parameter.stderr = Some(stderr);
+        solution.covariance[(j, j)] = stderr * stderr;
+        if slots[j].may_vanish() && parameter.may_be_zero() {
+            *parameter = parameter
+                .clone()
+                .limited(Status::NotIdentifiable, interval[1]);
         }
     }
 }
@@ -137,119 +140,6 @@ fn rename(parameters: &mut [Identified]) {
     for parameter in parameters.iter_mut().filter(|p| p.name == "gap") {
         parameter.name = "backlash".into();
     }
-}
-
-/// A quantity that follows from a settled cycle.
-struct Derived {
-    name: &'static str,
-    unit: fn(&LoadCycle) -> &'static str,
-    meaning: &'static str,
-    read: fn(&Settled) -> f64,
-}
-
-const DERIVED: &[Derived] = &[
-    Derived {
-        name: "hysteresis_loss",
-        unit: |_| "J",
-        meaning: "work lost in one settled cycle at full load",
-        read: |s| s.loss,
-    },
-    Derived {
-        name: "loss_factor",
-        unit: |_| "1",
-        meaning: "loss per cycle over 2π times the energy stored at full load",
-        read: |s| s.loss_factor,
-    },
-    Derived {
-        name: "secant_stiffness",
-        unit: |f| f.port.stiffness_unit(),
-        meaning: "load range over deflection range of a settled cycle at full load, lost motion included",
-        read: |s| s.secant,
-    },
-    Derived {
-        name: "tangent_stiffness",
-        unit: |f| f.port.stiffness_unit(),
-        meaning: "slope at the end of loading, at full load",
-        read: |s| s.tangent,
-    },
-    Derived {
-        name: "reversal_stiffness",
-        unit: |f| f.port.stiffness_unit(),
-        meaning: "slope right after the load turns",
-        read: |s| s.reversal,
-    },
-];
-
-fn derived(
-    solution: &Solution,
-    data: &Observation,
-    file: &LoadCycle,
-    range: (f64, f64),
-) -> Vec<Identified> {
-    let at = |p: &[f64]| {
-        let (load, deflection) = settled_cycle(&solution.model, p, &data.scene, range.0, range.1);
-        settle(&load, &deflection)
-    };
-    let here = at(&solution.p);
-    let spring_known = solution.status[0] == Status::Identified;
-    let moved = shifted(solution, &at);
-    let site = file.site();
-    DERIVED
-        .iter()
-        .map(|d| {
-            let value = (d.read)(&here);
-            let slopes: Vec<f64> = moved
-                .iter()
-                .map(|m| {
-                    m.as_ref()
-                        .map_or(0.0, |(u, l, h)| ((d.read)(u) - (d.read)(l)) / h)
-                })
-                .collect();
-            let stderr = propagated(solution, &slopes);
-            let parameter =
-                Identified::new(d.name, &site, value, (d.unit)(file), stderr, d.meaning);
-            let known = spring_known && stderr.is_finite() && value.is_finite();
-            if known {
-                parameter
-            } else {
-                parameter.without_value(Status::NotIdentifiable)
-            }
-        })
-        .collect()
-}
-
-/// The settled cycle with each identified parameter moved a little up and down.
-fn shifted(
-    solution: &Solution,
-    at: &dyn Fn(&[f64]) -> Settled,
-) -> Vec<Option<(Settled, Settled, f64)>> {
-    (0..solution.p.len())
-        .map(|j| {
-            let std = solution.stderr(j);
-            let step = (0.1 * std)
-                .min(1e-3 * solution.p[j].abs())
-                .max(1e-9 * solution.p[j].abs());
-            if !std.is_finite() || std == 0.0 || step == 0.0 {
-                return None;
-            }
-            let (mut up, mut down) = (solution.p.clone(), solution.p.clone());
-            up[j] += step;
-            down[j] -= step;
-            Some((at(&up), at(&down), 2.0 * step))
-        })
-        .collect()
-}
-
-fn propagated(solution: &Solution, slopes: &[f64]) -> f64 {
-    let mut variance = 0.0;
-    for (i, a) in slopes.iter().enumerate() {
-        for (j, b) in slopes.iter().enumerate() {
-            if *a != 0.0 && *b != 0.0 {
-                variance += a * solution.covariance[(i, j)] * b;
-            }
-        }
-    }
-    variance.max(0.0).sqrt()
 }
 
 fn warnings(account: &Account, file: &LoadCycle) -> Vec<String> {

@@ -4,6 +4,7 @@
 use super::force_steps::{Setup, quantile};
 use super::parameter::Z95;
 use crate::experiments::workspace::{Response, Site};
+use crate::ground::spatial::V3;
 use nalgebra::{DMatrix, DVector};
 
 /// The measured components of one set-up with the transform that whitens them.
@@ -14,6 +15,8 @@ struct Block {
     components: Vec<usize>,
     slopes: DVector<f64>,
     variances: Vec<f64>,
+    /// Deviation that is put up with in every component, m/N.
+    tolerance: f64,
     whitener: DMatrix<f64>,
 }
 
@@ -40,6 +43,7 @@ impl Weighing {
                     .iter()
                     .map(|(_, l)| variance(l.stderr, l.freedom))
                     .collect(),
+                tolerance: 0.0,
                 whitener: DMatrix::zeros(lines.len(), lines.len()),
             }
         });
@@ -58,15 +62,22 @@ impl Weighing {
     /// Takes the shared factor about what a model predicts: the measured slopes carry the factor
     /// themselves and would favour set-ups that came out soft.
     pub fn about_model(&mut self, response: &Response, compliances: &[f64]) {
-        let predicted: Vec<DVector<f64>> = self
-            .blocks
-            .iter()
-            .map(|b| {
-                let slope = response.slope(b.point, b.direction, compliances);
-                DVector::from_iterator(b.components.len(), b.components.iter().map(|k| slope[*k]))
-            })
-            .collect();
+        self.about_slopes(|point, direction| response.slope(point, direction, compliances));
+    }
+
+    /// Takes the shared factor about these slopes, m/N by point and direction.
+    pub fn about_slopes(&mut self, slope: impl Fn(usize, usize) -> V3) {
+        let of = |b: &Block| b.pick(&slope(b.point, b.direction));
+        let predicted: Vec<DVector<f64>> = self.blocks.iter().map(of).collect();
         self.about(&predicted);
+    }
+
+    /// Puts up with a deviation in every component, m/N by point and direction: no model is exact.
+    /// It counts from the next time that the shared factor is taken about something.
+    pub fn tolerate(&mut self, deviation: impl Fn(usize, usize) -> f64) {
+        for block in &mut self.blocks {
+            block.tolerance = deviation(block.point, block.direction);
+        }
     }
 
     fn about(&mut self, shared: &[DVector<f64>]) {
@@ -74,7 +85,7 @@ impl Weighing {
             let floor = 1e-12 * mean.norm_squared().max(block.slopes.norm_squared());
             let mut covariance = mean * mean.transpose() * self.repeatability.powi(2);
             for (k, variance) in block.variances.iter().enumerate() {
-                covariance[(k, k)] += variance.max(floor);
+                covariance[(k, k)] += variance.max(floor) + block.tolerance.powi(2);
             }
             let n = block.variances.len();
             if let Some(root) = covariance.cholesky() {
@@ -94,8 +105,22 @@ impl Weighing {
         self.blocks.is_empty()
     }
 
+    /// Standard deviation of every slope about any model, m/N, by set-up and component; NaN where
+    /// it was not measured.
+    pub fn deviations(&self) -> Vec<[f64; 3]> {
+        let of = |b: &Block| {
+            let mut out = [f64::NAN; 3];
+            let inverse = b.whitener.clone().try_inverse();
+            for (i, k) in b.components.iter().enumerate() {
+                out[*k] = inverse.as_ref().map_or(f64::NAN, |l| l.row(i).norm());
+            }
+            out
+        };
+        self.blocks.iter().map(of).collect()
+    }
+
     /// The whitened slopes.
-    pub fn slopes(&self) -> DVector<f64> {
+    pub fn measured(&self) -> DVector<f64> {
         let all = self.blocks.iter().map(|b| &b.whitener * &b.slopes);
         DVector::from_vec(
             all.flat_map(|v| v.iter().copied().collect::<Vec<_>>())
@@ -103,19 +128,47 @@ impl Weighing {
         )
     }
 
+    /// Slopes of every point and direction, m/N, whitened and in a row.
+    pub fn whiten(&self, slope: impl Fn(usize, usize) -> V3) -> DVector<f64> {
+        let own = |b: &Block| &b.whitener * b.pick(&slope(b.point, b.direction));
+        let all = self
+            .blocks
+            .iter()
+            .flat_map(|b| own(b).data.as_vec().clone());
+        DVector::from_vec(all.collect())
+    }
+
+    /// Point, direction and component of every whitened number: a number belongs to all components
+    /// up to its own.
+    pub fn places(&self) -> Vec<(usize, usize, usize)> {
+        let own = |b: &Block| {
+            let (point, direction) = (b.point, b.direction);
+            let places = b.components.clone().into_iter();
+            places.map(move |k| (point, direction, k))
+        };
+        self.blocks.iter().flat_map(own).collect()
+    }
+
     /// Whitened slopes per relative compliance of each site.
     pub fn design(&self, response: &Response, sites: &[Site]) -> DMatrix<f64> {
-        let mut design = DMatrix::zeros(self.len(), sites.len());
-        let mut row = 0;
-        for block in &self.blocks {
-            for (j, site) in sites.iter().enumerate() {
-                let unit = response.unit(block.point, block.direction, &site.axes);
-                let own = block.components.iter().map(|k| unit[*k] * site.compliance);
-                let own = &block.whitener * DVector::from_iterator(block.components.len(), own);
-                design.view_mut((row, j), (own.len(), 1)).copy_from(&own);
-            }
-            row += block.components.len();
+        let column = |site: &Site| {
+            self.whiten(|point, direction| {
+                let unit = response.unit(point, direction, &site.axes);
+                unit.map(|u| u * site.compliance)
+            })
+        };
+        let columns: Vec<DVector<f64>> = sites.iter().map(column).collect();
+        match columns.is_empty() {
+            true => DMatrix::zeros(self.len(), 0),
+            false => DMatrix::from_columns(&columns),
         }
-        design
+    }
+}
+
+impl Block {
+    /// The measured components of a slope.
+    fn pick(&self, slope: &V3) -> DVector<f64> {
+        let own = self.components.iter().map(|k| slope[*k]);
+        DVector::from_iterator(self.components.len(), own)
     }
 }

@@ -76,7 +76,7 @@ fn from_table(table: &Table) -> Outcome<HammerRecord> {
         outputs: outputs.into_iter().map(|(name, _)| name).collect(),
         runs,
         synthetic: front.synthetic(),
-        comparison: front.text("role")? == Some("comparison"),
+        comparison: comparison(front)?,
         sha256: table.sha256.clone(),
     })
 }
@@ -256,6 +256,19 @@ fn run(
         force: whole("force_N", force)?,
         responses: responses.collect::<Outcome<_>>()?,
     })
+}
+
+/// Whether the file is there only to be compared.
+fn comparison(front: &Front) -> Outcome<bool> {
+    match front.text("role")? {
+        None => Ok(false),
+        Some("comparison") => Ok(true),
+        Some(other) => Err(front.problem(
+            "role",
+            format!("is `{other}`, which is no role of a hammer test"),
+            "write `role = \"comparison\"`, or leave the line out for a test that is tuned to",
+        )),
+    }
 }
 
 /// Joint angles of the pose, rad.

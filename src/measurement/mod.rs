@@ -5,6 +5,7 @@ pub mod cycles;
 pub mod front;
 pub mod hammer;
 pub mod hammer_uff;
+pub mod joint_motion;
 pub mod load_cycle;
 pub mod table;
 pub mod uff;

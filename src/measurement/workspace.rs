@@ -205,6 +205,11 @@ pub fn only_of_kind(folder: &Path, kind: &str) -> Outcome<PathBuf> {
 
 /// The kind that the front matter of a CSV file names; only its leading lines are read.
 pub fn kind_of(path: &Path) -> Outcome<Option<String>> {
+    fact_of(path, "kind")
+}
+
+/// A text that the front matter of a CSV file states; only its leading lines are read.
+pub fn fact_of(path: &Path, name: &str) -> Outcome<Option<String>> {
     let unreadable = |e: std::io::Error| {
         Problem::new(
             format!("cannot be read ({e})"),
@@ -221,7 +226,7 @@ pub fn kind_of(path: &Path) -> Outcome<Option<String>> {
         text.push_str(fact.strip_prefix(' ').unwrap_or(fact));
         text.push('\n');
     }
-    Ok(Front::parse(text)?.text("kind")?.map(str::to_string))
+    Ok(Front::parse(text)?.text(name)?.map(str::to_string))
 }
 
 /// The file meant by `name`: the path itself, or, when it is not there, the only file of that name

@@ -4,8 +4,8 @@ use super::chain::Chain;
 use super::work::Work;
 use crate::ground::dual::Scalar;
 use crate::ground::spatial::{
-    IDENTITY, Inertia, Motion, Pose, V3, add, cross, lift, lift_matrix, product, rotate_constant,
-    rotate_tensor, sub, turn,
+    IDENTITY, Inertia, M3, Motion, Pose, V3, add, cross, lift, lift_matrix, product,
+    rotate_constant, rotate_tensor, sub, turn,
 };
 use crate::ground::trig;
 
@@ -84,6 +84,11 @@ pub fn forward_kinematics<S: Scalar>(chain: &Chain, work: &mut Work<S>, q: &[S])
 /// The point of hinge i after [`place`], m, base frame.
 pub fn hinge_point<S: Scalar>(work: &Work<S>, i: usize) -> V3<S> {
     work.point[i]
+}
+
+/// Orientation of the body behind hinge i after [`place`]: its axes at zero, turned, as columns.
+pub fn hinge_rotation<S: Scalar>(work: &Work<S>, i: usize) -> M3<S> {
+    work.rotation[i]
 }
 
 /// Column i of the Jacobian at `point` (base frame, m) after [`place`]: velocity of the point (m/s)

@@ -46,6 +46,24 @@ fn beyond(values: &[f64], i: usize) -> f64 {
     (values[i] - high).max(low - values[i]) - (high - low)
 }
 
+/// Rows of a residual that stand alone: off the median of their neighbours by more than `limit` robust
+/// standard deviations of that distance, while the rows beside them are calm. For what a model has
+/// flattened already: a knee that it missed would have company.
+pub fn lone(residual: &[f64], limit: f64) -> Vec<usize> {
+    let n = residual.len();
+    if n < 8 {
+        return Vec::new();
+    }
+    let off: Vec<f64> = (0..n)
+        .map(|i| residual[i] - neighbours(residual, i))
+        .collect();
+    let spread = robust_std(&off);
+    let calm = |i: usize| off[i].abs() <= 0.6 * limit * spread;
+    (1..n - 1)
+        .filter(|i| off[*i].abs() > limit * spread && calm(i - 1) && calm(i + 1))
+        .collect()
+}
+
 /// Median of the four nearest neighbours.
 pub fn neighbours(values: &[f64], i: usize) -> f64 {
     let n = values.len();

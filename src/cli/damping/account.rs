@@ -112,7 +112,11 @@ fn cells(parameter: &Identified) -> (String, String) {
 
 /// What the data fix of those constants that they do not fix alone.
 pub fn fixed_combinations(damped: &Damped) -> Table {
-    let mut out = Table::new("Combinations that the data fix", ["product", "± %"]).numeric([1]);
+    let mut out = Table::new(
+        "Combinations that the data fix",
+        ["product", "times before", "± %"],
+    )
+    .numeric(1..3);
     let parameters = &damped.account.parameters;
     if parameters.iter().all(|p| p.status == Status::Identified) {
         return Table::default(); // each constant is fixed alone
@@ -125,10 +129,9 @@ pub fn fixed_combinations(damped: &Damped) -> Table {
         .fixed
         .iter()
         .zip(damped.combinations());
-    for (one, (product, spread)) in fixed_ones {
-        if !alone(&one.weights) {
-            out.push([product, significant(196.0 * spread, 2)]);
-        }
+    for (_, said) in fixed_ones.filter(|(one, _)| !alone(&one.weights)) {
+        let half = significant(196.0 * said.relative_stderr, 2);
+        out.push([said.product, significant(said.times_before, 4), half]);
     }
     out
 }

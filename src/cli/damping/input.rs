@@ -5,6 +5,7 @@ use crate::cli::output::tell;
 use crate::experiments::hammer_frf::Settings;
 use crate::fit::damping::{Test, test};
 use crate::ground::problem::{Outcome, Problem};
+use crate::ground::units::DEGREE;
 use crate::measurement::hammer::HammerRecord;
 use crate::measurement::hammer_uff::read_any;
 use crate::measurement::workspace::{Place, resolve};
@@ -35,6 +36,7 @@ pub fn read(arguments: &Arguments, settings: &Settings) -> Outcome<Input> {
         .map(|path| Ok((read_any(&path)?, path)))
         .collect::<Vec<Outcome<(HammerRecord, PathBuf)>>>();
     let records = records.into_iter().collect::<Outcome<Vec<_>>>()?;
+    let records = posed(arguments, records)?;
     let (taken, left) = chosen(arguments, records);
     let robot = robot(arguments, &place, &taken)?;
     let tests: Vec<Outcome<Test>> = taken
@@ -50,6 +52,31 @@ pub fn read(arguments: &Arguments, settings: &Settings) -> Outcome<Input> {
 }
 
 type Records = Vec<(HammerRecord, PathBuf)>;
+
+/// `--joints-deg` is the pose of the files that state none.
+fn posed(arguments: &Arguments, mut records: Records) -> Outcome<Records> {
+    let Some(degrees) = &arguments.joints_deg else {
+        return Ok(records);
+    };
+    if degrees.iter().any(|q| !q.is_finite()) {
+        let problem = Problem::new("a joint angle is not finite", "give degrees as numbers");
+        return Err(problem.in_column("--joints-deg"));
+    }
+    let mut open = records
+        .iter_mut()
+        .filter(|(record, _)| record.joint_angles.is_none());
+    let Some((first, _)) = open.next() else {
+        let problem = Problem::new(
+            "every file states its pose already",
+            "leave --joints-deg out, or correct `joint_angles_deg` in the file",
+        );
+        return Err(problem.in_column("--joints-deg"));
+    };
+    let angles: Vec<f64> = degrees.iter().map(|q| q * DEGREE).collect();
+    open.for_each(|(record, _)| record.joint_angles = Some(angles.clone()));
+    first.joint_angles = Some(angles);
+    Ok(records)
+}
 
 /// Comparison tests are taken only when they are named, or when there is nothing else.
 fn chosen(arguments: &Arguments, records: Records) -> (Records, Records) {

@@ -7,13 +7,15 @@ mod page;
 mod result;
 mod write;
 
+use super::chapter::Chapter;
 use super::output::{print, tell};
-use super::{Ending, Verb, arguments, parsed};
+use super::{Ending, Verb, arguments, from_words, parsed};
 use crate::experiments::hammer_frf::Settings;
 use crate::fit::damping::{Request, identify};
 use crate::fit::frf_robot::Released;
 use crate::fit::frf_tuning::Residuals;
 use crate::ground::problem::{Outcome, Problem};
+use crate::measurement::workspace::Place;
 use crate::report::json;
 use clap::{ArgMatches, Args, ValueEnum};
 use result::Damped;
@@ -40,6 +42,14 @@ struct Arguments {
     /// Robot (built-in name or file) instead of the identified one or the one the files name
     #[arg(long, value_name = "ROBOT")]
     robot: Option<String>,
+    /// Pose of the files that state none, as universal files do: joint angles in degrees, A1 first
+    #[arg(
+        long,
+        value_name = "Q1,..,Q6",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    joints_deg: Option<Vec<f64>>,
     /// Print one JSON document instead of the account
     #[arg(long)]
     json: bool,
@@ -86,15 +96,7 @@ enum Terms {
 
 fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let arguments: Arguments = parsed(matches);
-    let request = request(&arguments)?;
-    let input = input::read(&arguments, &request.settings)?;
-    let account = identify(&input.tests, &input.robot.robot, &request)
-        .map_err(|problem| problem.in_file(&PathBuf::from(&input.robot.path)))?;
-    let damped = Damped {
-        input,
-        request,
-        account,
-    };
+    let damped = act(&arguments)?;
     damped
         .remarks()
         .iter()
@@ -108,6 +110,40 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
         false => print(&account::text(&damped, &written))?,
     }
     Ok(damped.ending())
+}
+
+fn act(arguments: &Arguments) -> Outcome<Damped> {
+    let request = request(arguments)?;
+    let input = input::read(arguments, &request.settings)?;
+    let account = identify(&input.tests, &input.robot.robot, &request)
+        .map_err(|problem| problem.in_file(&PathBuf::from(&input.robot.path)))?;
+    Ok(Damped {
+        input,
+        request,
+        account,
+    })
+}
+
+/// Tunes the dampings with every hammer test of a campaign, and writes what that found.
+///
+/// # Errors
+/// A file that cannot be read, a robot that does not fit, results that cannot be written.
+pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
+    if place.files_of("hammer")?.is_empty() {
+        return Ok(None);
+    }
+    let words = ["--frf", "--campaign", &place.campaign].map(PathBuf::from);
+    let damped = act(&from_words::<Arguments>(&words))?;
+    write::all(&damped)?;
+    let tests = damped.input.tests.iter();
+    Ok(Some(Chapter {
+        title: "The hammer tests".into(),
+        ending: damped.ending(),
+        inputs: tests
+            .map(|t| (t.path.clone(), t.record.sha256.clone()))
+            .collect(),
+        page: page::page(&damped),
+    }))
 }
 
 fn request(arguments: &Arguments) -> Outcome<Request> {

@@ -5,9 +5,12 @@ use crate::cli::Ending;
 use crate::cli::frf::mode;
 use crate::experiments::hammer_frf::HammerFrf;
 use crate::fit::damping::{Account, Pair, Request, Test};
+use crate::fit::damping_store::StoredProduct;
+use crate::fit::frf_identifiability::Combination;
 use crate::fit::frf_match::FrfMatch;
 use crate::fit::frf_model::Kind;
 use crate::report::json::{self, number, numbers};
+use crate::sheet::number::significant;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 
@@ -71,9 +74,8 @@ impl Damped {
         self.input.tests.iter().any(|test| test.record.synthetic)
     }
 
-    /// The combinations of constants that the data fix, as in `A4^0.7·A6^-0.7`, with their relative
-    /// standard deviation.
-    pub fn combinations(&self) -> Vec<(String, f64)> {
+    /// The combinations of constants that the data fix, as in `A4^0.70 · A6^-0.70`.
+    pub fn combinations(&self) -> Vec<StoredProduct> {
         let constants = &self.account.constants;
         let factor = |(i, weight): &(usize, f64)| {
             let kind = match constants[*i].kind {
@@ -81,15 +83,22 @@ impl Damped {
                 Kind::Stiffness => " stiffness",
                 Kind::Mass => " mass",
             };
-            format!("{}{kind}^{weight:.2}", constants[*i].site)
+            format!("{}{kind}^{}", constants[*i].site, significant(*weight, 2))
         };
+        let values = &self.account.tuned.values;
+        let change = |(i, weight): &(usize, f64)| weight * (values[*i] / constants[*i].start).ln();
         let fixed = self.account.tuned.uncertainty.fixed.iter();
-        fixed
-            .map(|one| {
-                let factors: Vec<String> = one.weights.iter().map(factor).collect();
-                (factors.join(" · "), one.ln_std)
-            })
-            .collect()
+        let product = |one: &Combination| StoredProduct {
+            product: one
+                .weights
+                .iter()
+                .map(factor)
+                .collect::<Vec<_>>()
+                .join(" · "),
+            times_before: one.weights.iter().map(change).sum::<f64>().exp(),
+            relative_stderr: one.ln_std,
+        };
+        fixed.map(product).collect()
     }
 
     /// The document of `formats.md`.
@@ -160,14 +169,14 @@ impl Damped {
             .fixed
             .iter()
             .zip(self.combinations());
-        all.map(|(one, (text, ln_std))| {
+        all.map(|(one, said)| {
             let constant = |i: usize| &self.account.parameters[i];
             let weights: Vec<Value> = one
                 .weights
                 .iter()
                 .map(|(i, w)| json!({"name": constant(*i).name, "site": constant(*i).site, "exponent": w}))
                 .collect();
-            json!({"product": text, "factors": weights, "relative_stderr": number(ln_std)})
+            json!({"product": said.product, "factors": weights, "times_before": number(said.times_before), "relative_stderr": number(said.relative_stderr)})
         })
         .collect()
     }

@@ -2,7 +2,7 @@
 
 use super::page::page;
 use super::result::{Damped, file_name};
-use crate::fit::damping_store::{SCHEMA, StoredDamping, StoredInput, StoredProduct};
+use crate::fit::damping_store::{SCHEMA, StoredDamping, StoredInput};
 use crate::fit::frf_robot::damped as with_dampings;
 use crate::ground::files;
 use crate::ground::problem::Outcome;
@@ -73,10 +73,6 @@ fn stored(damped: &Damped) -> StoredDamping {
     let (file, sha256) = damped.input.robot.input();
     inputs.push(StoredInput { file, sha256 });
     let pairs = account.pairs.iter().flatten();
-    let product = |(product, relative_stderr): (String, f64)| StoredProduct {
-        product,
-        relative_stderr,
-    };
     StoredDamping {
         schema: SCHEMA.into(),
         version: env!("CARGO_PKG_VERSION").into(),
@@ -88,6 +84,6 @@ fn stored(damped: &Damped) -> StoredDamping {
             .map(|pair| (pair.name.clone(), pair.matches[1].frac))
             .collect(),
         parameters: account.parameters.clone(),
-        fixed: damped.combinations().into_iter().map(product).collect(),
+        fixed: damped.combinations(),
     }
 }

@@ -7,6 +7,7 @@ use crate::findings::hammer::{Diagnosis, diagnose};
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::hammer::HammerRecord;
 use crate::measurement::hammer_uff::read_any;
+use crate::robot::Robot;
 use crate::robot::load::load;
 use crate::robot::write::write;
 use crate::sheet::chart::Chart;
@@ -16,7 +17,7 @@ use std::path::{Path, PathBuf};
 struct HammerDiagnosis {
     path: PathBuf,
     record: HammerRecord,
-    robot: String,
+    robot: Robot,
     found: Diagnosis,
 }
 
@@ -35,7 +36,7 @@ pub fn diagnosed(path: &Path) -> Outcome<Box<dyn Diagnosed>> {
     Ok(Box::new(HammerDiagnosis {
         path: path.to_path_buf(),
         record,
-        robot: robot.name,
+        robot,
         found,
     }))
 }
@@ -66,7 +67,7 @@ impl Diagnosed for HammerDiagnosis {
     }
 
     fn about(&self) -> String {
-        format!("hammer test of {}", self.robot)
+        format!("hammer test of {}", self.robot.name)
     }
 
     fn before_and_after(&self) -> Vec<Chart> {
@@ -76,6 +77,24 @@ impl Diagnosed for HammerDiagnosis {
 
     fn remaining(&self) -> Vec<Chart> {
         self.labelled(hammer_figures::remaining(&self.found, &self.stem()))
+    }
+
+    fn robot(&self) -> Option<&Robot> {
+        Some(&self.robot)
+    }
+
+    fn extended(&self) -> Option<&Robot> {
+        self.found.extended.as_ref().or(Some(&self.robot))
+    }
+
+    fn under(&self, robot: &Robot) -> Option<Box<dyn Diagnosed>> {
+        let found = diagnose(&self.record, robot).ok()?;
+        Some(Box::new(HammerDiagnosis {
+            path: self.path.clone(),
+            record: self.record.clone(),
+            robot: robot.clone(),
+            found,
+        }))
     }
 
     fn model(&self) -> Outcome<Option<String>> {

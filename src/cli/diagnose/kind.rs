@@ -1,9 +1,10 @@
 //! The kinds of measurement that can be diagnosed. A new kind is one file and one line in [`KINDS`].
 
-use super::{hammer, load_cycle};
+use super::{hammer, joint_motion, load_cycle, workspace};
 use crate::findings::Answer;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::workspace::kind_of;
+use crate::robot::Robot;
 use crate::sheet::chart::Chart;
 use serde_json::{Map, Value};
 use std::path::Path;
@@ -33,6 +34,22 @@ pub trait Diagnosed: Send + Sync {
     fn remaining(&self) -> Vec<Chart>;
     /// The extended model as a file; `None` where nothing was extended.
     fn model(&self) -> Outcome<Option<String>>;
+    /// The robot it was simulated with, for tests of the whole robot.
+    fn robot(&self) -> Option<&Robot> {
+        None
+    }
+    /// That robot with the physical causes that were found.
+    fn extended(&self) -> Option<&Robot> {
+        None
+    }
+    /// The same measurement diagnosed with another robot.
+    fn under(&self, _robot: &Robot) -> Option<Box<dyn Diagnosed>> {
+        None
+    }
+    /// What a reader should know beside the causes, one sentence each.
+    fn remarks(&self) -> Vec<String> {
+        Vec::new()
+    }
     /// What this kind adds to the common JSON.
     fn more(&self) -> Map<String, Value> {
         Map::new()
@@ -45,6 +62,8 @@ pub type Diagnose = fn(&Path) -> Outcome<Box<dyn Diagnosed>>;
 /// Every kind, by its name in the front matter.
 pub const KINDS: &[(&str, Diagnose)] = &[
     ("load-cycle", load_cycle::diagnosed),
+    ("joint-motion", joint_motion::diagnosed),
+    ("workspace", workspace::diagnosed),
     ("hammer", hammer::diagnosed),
 ];
 

@@ -1,26 +1,31 @@
 //! `ident diagnose`: what the simulation gets wrong, and why.
 
+mod campaign;
 mod hammer;
 mod hammer_figures;
+mod joint_motion;
 mod json;
 mod kind;
 mod load_cycle;
 mod page;
 mod tables;
+mod workspace;
+mod workspace_figures;
 
 use super::output::{print, tell};
 use super::progress::Progress;
+use super::run::place;
 use super::{Ending, Verb, arguments, parsed};
 use crate::findings::{Verdict, sentence::sentences};
 use crate::ground::files;
 use crate::ground::problem::Outcome;
 use crate::measurement::workspace::{Place, resolve};
-use crate::report::{html, svg, text};
+use crate::report::{folder, html, svg, text};
 use crate::sheet::page::file;
 use clap::{ArgMatches, Args};
 use kind::{Diagnosed, kind};
 use rayon::prelude::*;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 
 /// The verb.
@@ -33,7 +38,7 @@ pub const VERB: Verb = Verb {
 
 #[derive(Args)]
 struct Arguments {
-    /// Measurement files; a bare name is looked up under measurements/
+    /// Measurement files (a bare name is looked up under measurements/), or the folder of a campaign
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// Print one JSON document instead of the account
@@ -47,8 +52,10 @@ struct Arguments {
     progress: bool,
 }
 
+pub use campaign::chapter;
+
 /// One file, diagnosed.
-struct One {
+pub struct One {
     kind: &'static str,
     place: Place,
     found: Box<dyn Diagnosed>,
@@ -56,6 +63,11 @@ struct One {
 
 fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let arguments: Arguments = parsed(matches);
+    if let [folder] = &arguments.files[..]
+        && folder.is_dir()
+    {
+        return whole(&place(Some(folder))?, &arguments);
+    }
     let progress = Progress::new(arguments.files.len(), arguments.progress);
     let results = arguments.files.par_iter().map(|name| {
         let one = one(name);
@@ -65,7 +77,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let results = results.collect::<Outcome<Vec<One>>>()?;
     progress.finish();
     if !arguments.dry_run {
-        write(&results)?;
+        write(&results, Vec::new())?;
     }
     let said = match arguments.json {
         true => as_json(&results, arguments.dry_run)?,
@@ -109,6 +121,26 @@ impl One {
         Ok(self.found.model()?.map(|text| (path, text)))
     }
 
+    /// File name.
+    fn name(&self) -> String {
+        let name = self.path().file_name().unwrap_or_default();
+        name.to_string_lossy().to_string()
+    }
+
+    /// Its JSON.
+    fn body(&self, dry: bool) -> Outcome<Map<String, Value>> {
+        let model = if dry {
+            None
+        } else {
+            self.model()?.map(|m| m.0)
+        };
+        let (answer, synthetic) = (self.found.answer(), self.found.source().synthetic);
+        let mut body = json::body(answer, synthetic, model.as_deref());
+        body.insert("kind".into(), json!(self.kind));
+        body.extend(self.found.more());
+        Ok(body)
+    }
+
     fn report(&self) -> PathBuf {
         self.place
             .reports()
@@ -130,13 +162,33 @@ impl One {
     }
 }
 
-fn write(results: &[One]) -> Outcome<()> {
+/// A whole campaign.
+fn whole(place: &Place, arguments: &Arguments) -> Outcome<Ending> {
+    let campaign = campaign::examine(place, arguments.progress)?;
+    if !arguments.dry_run {
+        write(&campaign.files, campaign.written())?;
+        folder::write_as(&place.reports(), "diagnosis.html", &campaign.page())?;
+    }
+    let said = match arguments.json {
+        true => {
+            let sources: Vec<_> = campaign.files.iter().map(|r| r.found.source()).collect();
+            let inputs: Vec<(&Path, &str)> = sources.iter().map(|s| (s.path, s.sha256)).collect();
+            let mut map = crate::report::json::head("diagnose", &inputs);
+            map.extend(campaign.json(arguments.dry_run)?);
+            crate::report::json::print(map)
+        }
+        false => campaign::account(&campaign),
+    };
+    print(&said)?;
+    Ok(campaign.ending())
+}
+
+fn write(results: &[One], more: Vec<(PathBuf, String)>) -> Outcome<()> {
     let inked: Vec<Vec<(PathBuf, String)>> =
         results.par_iter().map(One::files).collect::<Outcome<_>>()?;
-    for (path, content) in inked.concat() {
-        files::replace(&path, content.as_bytes())?;
-    }
-    Ok(())
+    let all = [inked.concat(), more].concat();
+    all.iter()
+        .try_for_each(|(path, content)| files::replace(path, content.as_bytes()))
 }
 
 fn as_text(results: &[One], dry: bool) -> Outcome<String> {
@@ -164,7 +216,8 @@ fn account(one: &One) -> String {
         source.path.display(),
         answer.verdict.name()
     );
-    let said = sentences(answer);
+    let mut said = sentences(answer);
+    said.extend(one.found.remarks());
     said.iter().fold(head, |all, s| all + &text::indented(s, 2))
 }
 
@@ -187,17 +240,7 @@ fn as_json(results: &[One], dry: bool) -> Outcome<String> {
     let sources: Vec<_> = results.iter().map(|r| r.found.source()).collect();
     let inputs: Vec<(&Path, &str)> = sources.iter().map(|s| (s.path, s.sha256)).collect();
     let mut map = crate::report::json::head("diagnose", &inputs);
-    let body = |one: &One| -> Outcome<_> {
-        let model = if dry { None } else { one.model()?.map(|m| m.0) };
-        let mut body = json::body(
-            one.found.answer(),
-            one.found.source().synthetic,
-            model.as_deref(),
-        );
-        body.insert("kind".into(), json!(one.kind));
-        body.extend(one.found.more());
-        Ok(body)
-    };
+    let body = |one: &One| one.body(dry);
     match results {
         [one] => map.extend(body(one)?),
         many => {

@@ -14,11 +14,13 @@ pub fn page(result: &dyn Diagnosed, stem: &str) -> Page {
     let subtitle = format!("{}, from {}", result.about(), name.to_string_lossy());
     let mut page = Page::new(format!("Diagnosis of {stem}"), subtitle);
     page.synthetic = source.synthetic;
-    page = page
-        .with(Block::verdict(tone(answer.verdict), sentence(answer)))
-        .with(Block::heading(
-            "What the simulation shows and what was measured",
-        ));
+    page = page.with(Block::verdict(tone(answer.verdict), sentence(answer)));
+    for remark in result.remarks() {
+        page = page.with(Block::text(remark));
+    }
+    page = page.with(Block::heading(
+        "What the simulation shows and what was measured",
+    ));
     page = charts(page, result.before_and_after());
     page = why(page, answer);
     page = page
@@ -58,7 +60,8 @@ fn why(mut page: Page, answer: &Answer) -> Page {
     page
 }
 
-fn tone(verdict: Verdict) -> Tone {
+/// How a verdict is meant.
+pub fn tone(verdict: Verdict) -> Tone {
     match verdict {
         Verdict::Sufficient => Tone::Good,
         Verdict::Explained => Tone::Neutral,

@@ -5,8 +5,9 @@ mod figures;
 mod page;
 mod tables;
 
+use super::chapter::Chapter;
 use super::output::{print, tell};
-use super::{Ending, Verb, arguments, parsed};
+use super::{Ending, Verb, arguments, from_words, parsed};
 use crate::fit::axis_tests::{self, AxisTest};
 use crate::fit::identified_robot::{text, with_axis_tests, with_points};
 use crate::fit::validation::{Validation, needs_attention, validate};
@@ -71,10 +72,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
     }
     let warn = |warning: &String| tell(&format!("warning: {}: {warning}", path.display()));
     validated.found.warnings.iter().for_each(warn);
-    Ok(match needs_attention(&validated.found) {
-        true => Ending::Attention,
-        false => Ending::Done,
-    })
+    Ok(ending(&validated))
 }
 
 fn measurement(arguments: &Arguments) -> Outcome<PathBuf> {
@@ -88,6 +86,33 @@ fn measurement(arguments: &Arguments) -> Outcome<PathBuf> {
             &campaign(Path::new(""), arguments.campaign.as_deref())?,
             "workspace",
         ),
+    }
+}
+
+/// Validates the robot of a campaign at its points, and writes what that found.
+///
+/// # Errors
+/// A file that cannot be read, a robot that does not fit, results that cannot be written.
+pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
+    let files = place.files_of("workspace")?;
+    let Some(path) = files.first() else {
+        return Ok(None);
+    };
+    let validated = examine(&from_words::<Arguments>(&files[..1]), path)?;
+    let page = page::page(&validated);
+    write(&validated, &page)?;
+    Ok(Some(Chapter {
+        title: "The points of the workspace".into(),
+        ending: ending(&validated),
+        inputs: vec![(path.clone(), validated.test.sha256.clone())],
+        page,
+    }))
+}
+
+fn ending(validated: &Validated) -> Ending {
+    match needs_attention(&validated.found) {
+        true => Ending::Attention,
+        false => Ending::Done,
     }
 }
 

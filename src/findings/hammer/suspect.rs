@@ -1,6 +1,6 @@
 //! A cause at a place of one robot, its amounts counted in spreads.
 
-use crate::causes::{self, Cause, Sight};
+use crate::causes::{self, Amount, Cause, Sight};
 use crate::effects::Family;
 use crate::robot::Robot;
 
@@ -22,9 +22,14 @@ impl Suspect {
         self.cause.card().name
     }
 
+    /// The amounts that a hammer test can tell.
+    fn amounts(&self) -> &'static [Amount] {
+        &self.cause.card().amounts[..self.cause.heard()]
+    }
+
     /// Spread of each amount: the prior's standard deviation, as far as its starts reach.
     pub fn spreads(&self) -> Vec<f64> {
-        let amounts = self.cause.card().amounts.iter();
+        let amounts = self.amounts().iter();
         amounts
             .map(|a| a.starts.iter().fold(0.0_f64, |m, s| m.max(s.abs())))
             .collect()
@@ -32,7 +37,7 @@ impl Suspect {
 
     /// Bounds of each amount, in spreads.
     pub fn bounds(&self) -> Vec<[f64; 2]> {
-        let amounts = self.cause.card().amounts.iter().zip(self.spreads());
+        let amounts = self.amounts().iter().zip(self.spreads());
         amounts
             .map(|(a, spread)| {
                 let [low, high] = a.bounds.map(|b| b / spread);
@@ -43,7 +48,7 @@ impl Suspect {
 
     /// Where to start, in spreads: the first of every amount, the second of every amount, ...
     pub fn starts(&self) -> Vec<Vec<f64>> {
-        let amounts = self.cause.card().amounts;
+        let amounts = self.amounts();
         let count = amounts.iter().map(|a| a.starts.len()).max().unwrap_or(0);
         let at = |j: usize| {
             let each = amounts.iter().zip(self.spreads());

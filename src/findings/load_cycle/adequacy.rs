@@ -63,13 +63,17 @@ fn of_many(p: f64, tries: f64) -> f64 {
     -(tries * (-p.min(1.0 - 1e-16)).ln_1p()).exp_m1()
 }
 
+/// The level of the noise inside the span is inferred from outside it: its square may be this much
+/// higher there.
+const LEVEL: f64 = 1.15;
+
 /// Chi-square of what the saturated span still finds; and its size beyond chance.
 fn lack_of_fit(chi2: f64, dimension: usize, screen: &Screen) -> Test {
     let freedom = screen.dimension.saturating_sub(dimension + 1).max(1) as f64;
     let excess = (chi2 - screen.saturated).max(0.0);
     Test {
         name: "lack of fit",
-        p_value: tail(excess, freedom),
+        p_value: tail(excess / LEVEL, freedom),
         left: (excess - freedom).max(0.0),
     }
 }

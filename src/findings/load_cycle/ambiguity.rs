@@ -4,7 +4,7 @@ use super::refine::Refined;
 use std::collections::BTreeMap;
 
 /// Prior probability that any one cause is present.
-const PRIOR: f64 = 0.08;
+pub const PRIOR: f64 = 0.08;
 
 /// A law that misses the truth by this share of its own size still counts as right: nature does not
 /// follow our formulas exactly (coarsened likelihood, Miller and Dunson 2019).

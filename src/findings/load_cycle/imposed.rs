@@ -6,7 +6,7 @@
 //! reason no evidence is compared: the probability of a cause is that of its gain on unseen cycles.
 
 use super::adequacy::Adequacy;
-use super::diagnosis::{Diagnosis, summary};
+use super::diagnosis::Diagnosis;
 use super::structure;
 use super::unseen::{Split, gain, held_out};
 use crate::effects::{CLEARANCE_SLIDER, DRY_SLIDER};
@@ -15,7 +15,7 @@ use crate::findings::gain::Gain;
 use crate::fit::imposed::{observe, solve};
 use crate::fit::observation::{MOST_ROWS, Observation};
 use crate::fit::solution::{Solution, unit_of};
-use crate::measurement::load_cycle::LoadCycle;
+use crate::measurement::load_cycle::{LoadCycle, Port};
 use crate::signal::colour::Colour;
 use crate::signal::smooth::noise;
 
@@ -79,12 +79,30 @@ fn cause(
         effect,
         site: file.site(),
         probability: gain.probability(),
-        summary: summary(effect),
+        summary: summary(effect, file.port),
         alternatives: Vec::new(),
         parameters: own
             .map(|(s, v)| (s.parameter.name, *v, unit(s.parameter.scale)))
             .collect(),
         gain,
+    }
+}
+
+/// What a cause is in a test that moves: no gear need be there, and nothing waits for a load.
+fn summary(effect: &str, port: Port) -> &'static str {
+    match (effect, port) {
+        ("backlash", Port::Linear) => {
+            "A clearance: after each reversal the part moves this far before any force builds up."
+        }
+        ("backlash", Port::Rotational) => {
+            "A clearance: after each reversal the joint turns this far before any moment builds up."
+        }
+        (_, Port::Linear) => {
+            "One dry contact slips: from then on the force stays the same however far the part moves."
+        }
+        (_, Port::Rotational) => {
+            "One dry contact slips: from then on the moment stays the same however far the joint turns."
+        }
     }
 }
 

@@ -6,10 +6,15 @@
 
 pub mod adequacy;
 pub mod ambiguity;
+mod case;
+mod comparison;
+mod conclusion;
 pub mod diagnosis;
 pub mod imposed;
 pub mod lattice;
 pub mod look_alikes;
+mod naming;
+mod naming_scales;
 pub mod next;
 pub mod refine;
 pub mod scales;

@@ -110,7 +110,8 @@ pub fn structure(
     }
 }
 
-fn binned(x: &[f64], y: &[f64]) -> Vec<[f64; 2]> {
+/// Means of `y` in bins of `x`.
+pub fn binned(x: &[f64], y: &[f64]) -> Vec<[f64; 2]> {
     let (low, high) = x
         .iter()
         .fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)));

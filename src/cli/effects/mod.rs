@@ -1,7 +1,10 @@
 //! `ident effects`: the library of effects, and the card of one.
 
+mod causes;
+
 use super::output::print;
 use super::{Ending, Verb, arguments, parsed};
+use crate::causes::{CAUSES, Cause};
 use crate::effects::{EFFECTS, Effect, Family};
 use crate::findings::load_cycle::look_alikes::{Picture, look_alikes, picture};
 use crate::fit::solution::unit_of;
@@ -40,14 +43,17 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
     match &arguments.name {
         None => print(&if arguments.json { list_json() } else { list() })?,
         Some(name) => {
-            let effect = named(name)?;
-            if let Some(path) = &arguments.figure {
+            let robot = causes::all_named(name);
+            let effect = match crate::effects::named(name) {
+                None if !robot.is_empty() && arguments.figure.is_none() => None,
+                _ => Some(named(name)?),
+            };
+            if let (Some(path), Some(effect)) = (&arguments.figure, effect) {
                 files::replace(path, svg::ink(&chart(effect))?.as_bytes())?;
             }
-            print(&if arguments.json {
-                card_json(effect)
-            } else {
-                card(effect)
+            print(&match arguments.json {
+                true => card_json(effect, &robot),
+                false => cards(effect, &robot),
             })?;
         }
     }
@@ -56,7 +62,11 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
 
 fn named(name: &str) -> Outcome<&'static dyn Effect> {
     crate::effects::named(name).ok_or_else(|| {
-        let known: Vec<_> = EFFECTS.iter().map(|e| e.card().name).collect();
+        let of_axis = EFFECTS.iter().map(|e| e.card().name);
+        let of_robot = CAUSES.iter().map(|c| c.card().name);
+        let mut known: Vec<_> = of_axis.chain(of_robot).collect();
+        known.sort_unstable();
+        known.dedup();
         Problem::new(
             format!("no effect is called `{name}`"),
             format!("choose among: {}", known.join(", ")),
@@ -72,11 +82,16 @@ fn family(effect: &dyn Effect) -> &'static str {
 }
 
 fn list() -> String {
-    let mut table = Table::new("Effects", ["effect", "family", "what it is"]);
+    let header = ["effect", "family", "what it is"];
+    let mut table = Table::new("Effects in load cycles of one axis", header);
     for effect in EFFECTS {
         table.push([effect.card().name, family(*effect), effect.card().summary]);
     }
-    text::table(&table.noted("`ident effects NAME` explains one"))
+    let header = ["cause", "family", "shows in", "what it is"];
+    let mut robot = Table::new("Causes in tests of the whole robot", header);
+    causes::rows().into_iter().for_each(|row| robot.push(row));
+    let robot = robot.noted("`ident effects NAME` explains one");
+    format!("{}\n{}", text::table(&table), text::table(&robot))
 }
 
 fn list_json() -> String {
@@ -85,17 +100,25 @@ fn list_json() -> String {
         "effects".into(),
         Value::Array(EFFECTS.iter().map(|e| value(*e)).collect()),
     );
+    let robot = CAUSES.iter().map(|c| causes::value(*c));
+    map.insert("causes".into(), Value::Array(robot.collect()));
     json::print(map)
 }
 
-fn card_json(effect: &'static dyn Effect) -> String {
+fn card_json(effect: Option<&'static dyn Effect>, robot: &[&'static dyn Cause]) -> String {
     let mut map = json::head("effects", &[]);
-    map.insert("effect".into(), value(effect));
-    let confused: Vec<Value> = look_alikes(effect)
-        .iter()
-        .map(|l| json!({"effect": l.effect, "left_unexplained": l.left}))
-        .collect();
-    map.insert("confused_with".into(), Value::Array(confused));
+    if let Some(effect) = effect {
+        map.insert("effect".into(), value(effect));
+        let confused: Vec<Value> = look_alikes(effect)
+            .iter()
+            .map(|l| json!({"effect": l.effect, "left_unexplained": l.left}))
+            .collect();
+        map.insert("confused_with".into(), Value::Array(confused));
+    }
+    if !robot.is_empty() {
+        let cards = robot.iter().map(|c| causes::value(*c));
+        map.insert("causes".into(), Value::Array(cards.collect()));
+    }
     json::print(map)
 }
 
@@ -116,6 +139,13 @@ fn value(effect: &dyn Effect) -> Value {
         "signature": card.signature,
         "parameters": parameters,
     })
+}
+
+/// The card of an effect of one axis, then those of the causes of that name.
+fn cards(effect: Option<&'static dyn Effect>, robot: &[&'static dyn Cause]) -> String {
+    let axis = effect.map(card).into_iter();
+    let all: Vec<String> = axis.chain(robot.iter().map(|c| causes::card(*c))).collect();
+    all.join("\n")
 }
 
 fn card(effect: &'static dyn Effect) -> String {

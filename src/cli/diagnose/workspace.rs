@@ -1,0 +1,173 @@
+//! A diagnosed workspace test: its figures and its extended robot.
+
+use super::kind::{Diagnosed, Source};
+use super::workspace_figures as figures;
+use crate::findings::Answer;
+use crate::findings::workspace::{WorkspaceDiagnosis, diagnose};
+use crate::fit::force_steps::Setup;
+use crate::fit::validation::mean_and_max;
+use crate::ground::problem::{Outcome, Problem};
+use crate::ground::spatial::M3;
+use crate::measurement::workspace_test::{DIRECTIONS, WorkspaceTest};
+use crate::robot::load::{Loaded, load};
+use crate::robot::{Robot, check, write};
+use crate::sheet::chart::Chart;
+use serde_json::{Map, Value, json};
+use std::path::Path;
+
+/// A test with its robot and what was found.
+pub(super) struct Workspace {
+    pub(super) test: WorkspaceTest,
+    robot: Loaded,
+    pub(super) found: WorkspaceDiagnosis,
+}
+
+/// Diagnoses a file of this kind.
+///
+/// # Errors
+/// The file is no workspace test, or its robot cannot be simulated.
+pub fn diagnosed(path: &Path) -> Outcome<Box<dyn Diagnosed>> {
+    let test = WorkspaceTest::read(path)?;
+    let robot = load(&test.facts.robot, Some(path)).map_err(|p| p.in_file(path))?;
+    usable(&robot.robot, &test)?;
+    let found = diagnose(&test, &robot.robot);
+    Ok(Box::new(Workspace { test, robot, found }))
+}
+
+/// Refuses a robot that these points cannot be simulated with.
+fn usable(robot: &Robot, test: &WorkspaceTest) -> Outcome<()> {
+    let angles = test.facts.joint_angles.first().map_or(0, Vec::len);
+    let refuse = |what: String, remedy: &str| Err(Problem::new(what, remedy).in_file(&test.path));
+    if angles != robot.dof() {
+        return refuse(
+            format!(
+                "gives {angles} joint angles per point, the robot `{}` has {} joints",
+                robot.name,
+                robot.dof()
+            ),
+            "correct `joint_angles_deg`, or name the right robot",
+        );
+    }
+    if !robot.is_elastic() {
+        return refuse(
+            format!("nothing in the robot `{}` is elastic", robot.name),
+            "add `drive = { stiffness_Nm_rad = .. }` to its joints; `ident robot convert FILE` makes an editable copy",
+        );
+    }
+    check::bodies(robot).map_err(|problem| problem.in_file(&test.path))
+}
+
+impl Diagnosed for Workspace {
+    fn answer(&self) -> &Answer {
+        &self.found
+    }
+
+    fn source(&self) -> Source<'_> {
+        Source {
+            path: &self.test.path,
+            sha256: &self.test.sha256,
+            synthetic: self.test.facts.synthetic,
+        }
+    }
+
+    fn about(&self) -> String {
+        format!(
+            "{} at {} points",
+            self.robot.robot.name,
+            self.test.facts.joint_angles.len()
+        )
+    }
+
+    fn before_and_after(&self) -> Vec<Chart> {
+        figures::before_and_after(self)
+    }
+
+    fn remaining(&self) -> Vec<Chart> {
+        vec![figures::remaining(self)]
+    }
+
+    fn robot(&self) -> Option<&Robot> {
+        Some(&self.robot.robot)
+    }
+
+    fn extended(&self) -> Option<&Robot> {
+        Some(&self.found.extended)
+    }
+
+    fn under(&self, robot: &Robot) -> Option<Box<dyn Diagnosed>> {
+        let found = diagnose(&self.test, robot);
+        let robot = Loaded {
+            robot: robot.clone(),
+            ..self.robot.clone()
+        };
+        let test = self.test.clone();
+        Some(Box::new(Workspace { test, robot, found }))
+    }
+
+    fn model(&self) -> Outcome<Option<String>> {
+        let changed = self.found.extended != self.robot.robot;
+        Ok(changed.then(|| self.extended()))
+    }
+
+    fn more(&self) -> Map<String, Value> {
+        let mut map = Map::new();
+        let limit = |l: &crate::findings::workspace::Limit| json!({"effect": l.effect, "site": l.site, "unnoticed_excess_of_compliance": l.unnoticed});
+        let limits = self.found.limits.iter().map(limit);
+        map.insert("limits".into(), Value::Array(limits.collect()));
+        let error = |d: usize| {
+            let before = mean_error(self, &self.found.simulated, d)?;
+            let after = mean_error(self, &self.found.unseen, d)?;
+            Some(
+                json!({"direction": DIRECTIONS[d], "before_percent": before, "after_percent": after}),
+            )
+        };
+        let errors = (0..3).filter_map(error).collect();
+        map.insert(
+            "stiffness_error_at_unseen_points".into(),
+            Value::Array(errors),
+        );
+        map
+    }
+}
+
+impl Workspace {
+    /// The extended robot as a file, with where it comes from.
+    fn extended(&self) -> String {
+        let mut robot = self.found.extended.clone();
+        let name = self.test.path.file_name().unwrap_or_default();
+        let short: String = self.test.sha256.chars().take(12).collect();
+        let causes = self.found.causes.iter();
+        let causes: Vec<String> = causes
+            .map(|c| format!("{} at {}", c.effect, c.site))
+            .collect();
+        robot.notes.push(format!(
+            "Extended by ident {} diagnose from {}, {} {short}: {}.",
+            env!("CARGO_PKG_VERSION"),
+            self.robot.path,
+            name.to_string_lossy(),
+            causes.join(", ")
+        ));
+        let label = match self.test.facts.synthetic {
+            true => "# synthetic: extended from simulated measurements\n",
+            false => "",
+        };
+        format!("{label}{}", write::write(&robot))
+    }
+
+    /// The set-ups loaded in one direction.
+    pub(super) fn along(&self, direction: usize) -> Vec<&Setup> {
+        let all = self.found.shapes.setups.iter();
+        all.filter(|s| s.direction == direction).collect()
+    }
+}
+
+/// Mean error of the simulated stiffness along the force, %, by direction.
+fn mean_error(result: &Workspace, slopes: &[M3], direction: usize) -> Option<f64> {
+    let own = result.along(direction);
+    let error = |s: &&Setup| {
+        let measured = s.lines[direction]?.slope;
+        let simulated = slopes[s.point][direction][direction];
+        Some(100.0 * (measured / simulated - 1.0)).filter(|e| e.is_finite())
+    };
+    mean_and_max(own.iter().filter_map(error)).map(|found| found.0)
+}

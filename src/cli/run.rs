@@ -1,0 +1,168 @@
+//! `ident run`: a whole campaign, from the raw files to the report.
+
+use super::chapter::Chapter;
+use super::output::print;
+use super::progress::Progress;
+use super::{Ending, Verb, arguments, damping, diagnose, parsed, stiffness, validate};
+use crate::ground::problem::{Outcome, Problem};
+use crate::measurement::workspace::Place;
+use crate::report::{folder, json};
+use crate::sheet::page::{Block, Page, Tone};
+use clap::{ArgMatches, Args};
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+
+/// The verb.
+pub const VERB: Verb = Verb {
+    name: "run",
+    about: "Run a whole campaign: identify, validate, tune, diagnose, and write one report",
+    arguments: arguments::<Arguments>,
+    run,
+};
+
+#[derive(Args)]
+struct Arguments {
+    /// Folder of the campaign, as measurements/kr210; without it the only one under measurements/
+    folder: Option<PathBuf>,
+    /// Print one JSON document instead of the account
+    #[arg(long)]
+    json: bool,
+    /// Report progress on standard error even without a terminal
+    #[arg(long)]
+    progress: bool,
+}
+
+/// A step, by the name of its verb: its chapter, if the campaign has such files.
+type Step = (&'static str, fn(&Place) -> Outcome<Option<Chapter>>);
+
+/// Every step in the order of work: what one finds, the next ones use.
+const STEPS: &[Step] = &[
+    ("stiffness", stiffness::chapter),
+    ("validate", validate::chapter),
+    ("damping", damping::chapter),
+    ("diagnose", diagnose::chapter),
+];
+
+fn run(matches: &ArgMatches) -> Outcome<Ending> {
+    let arguments: Arguments = parsed(matches);
+    let place = place(arguments.folder.as_deref())?;
+    let progress = Progress::new(STEPS.len(), arguments.progress);
+    let mut chapters: Vec<(&str, Chapter)> = Vec::new();
+    for (name, step) in STEPS {
+        chapters.extend(step(&place)?.map(|chapter| (*name, chapter)));
+        progress.done(name);
+    }
+    progress.finish();
+    if chapters.is_empty() {
+        return Err(nothing(&place));
+    }
+    let attention = chapters.iter().any(|c| c.1.ending == Ending::Attention);
+    let said = match arguments.json {
+        true => as_json(&place, &chapters),
+        false => as_text(&place, &chapters),
+    };
+    folder::write_as(&place.reports(), "index.html", &page(&place, chapters))?;
+    print(&said)?;
+    Ok(match attention {
+        true => Ending::Attention,
+        false => Ending::Done,
+    })
+}
+
+/// The campaign that a folder holds.
+///
+/// # Errors
+/// There is no such folder, it does not lie under `measurements/`, or there are several.
+pub fn place(folder: Option<&Path>) -> Outcome<Place> {
+    let Some(folder) = folder else {
+        return Place::campaign(None);
+    };
+    if !folder.is_dir() {
+        let remedy = "give the folder of a campaign, as measurements/kr210";
+        return Err(Problem::new("is no folder", remedy).in_file(folder));
+    }
+    let place = Place::of(&folder.join("any.csv"));
+    match place.campaign.is_empty() {
+        false => Ok(place),
+        true => Err(Problem::new(
+            "does not lie under measurements/",
+            "move it to measurements/<campaign>/: fits/ and reports/ are written beside that folder",
+        )
+        .in_file(folder)),
+    }
+}
+
+fn nothing(place: &Place) -> Problem {
+    let remedy = "put CSV files with front matter there; `ident inspect FILE` says how one is read";
+    Problem::new("holds no measurement", remedy).in_file(&place.measurements())
+}
+
+/// Causes first, then what was identified.
+fn page(place: &Place, chapters: Vec<(&str, Chapter)>) -> Page {
+    let files: usize = chapters.iter().map(|c| c.1.inputs.len()).sum();
+    let title = format!("Campaign {}", place.campaign);
+    let mut page = Page::new(
+        title,
+        format!(
+            "{files} readings of measurement files, {} steps",
+            chapters.len()
+        ),
+    );
+    page.synthetic = chapters.iter().any(|c| c.1.page.synthetic);
+    let (causes, rest): (Vec<_>, Vec<_>) = chapters.into_iter().partition(|c| c.0 == "diagnose");
+    let blocks = causes.into_iter().flat_map(|c| c.1.page.blocks);
+    page.blocks.extend(blocks);
+    page.blocks
+        .extend(rest.into_iter().flat_map(|c| c.1.blocks()));
+    page
+}
+
+fn as_text(place: &Place, chapters: &[(&str, Chapter)]) -> String {
+    let mut said = String::new();
+    for (name, chapter) in chapters {
+        let end = match chapter.ending {
+            Ending::Done => "done",
+            Ending::Attention => "needs attention",
+        };
+        said.push_str(&format!("{name}: {} files, {end}\n", chapter.inputs.len()));
+        for (tone, sentence) in verdicts(&chapter.page) {
+            let word = tone.word();
+            said.push_str(&crate::report::text::indented(
+                &format!("{word}: {sentence}"),
+                2,
+            ));
+        }
+    }
+    let index = place.reports().join("index.html");
+    said + &format!("report {}\n", index.display())
+}
+
+fn verdicts(page: &Page) -> impl Iterator<Item = (Tone, &String)> {
+    page.blocks.iter().filter_map(|block| match block {
+        Block::Verdict { tone, sentence } => Some((*tone, sentence)),
+        _ => None,
+    })
+}
+
+fn as_json(place: &Place, chapters: &[(&str, Chapter)]) -> String {
+    let mut inputs: Vec<(&Path, &str)> = chapters
+        .iter()
+        .flat_map(|c| c.1.inputs.iter().map(|(p, h)| (p.as_path(), h.as_str())))
+        .collect();
+    inputs.sort_unstable();
+    inputs.dedup();
+    let mut map = json::head("run", &inputs);
+    map.insert("campaign".into(), json!(place.campaign));
+    let step = |(name, chapter): &(&str, Chapter)| {
+        let said: Vec<&String> = verdicts(&chapter.page).map(|v| v.1).collect();
+        json!({
+            "verb": name,
+            "needs_attention": chapter.ending == Ending::Attention,
+            "sentences": said,
+        })
+    };
+    map.insert("steps".into(), chapters.iter().map(step).collect::<Value>());
+    let index = place.reports().join("index.html");
+    map.insert("report".into(), json!(index.display().to_string()));
+    json::print(map)
+}

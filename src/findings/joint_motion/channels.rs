@@ -1,0 +1,126 @@
+//! The channels of one joint as they are compared: averaged down, with speed and acceleration.
+
+use crate::fit::observation::reduce;
+use crate::measurement::joint_motion::JointRecord;
+use crate::signal::outliers;
+
+/// Rows beyond which neighbours are averaged.
+const MOST_ROWS: usize = 3200;
+/// Width over which speed, acceleration and torque are smoothed, s.
+const SMOOTHING_S: f64 = 0.035;
+/// Distance from its neighbours, in robust standard deviations, that makes a lone reading wild.
+const WILD: f64 = 6.0;
+
+/// One joint, row by row, SI, on the link side of the gear.
+pub struct Channels {
+    /// Time, s.
+    pub time: Vec<f64>,
+    /// Link angle − motor angle, rad; its mean is taken out.
+    pub twist: Vec<f64>,
+    /// Motor torque, smoothed, N·m.
+    pub torque: Vec<f64>,
+    /// Speed, smoothed, rad/s.
+    pub speed: Vec<f64>,
+    /// Acceleration, smoothed, rad/s².
+    pub acceleration: Vec<f64>,
+    /// Angle of the motor, rad.
+    pub motor: Vec<f64>,
+    /// Angle of the link, rad.
+    pub link: Vec<f64>,
+    /// The mean difference of the encoders, rad.
+    pub zero: f64,
+    /// Wild readings that were replaced by their neighbours.
+    pub wild: usize,
+}
+
+impl Channels {
+    /// Of a joint's record.
+    pub fn of(joint: &JointRecord) -> Self {
+        let block = joint.time.len().div_ceil(MOST_ROWS).max(1);
+        let time = reduce(&joint.time, block);
+        let motor = reduce(&joint.motor, block);
+        let link = reduce(&joint.link, block);
+        let mut twist: Vec<f64> = link.iter().zip(&motor).map(|(l, m)| l - m).collect();
+        let wild = outliers::isolated(&twist, WILD);
+        for i in &wild {
+            twist[*i] = outliers::neighbours(&twist, *i);
+        }
+        let zero = mean(&twist);
+        twist.iter_mut().for_each(|y| *y -= zero);
+        let width = smoothing_rows(&time);
+        let speed = smoothed(&slope(&time, &motor), width);
+        let acceleration = smoothed(&slope(&time, &speed), width);
+        Self {
+            twist,
+            torque: smoothed(&reduce(&joint.torque, block), width),
+            speed,
+            acceleration,
+            motor,
+            link,
+            time,
+            zero,
+            wild: wild.len(),
+        }
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.time.len()
+    }
+
+    /// Largest speed, rad/s.
+    pub fn top_speed(&self) -> f64 {
+        largest(&self.speed)
+    }
+}
+
+/// Mean of values.
+pub fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
+}
+
+/// Root mean square of values.
+pub fn rms(values: &[f64]) -> f64 {
+    (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
+}
+
+/// Largest magnitude.
+pub fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |m: f64, v| m.max(v.abs()))
+}
+
+fn smoothing_rows(time: &[f64]) -> usize {
+    let n = time.len();
+    let step = (time[n - 1] - time[0]) / (n - 1) as f64;
+    ((SMOOTHING_S / step) as usize / 2).clamp(1, n / 16)
+}
+
+/// Central differences.
+fn slope(time: &[f64], values: &[f64]) -> Vec<f64> {
+    let n = time.len();
+    (0..n)
+        .map(|i| {
+            let (a, b) = (i.saturating_sub(1), (i + 1).min(n - 1));
+            (values[b] - values[a]) / (time[b] - time[a])
+        })
+        .collect()
+}
+
+/// Three passes of a mean over `half` neighbours on either side: nearly a Gaussian.
+fn smoothed(values: &[f64], half: usize) -> Vec<f64> {
+    let n = values.len();
+    let mut out = values.to_vec();
+    for _ in 0..3 {
+        let mut sums = vec![0.0];
+        for v in &out {
+            sums.push(sums[sums.len() - 1] + v);
+        }
+        out = (0..n)
+            .map(|i| {
+                let reach = half.min(i).min(n - 1 - i);
+                (sums[i + reach + 1] - sums[i - reach]) / (2 * reach + 1) as f64
+            })
+            .collect();
+    }
+    out
+}

@@ -1,0 +1,114 @@
+//! What a motion says of the parameters of each joint, and the sentences about them.
+
+use super::joint::JointFinding;
+use super::next::FOR_STIFFNESS;
+use crate::fit::parameter::{Identified, Status};
+use crate::sheet::number::{engineering, with_interval};
+
+/// Delay and stiffness of a joint; a number only where the data fix one.
+pub fn parameters(joint: &JointFinding) -> Vec<Identified> {
+    let mut all = Vec::new();
+    let skewed = joint.named.causes.iter().any(|c| c.effect == "time_skew");
+    if let Some(delay) = joint.delay.filter(|_| skewed) {
+        let whole = delay.value + joint.declared.unwrap_or(0.0);
+        let meaning = "how much later than the motor encoder the link encoder is read";
+        all.push(Identified::new(
+            "delay",
+            &joint.site,
+            whole,
+            "s",
+            delay.std,
+            meaning,
+        ));
+    }
+    let meaning = "torque on the link side of the gear per twist";
+    let stiffness = |value: f64, std: f64| {
+        Identified::new("stiffness", &joint.site, value, "N·m/rad", std, meaning)
+    };
+    all.push(match joint.compliance {
+        Ok(c) => stiffness(1.0 / c.value, c.std / (c.value * c.value)),
+        Err(_) => stiffness(0.0, 0.0).without_value(Status::NotIdentifiable),
+    });
+    all
+}
+
+/// What a reader should know beside the causes: delays that agree, and stiffnesses that are not fixed.
+pub fn remarks(joints: &[JointFinding]) -> Vec<String> {
+    let mut said = Vec::new();
+    said.extend(common_delay(joints));
+    said.extend(stiffnesses(joints));
+    said.extend(joints.iter().filter_map(leftover));
+    let wild: usize = joints.iter().map(|j| j.data.wild).sum();
+    if wild > 0 {
+        said.push(format!(
+            "{wild} lone wild readings were replaced by their neighbours."
+        ));
+    }
+    said
+}
+
+fn common_delay(joints: &[JointFinding]) -> Option<String> {
+    let of = |j: &JointFinding| parameters(j).into_iter().find(|p| p.name == "delay");
+    let delays: Vec<Identified> = joints.iter().filter_map(of).collect();
+    if delays.is_empty() {
+        return None;
+    }
+    let each: Vec<String> = delays
+        .iter()
+        .filter_map(|d| {
+            let ([low, high], value) = (d.ci95?, d.value?);
+            let text = with_interval(1e3 * value, 1e3 * low, 1e3 * high);
+            Some(format!("{} {text} ms", d.site))
+        })
+        .collect();
+    let ends = |k: usize| delays.iter().filter_map(move |d| Some(d.ci95?[k]));
+    let agree = ends(0).fold(f64::MIN, f64::max) <= ends(1).fold(f64::MAX, f64::min);
+    let why = match delays.len() > 1 && agree {
+        true => {
+            "; the intervals (95 %) share a value, as one read-out for all of them would make it"
+        }
+        false => " (95 %)",
+    };
+    Some(format!(
+        "Delay of the link encoder behind the motor encoder: {}{why}. State it as `# encoder_delay_s` to take it out.",
+        each.join(", ")
+    ))
+}
+
+fn stiffnesses(joints: &[JointFinding]) -> Vec<String> {
+    let mut said = Vec::new();
+    let mut open: Vec<(&'static str, Vec<&str>)> = Vec::new();
+    for joint in joints {
+        match joint.compliance {
+            Ok(c) => said.push(format!(
+                "Stiffness of {}: {} (standard error {:.0} %).",
+                joint.site,
+                engineering(1.0 / c.value, 3, "N·m/rad"),
+                100.0 * c.std / c.value
+            )),
+            Err(why) => match open.iter_mut().find(|o| o.0 == why) {
+                Some(known) => known.1.push(&joint.site),
+                None => open.push((why, vec![&joint.site])),
+            },
+        }
+    }
+    for (why, sites) in &open {
+        said.push(format!(
+            "Stiffness of {}: not identifiable from this motion; {why}.",
+            sites.join(", ")
+        ));
+    }
+    if !open.is_empty() {
+        said.push(format!("To identify a stiffness: {FOR_STIFFNESS}."));
+    }
+    said
+}
+
+fn leftover(joint: &JointFinding) -> Option<String> {
+    let seen = joint.description.as_ref()?;
+    let size = match joint.is_left {
+        true => "Seen",
+        false => "Too small to count, but seen",
+    };
+    Some(format!("{size} at {} and not named: {seen}.", joint.site))
+}

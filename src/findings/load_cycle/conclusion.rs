@@ -1,0 +1,150 @@
+//! From named causes to the verdict: what is left, and how far the present simulation is off.
+
+use super::adequacy::{self, Adequacy};
+use super::case::Case;
+use super::diagnosis::Diagnosis;
+use super::naming::Named;
+use super::refine::Refined;
+use super::structure;
+use crate::findings::answer::{Answer, Candidate, Verdict};
+use crate::fit::least_squares::Problem;
+
+/// Structure counts as left when a test is below this p-value ...
+const SIGNIFICANT: f64 = 5e-5;
+/// ... and the unexplained share exceeds this.
+const MATTERS: f64 = 0.1;
+/// With more than this share unexplained the causes found are not the story.
+const NOT_THE_STORY: f64 = 0.13;
+
+impl Case<'_> {
+    fn residual(&self, set: &Refined) -> Vec<f64> {
+        let ignored = vec![false; self.data.rows()];
+        let problem = Problem {
+            model: &set.model,
+            data: &self.data,
+            colour: &self.screen.colour,
+            ignored: &ignored,
+        };
+        problem.residual(&set.optimum.p)
+    }
+
+    pub(super) fn conclude(
+        self,
+        chosen: Refined,
+        mut named: Named,
+        scaled: bool,
+        spring: f64,
+    ) -> Diagnosis {
+        let adequacy = adequacy::judge(
+            &self.residual(&chosen),
+            chosen.dimension + 1,
+            self.base,
+            &self.screen,
+            &self.data,
+        );
+        let left = adequacy.p_value < SIGNIFICANT
+            && adequacy.unexplained > MATTERS
+            && !self.within_step(&chosen);
+        named.causes.sort_by(|a, b| {
+            b.gain
+                .reduction_percent
+                .total_cmp(&a.gain.reduction_percent)
+        });
+        let verdict = verdict(&named, left, &adequacy);
+        if verdict == Verdict::UnknownCause {
+            // what the library could make of it is not the story: name nothing
+            named = Named::default();
+        }
+        let extended = chosen.model.predict(&chosen.optimum.p, &self.data.scene);
+        let stiffness = self.present_stiffness(scaled, spring);
+        let simulated: Vec<f64> = self.data.scene.load.iter().map(|m| m / stiffness).collect();
+        let difference = |f: &[f64]| {
+            self.data
+                .reading
+                .iter()
+                .zip(f)
+                .map(|(y, f)| y - f)
+                .collect::<Vec<f64>>()
+        };
+        let noise = self.screen.colour.rms.min(rms(&difference(&extended)));
+        let discrepancy = structure::discrepancy(&difference(&simulated), &self.data, noise);
+        let before = discrepancy.rms * discrepancy.rms;
+        let unexplained = structure::structure(
+            &difference(&extended),
+            &self.data,
+            before,
+            noise,
+            adequacy.test,
+        );
+        let answer = Answer {
+            verdict,
+            discrepancy,
+            causes: named.causes,
+            groups: named.groups,
+            unexplained,
+            p_value: adequacy.p_value,
+            candidates: self.table(),
+            unit: self.file.port.deflection_unit(),
+            noise: self.screen.colour.describe(),
+        };
+        Diagnosis {
+            answer,
+            adequacy,
+            model: chosen.model,
+            p: chosen.optimum.p,
+            simulated,
+            extended,
+            imposed: false,
+            data: self.data,
+        }
+    }
+
+    /// Whether all that is left is smaller than a coarse lattice makes it.
+    fn within_step(&self, chosen: &Refined) -> bool {
+        let fitted = chosen.model.predict(&chosen.optimum.p, &self.data.scene);
+        let square = |(y, f): (&f64, &f64)| (y - f) * (y - f);
+        let left = self
+            .data
+            .reading
+            .iter()
+            .zip(&fitted)
+            .map(square)
+            .sum::<f64>()
+            / fitted.len().max(1) as f64;
+        self.step.is_some_and(|step| left.sqrt() < 0.5 * step)
+    }
+
+    /// The stiffness that the present simulation uses: the nominal one where its stated spread does
+    /// not cover the identified one; else the best straight spring within that spread.
+    fn present_stiffness(&self, scaled: bool, _spring: f64) -> f64 {
+        match self.file.facts.nominal_stiffness {
+            Some(nominal) if scaled => nominal,
+            _ => self.plain.optimum.p[0],
+        }
+    }
+
+    fn table(&self) -> Vec<Candidate> {
+        let nats = |index: &Option<usize>| index.map_or(0.0, |i| self.refined[i].nats);
+        self.posterior
+            .sets
+            .iter()
+            .take(10)
+            .map(|(c, p, i)| (c.iter().map(|c| c.to_string()).collect(), *p, nats(i)))
+            .collect()
+    }
+}
+
+fn rms(values: &[f64]) -> f64 {
+    (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
+}
+
+fn verdict(named: &Named, left: bool, adequacy: &Adequacy) -> Verdict {
+    match (named.causes.is_empty() && named.groups.is_empty(), left) {
+        (true, true) => Verdict::UnknownCause,
+        (true, false) => Verdict::Sufficient,
+        (false, true) if adequacy.unexplained > NOT_THE_STORY => Verdict::UnknownCause,
+        (false, true) => Verdict::PartlyExplained,
+        (false, false) if named.causes.is_empty() => Verdict::CannotTell,
+        (false, false) => Verdict::Explained,
+    }
+}

@@ -1,0 +1,155 @@
+//! Everything that is known about a test before causes are named.
+
+use super::field::{Field, Springs};
+use super::patterns::Scene;
+use super::posterior::Posterior;
+use super::search::{Set, search};
+use super::seats::{Column, Seats};
+use super::smooth::{norm, smooth};
+use crate::experiments::workspace::Response;
+use crate::fit::force_shapes::Shapes;
+use crate::fit::validation::DEFAULT_SPREAD;
+use crate::fit::weighing::Weighing;
+use crate::ground::spatial::{M3, V3};
+use crate::measurement::workspace_test::WorkspaceTest;
+use crate::robot::Robot;
+use nalgebra::{DMatrix, DVector};
+
+/// No model is right to better than this share of a deflection ...
+const MODEL: f64 = 0.01;
+/// ... and no law to better than this share of the error that it explains.
+const LAW: f64 = 0.05;
+/// Amounts are reported with priors this many times as wide: without shrinkage.
+const FREE: f64 = 30.0;
+
+/// A test with all columns, and the sets of causes compared.
+pub(super) struct Case<'a> {
+    pub(super) test: &'a WorkspaceTest,
+    pub(super) scene: Scene<'a>,
+    pub(super) shapes: Shapes,
+    pub(super) weighing: Weighing,
+    pub(super) seats: Seats,
+    pub(super) field: Field,
+    pub(super) springs: Springs,
+    /// Readings less the simulation: slopes, then levels; in standard deviations.
+    pub(super) readings: DVector<f64>,
+    /// The columns of all seats.
+    pub(super) columns: DMatrix<f64>,
+    pub(super) posterior: Posterior,
+    pub(super) levels: usize,
+}
+
+impl<'a> Case<'a> {
+    /// Twice where an instrument is suspect: it acts upon what it makes of the true displacement.
+    pub(super) fn of(test: &'a WorkspaceTest, robot: &'a Robot) -> Self {
+        let first = Self::about(test, robot, &[]);
+        let best = &first.posterior.sets[0].0;
+        let columns = first.columns_of(best);
+        let blamed = columns.iter().any(|c| first.seats.columns[*c].instrument);
+        match blamed {
+            false => first,
+            true => Self::about(test, robot, &columns),
+        }
+    }
+
+    /// With the columns of the causes that are suspect.
+    fn about(test: &'a WorkspaceTest, robot: &'a Robot, suspect: &[usize]) -> Self {
+        let points = &test.facts.joint_angles;
+        let shapes = Shapes::of(test);
+        let mut scene = Scene::of(robot, points);
+        let mut seats = Seats::of(&scene, &shapes);
+        let response = Response::of(robot, points);
+        let repeatability = test.facts.setup_repeatability.unwrap_or(0.0);
+        let mut weighing = Weighing::new(&shapes.setups, repeatability);
+        let spread = test
+            .facts
+            .nominal_rel_std
+            .unwrap_or(DEFAULT_SPREAD)
+            .max(1e-6);
+        for _ in 0..3 {
+            let smooth = smooth(&scene, &seats, &weighing, (&response, spread), suspect);
+            let size = |p: usize, d: usize| {
+                let error: V3 =
+                    std::array::from_fn(|k| smooth.read[p][d][k] - scene.base.slopes[p][d][k]);
+                (MODEL * norm(&smooth.read[p][d])).hypot(LAW * norm(&error))
+            };
+            weighing.tolerate(size);
+            weighing.about_slopes(|p, d| smooth.read[p][d]);
+            scene.reference = smooth.real;
+            seats.read_again(&scene, &shapes);
+        }
+        let left = shapes.left();
+        let jumps = shapes.seen(|p, d, f, _| scene.base.jump(p, d, f, None)).1;
+        let slopes = weighing.measured() - weighing.whiten(|p, d| scene.base.slopes[p][d]);
+        let bends = left.iter().zip(&jumps).map(|(l, j)| l - j);
+        let readings: Vec<f64> = slopes.iter().copied().chain(bends).collect();
+        let readings = DVector::from_vec(readings);
+        let levels = left.len();
+        let weighed = |c: &Column| c.pattern.weighed(&weighing, levels);
+        let columns = DMatrix::from_columns(&seats.columns.iter().map(weighed).collect::<Vec<_>>());
+        let springs = weighing.design(&response, &response.sites);
+        let springs = Springs {
+            columns: springs.resize_vertically(readings.len(), 0.0),
+            spread,
+        };
+        let prior = seats.columns.iter().map(|c| c.prior).collect();
+        let low = seats.columns.iter().map(|c| c.low).collect();
+        let field = Field::new(&readings, &columns, &springs, (prior, low));
+        let posterior = Posterior::new(search(&seats, &field));
+        Self {
+            test,
+            scene,
+            shapes,
+            weighing,
+            seats,
+            field,
+            springs,
+            readings,
+            columns,
+            posterior,
+            levels,
+        }
+    }
+
+    pub(super) fn slopes(&self) -> usize {
+        self.readings.len() - self.levels
+    }
+
+    pub(super) fn columns_of(&self, set: &Set) -> Vec<usize> {
+        let forms = set.forms.iter().map(|f| &self.seats.forms[*f]);
+        forms.flat_map(|form| form.columns.clone()).collect()
+    }
+
+    /// Amounts without shrinkage, none below its bound.
+    pub(super) fn amounts(&self, set: &Set) -> Vec<f64> {
+        let columns = self.columns_of(set);
+        let found = self.field.amounts(&columns, |_| FREE);
+        let bounded = columns.iter().zip(found.mean);
+        bounded.map(|(c, a)| a.max(self.field.low(*c))).collect()
+    }
+
+    /// The amounts of one seat of a set, all of its card.
+    pub(super) fn amounts_of(&self, set: &Set, seat: usize) -> Vec<f64> {
+        let own = &self.seats.seats[seat];
+        let mut all = vec![0.0; own.cause.card().amounts.len()];
+        for (column, amount) in self.columns_of(set).iter().zip(self.amounts(set)) {
+            if (own.first..own.first + all.len()).contains(column) {
+                all[column - own.first] = amount;
+            }
+        }
+        all
+    }
+
+    pub(super) fn explained(&self, set: &Set) -> Vec<M3> {
+        let mut slopes = self.scene.base.slopes.clone();
+        for (column, amount) in self.columns_of(set).iter().zip(self.amounts(set)) {
+            let own = &self.seats.columns[*column].pattern.slopes;
+            for (all, part) in slopes.iter_mut().zip(own) {
+                for (a, b) in all.iter_mut().flatten().zip(part.iter().flatten()) {
+                    *a += amount * b;
+                }
+            }
+        }
+        slopes
+    }
+}

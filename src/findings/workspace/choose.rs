@@ -1,0 +1,173 @@
+//! Which set of causes is named: the most probable one whose causes are needed and help where they
+//! were not fitted.
+
+use super::case::Case;
+use super::search::Set;
+use super::seats::Seat;
+use super::unseen::{Rows, fitted, gain, held_out};
+use crate::findings::gain::Gain;
+use crate::ground::spatial::M3;
+use nalgebra::DMatrix;
+
+/// Probability of a set against the same set less one cause, below which that cause is not named.
+const NEEDED: f64 = 0.9;
+/// Sets looked through for one whose causes all gain.
+const SETS: usize = 200;
+/// A set with less than this share of the best one's probability is no explanation.
+const UNLIKELY: f64 = 1e-3;
+
+impl Case<'_> {
+    /// The most probable set whose causes all gain on unseen points; if there is none, the most
+    /// probable one less those that gain nothing.
+    pub(super) fn choose(&self) -> Set {
+        let likely = self.posterior.sets.iter().take(SETS);
+        let mut likely = likely.filter(|(_, p)| *p > UNLIKELY * self.posterior.sets[0].1);
+        let real = |set: &Set| {
+            let needed = set.seats.iter().all(|seat| self.is_needed(set, *seat));
+            needed && set.seats.iter().all(|s| self.gain_of(set, *s).is_real())
+        };
+        if let Some((set, _)) = likely.find(|(set, _)| !set.seats.is_empty() && real(set)) {
+            return set.clone();
+        }
+        let mut set = self.posterior.sets[0].0.clone();
+        while let Some(seat) = set.seats.iter().copied().find(|s| !self.is_real(&set, *s)) {
+            set = self.without(&set, seat);
+        }
+        set
+    }
+
+    fn is_real(&self, set: &Set, seat: usize) -> bool {
+        self.is_needed(set, seat) && self.gain_of(set, seat).is_real()
+    }
+
+    /// The set less one seat, its other seats in the same forms.
+    fn without(&self, set: &Set, seat: usize) -> Set {
+        let keep: Vec<usize> = (0..set.seats.len())
+            .filter(|i| set.seats[*i] != seat)
+            .collect();
+        let seats: Vec<usize> = keep.iter().map(|i| set.seats[*i]).collect();
+        let known = self.posterior.sets.iter().find(|(s, _)| s.seats == seats);
+        known.map_or_else(
+            || Set {
+                forms: keep.iter().map(|i| set.forms[*i]).collect(),
+                seats,
+                ..set.clone()
+            },
+            |(known, _)| known.clone(),
+        )
+    }
+
+    fn is_needed(&self, set: &Set, seat: usize) -> bool {
+        let rest: Vec<usize> = set.seats.iter().copied().filter(|s| *s != seat).collect();
+        let (with, without) = (self.posterior.of(&set.seats), self.posterior.of(&rest));
+        with > NEEDED * (with + without)
+    }
+
+    /// Gain of one seat: the set without it against the set, on points left out.
+    pub(super) fn gain_of(&self, set: &Set, seat: usize) -> Gain {
+        let own = &self.seats.seats[seat];
+        let (without, with) = (self.without(set, seat), set);
+        let (before, after) = match self.point_of(own) {
+            Some(point) => (self.seen_at(point, &without), self.seen_at(point, with)),
+            None => {
+                let folds = self.folds(own);
+                let of =
+                    |set: &Set| held_out(&self.rows(set), &folds, self.springs.columns.ncols());
+                let (before, after) = (of(&without), of(with));
+                let carried = gain(&before.carried, &after.carried, self.unit());
+                if carried.is_real() {
+                    return carried;
+                }
+                (before.refitted, after.refitted)
+            }
+        };
+        gain(&before, &after, self.unit())
+    }
+
+    /// The point that a seat is about, if it is about one.
+    fn point_of(&self, seat: &Seat) -> Option<usize> {
+        let number: usize = seat.site.strip_prefix("point")?.parse().ok()?;
+        number.checked_sub(1)
+    }
+
+    /// What is left at one point for the cycles of a set-up that follow the one fitted: the slopes
+    /// of cycles differ by the noise of readings only, which is small beside that of a set-up.
+    fn seen_at(&self, point: usize, set: &Set) -> Vec<f64> {
+        let mut left = fitted(&self.rows(set));
+        let places = self.weighing.places();
+        let here = |i: usize| places.get(i).is_some_and(|place| place.0 == point);
+        let far = (0..left.len()).filter(|i| !here(*i));
+        far.collect::<Vec<_>>()
+            .into_iter()
+            .for_each(|i| left[i] = f64::NAN);
+        left
+    }
+
+    /// Which rows are left out together: those of one point.
+    fn folds(&self, seat: &Seat) -> Vec<Option<usize>> {
+        let places = self.weighing.places();
+        let bends = !self.seats.columns[seat.first].pattern.left.is_empty();
+        let slopes = places.iter().map(|place| Some(place.0));
+        let levels = self.shapes.levels();
+        let levels = levels.iter().map(|l| bends.then_some(l.point));
+        slopes.chain(levels).collect()
+    }
+
+    fn rows(&self, set: &Set) -> Rows<'_> {
+        let own = self.columns_of(set);
+        let springs = &self.springs.columns;
+        let k = springs.ncols();
+        let columns = DMatrix::from_fn(springs.nrows(), k + own.len(), |i, j| match j < k {
+            true => springs[(i, j)],
+            false => self.columns[(i, own[j - k])],
+        });
+        let spread = std::iter::repeat_n(self.springs.spread, k);
+        let prior = own.iter().map(|c| 10.0 * self.field.prior(*c));
+        Rows {
+            readings: &self.readings,
+            columns,
+            prior: spread.chain(prior).collect(),
+        }
+    }
+
+    /// Rms force of the steps, N.
+    pub(super) fn force(&self) -> f64 {
+        let squares: f64 = self.test.steps.iter().map(|s| s.force * s.force).sum();
+        (squares / self.test.steps.len().max(1) as f64).sqrt()
+    }
+
+    /// Standard deviation of an ordinary displacement about any model, m.
+    pub(super) fn unit(&self) -> f64 {
+        let deviations = self.weighing.deviations();
+        let all: Vec<f64> = deviations
+            .iter()
+            .flatten()
+            .copied()
+            .filter(|d| d.is_finite())
+            .collect();
+        let squares: f64 = all.iter().map(|d| d * d).sum();
+        self.force() * (squares / all.len().max(1) as f64).sqrt()
+    }
+
+    /// Slopes at every point, m/N, with the amounts of the causes fitted to the other points alone.
+    pub(super) fn unseen(&self, set: &Set) -> Vec<M3> {
+        let places = self.weighing.places();
+        let points = places.iter().map(|place| Some(place.0));
+        let levels = std::iter::repeat_n(None, self.levels);
+        let folds: Vec<Option<usize>> = points.chain(levels).collect();
+        let springs = self.springs.columns.ncols();
+        let found = held_out(&self.rows(set), &folds, springs);
+        let columns = self.columns_of(set);
+        let mut slopes = self.scene.base.slopes.clone();
+        for (point, slope) in slopes.iter_mut().enumerate() {
+            let amounts = found.amounts.get(point);
+            for (column, amount) in columns.iter().zip(amounts.into_iter().flatten()) {
+                let own = &self.seats.columns[*column].pattern.slopes[point];
+                for (s, o) in slope.iter_mut().flatten().zip(own.iter().flatten()) {
+                    *s += amount * o;
+                }
+            }
+        }
+        slopes
+    }
+}

@@ -1,0 +1,124 @@
+//! The diagnosis of a workspace test: from force steps to the verdict.
+
+use super::adequacy::Adequacy;
+use super::case::Case;
+use super::limits::{Limit, limits};
+use super::search::Set;
+use crate::findings::answer::{Answer, Cause, Group, Verdict};
+use crate::fit::force_shapes::Shapes;
+use crate::ground::spatial::M3;
+use crate::measurement::workspace_test::WorkspaceTest;
+use crate::robot::Robot;
+
+/// What a diagnosis found: the answer, and what its figures need.
+pub struct WorkspaceDiagnosis {
+    /// The answer.
+    pub answer: Answer,
+    /// The robot with the causes in it.
+    pub extended: Robot,
+    /// The lines of the set-ups.
+    pub shapes: Shapes,
+    /// Slopes that the present simulation predicts, m/N, by point and direction.
+    pub simulated: Vec<M3>,
+    /// Slopes that model and instruments with the causes predict.
+    pub explained: Vec<M3>,
+    /// Slopes at every point predicted from the other points alone, with the causes.
+    pub unseen: Vec<M3>,
+    /// What these points would not show.
+    pub limits: Vec<Limit>,
+    /// Standard deviation of a measured slope about any model, m/N, by set-up and component.
+    pub deviation: Vec<[f64; 3]>,
+}
+
+impl std::ops::Deref for WorkspaceDiagnosis {
+    type Target = Answer;
+
+    fn deref(&self) -> &Answer {
+        &self.answer
+    }
+}
+
+/// With more than this share unexplained the causes found are not the story.
+const NOT_THE_STORY: f64 = 0.35;
+
+/// Diagnoses a test against the robot that simulates it.
+pub fn diagnose(test: &WorkspaceTest, robot: &Robot) -> WorkspaceDiagnosis {
+    Case::of(test, robot).conclude()
+}
+
+impl Case<'_> {
+    fn conclude(self) -> WorkspaceDiagnosis {
+        let chosen = self.choose();
+        let adequacy = self.adequacy(&chosen);
+        let strange = chosen
+            .seats
+            .iter()
+            .find(|s| self.seats.seats[**s].stranger)
+            .copied();
+        let (causes, groups) = self.name(&chosen);
+        let mut answer = Answer {
+            verdict: verdict(
+                &causes,
+                &groups,
+                &adequacy,
+                strange.is_some() || scattered(&causes),
+            ),
+            discrepancy: self.discrepancy(),
+            causes,
+            groups,
+            unexplained: self.structure(&chosen, &adequacy, strange),
+            p_value: adequacy.p_value(),
+            candidates: self.table(),
+            unit: "m",
+            noise: self.noise(),
+        };
+        if answer.verdict == Verdict::UnknownCause {
+            answer.causes.clear();
+            answer.groups.clear();
+        }
+        if answer.verdict == Verdict::CannotTell {
+            answer.causes.clear();
+        }
+        let named = !matches!(answer.verdict, Verdict::UnknownCause | Verdict::Sufficient);
+        WorkspaceDiagnosis {
+            extended: match named {
+                true => self.extended(&chosen),
+                false => self.scene.robot.clone(),
+            },
+            simulated: self.scene.base.slopes.clone(),
+            explained: self.explained(&chosen),
+            unseen: self.unseen(&chosen),
+            limits: limits(&self.seats, &self.field),
+            deviation: self.weighing.deviations(),
+            answer,
+            shapes: self.shapes,
+        }
+    }
+
+    fn extended(&self, set: &Set) -> Robot {
+        let mut robot = self.scene.robot.clone();
+        for seat in set.seats.iter().filter(|s| !self.seats.seats[**s].stranger) {
+            let own = &self.seats.seats[*seat];
+            own.cause
+                .alter(&mut robot, &own.site, &self.amounts_of(set, *seat));
+        }
+        robot
+    }
+}
+
+/// Whether so many points are blamed that it is none of them: stiffness depends on the posture.
+fn scattered(causes: &[Cause]) -> bool {
+    let points = causes.iter().filter(|c| c.site.starts_with("point"));
+    points.count() > 2
+}
+
+fn verdict(causes: &[Cause], groups: &[Group], adequacy: &Adequacy, strange: bool) -> Verdict {
+    match (causes.is_empty(), adequacy.is_left() || strange) {
+        (true, true) => Verdict::UnknownCause,
+        (true, false) => Verdict::Sufficient,
+        (false, true) if strange || adequacy.share > NOT_THE_STORY => Verdict::UnknownCause,
+        (false, true) => Verdict::PartlyExplained,
+        (false, false) if groups.len() == causes.len() => Verdict::CannotTell,
+        (false, false) => Verdict::Explained,
+    }
+}

@@ -1,0 +1,22 @@
+//! Workspace tests: deflection is linear in the compliances, so the evidence of every set of causes
+//! is a closed form, and all of them can be compared.
+
+mod adequacy;
+mod case;
+mod choose;
+mod diagnosis;
+mod field;
+mod limits;
+mod name;
+mod next;
+mod patterns;
+mod posterior;
+mod remains;
+mod search;
+mod seats;
+mod smooth;
+mod strangers;
+mod unseen;
+
+pub use diagnosis::{WorkspaceDiagnosis, diagnose};
+pub use limits::Limit;

@@ -1,0 +1,151 @@
+//! What an amount of a cause does to the force steps: one pattern over points, directions and levels.
+
+use crate::causes::contract::{Cause, StepSeen};
+use crate::effects::Family;
+use crate::experiments::workspace::Deflection;
+use crate::fit::force_shapes::Shapes;
+use crate::fit::weighing::Weighing;
+use crate::ground::spatial::{M3, V3};
+use crate::motion::{Work, forward_kinematics, rigid};
+use crate::robot::Robot;
+use nalgebra::DVector;
+
+/// Change of the readings per unit of an amount.
+#[derive(Debug, Clone)]
+pub struct Pattern {
+    /// Of the slopes, m/N: by point, then by direction of the force.
+    pub slopes: Vec<M3>,
+    /// Of what the lines leave, in standard deviations; empty where force and displacement stay in
+    /// proportion.
+    pub left: Vec<f64>,
+}
+
+/// What patterns are taken about.
+pub struct Scene<'a> {
+    /// The robot as it is simulated.
+    pub robot: &'a Robot,
+    /// Its joint angles at the points, rad.
+    pub points: &'a [Vec<f64>],
+    /// Its force steps.
+    pub base: Deflection,
+    /// The slopes that instruments act upon, m/N: close to what was measured.
+    pub reference: Vec<M3>,
+    /// Axes of the tool at the points, base frame, as columns.
+    pub tool: Vec<M3>,
+    /// Where the displacement is read if not at the tool: behind which joint, and where at zero.
+    sensor: Option<(usize, V3)>,
+}
+
+impl<'a> Scene<'a> {
+    /// Of a robot, with the simulated slopes as reference.
+    pub fn of(robot: &'a Robot, points: &'a [Vec<f64>]) -> Self {
+        Self::seen_at(robot, points, None)
+    }
+
+    /// The same with the displacement read elsewhere.
+    pub fn seen_at(robot: &'a Robot, points: &'a [Vec<f64>], sensor: Option<(usize, V3)>) -> Self {
+        let base = deflection(robot, points, sensor);
+        let chain = rigid(robot);
+        let mut work = Work::new(&chain);
+        let mut pose = |q: &Vec<f64>| forward_kinematics(&chain, &mut work, &chain.spread(q));
+        Self {
+            robot,
+            points,
+            reference: base.slopes.clone(),
+            tool: points.iter().map(|q| pose(q).rotation).collect(),
+            base,
+            sensor,
+        }
+    }
+
+    /// The pattern of one amount, per unit; `step` is an ordinary size of it.
+    pub fn pattern(
+        &self,
+        cause: &dyn Cause,
+        site: &str,
+        (index, step): (usize, f64),
+        shapes: &Shapes,
+    ) -> Pattern {
+        let mut amounts = vec![0.0; cause.card().amounts.len()];
+        amounts[index] = step;
+        match cause.card().family {
+            Family::Measurement => self.read(cause, site, &amounts, step),
+            Family::Physics => self.altered(cause, site, &amounts, step, shapes),
+        }
+    }
+
+    fn altered(
+        &self,
+        cause: &dyn Cause,
+        site: &str,
+        amounts: &[f64],
+        step: f64,
+        shapes: &Shapes,
+    ) -> Pattern {
+        let mut robot = self.robot.clone();
+        cause.alter(&mut robot, site, amounts);
+        let moved = deflection(&robot, self.points, self.sensor);
+        let pairs = moved.slopes.iter().zip(&self.base.slopes);
+        let mut slopes: Vec<M3> = pairs.map(|(a, b)| difference(a, b, step)).collect();
+        if moved.is_linear() {
+            let left = Vec::new();
+            return Pattern { slopes, left };
+        }
+        let remembers = cause.remembers(amounts);
+        let jump = |p: usize, d: usize, f: f64, before: Option<f64>| {
+            let before = before.filter(|_| remembers);
+            let (a, b) = (moved.jump(p, d, f, before), self.base.jump(p, d, f, None));
+            std::array::from_fn(|k| (a[k] - b[k]) / step)
+        };
+        let (lines, left) = shapes.seen(jump);
+        for (setup, line) in shapes.setups.iter().zip(&lines) {
+            let own = &mut slopes[setup.point][setup.direction];
+            (0..3).for_each(|k| own[k] += line[k].unwrap_or(0.0));
+        }
+        Pattern { slopes, left }
+    }
+
+    /// Instruments act in proportion: one newton shows everything.
+    fn read(&self, cause: &dyn Cause, site: &str, amounts: &[f64], step: f64) -> Pattern {
+        let seen = |point: usize, direction: usize| -> V3 {
+            let displacement = self.reference[point][direction];
+            let mut read = StepSeen {
+                point,
+                direction,
+                force: 1.0,
+                displacement,
+                tool: self.tool[point],
+            };
+            cause.read_step(site, amounts, &self.reference[point], &mut read);
+            std::array::from_fn(|k| (read.displacement[k] - displacement[k]) / step)
+        };
+        let of = |point: usize| [0, 1, 2].map(|direction| seen(point, direction));
+        Pattern {
+            slopes: (0..self.points.len()).map(of).collect(),
+            left: Vec::new(),
+        }
+    }
+}
+
+fn deflection(robot: &Robot, points: &[Vec<f64>], sensor: Option<(usize, V3)>) -> Deflection {
+    match sensor {
+        None => Deflection::of(robot, points),
+        Some((after, at)) => Deflection::seen_at(robot, points, after, at),
+    }
+}
+
+fn difference(a: &M3, b: &M3, step: f64) -> M3 {
+    std::array::from_fn(|i| std::array::from_fn(|k| (a[i][k] - b[i][k]) / step))
+}
+
+impl Pattern {
+    /// All numbers in standard deviations: the slopes, then `levels` numbers of what the lines leave.
+    pub fn weighed(&self, weighing: &Weighing, levels: usize) -> DVector<f64> {
+        let slopes = weighing.whiten(|p, d| self.slopes[p][d]);
+        let all = slopes.iter().copied();
+        match self.left.is_empty() {
+            true => DVector::from_vec(all.chain(std::iter::repeat_n(0.0, levels)).collect()),
+            false => DVector::from_vec(all.chain(self.left.iter().copied()).collect()),
+        }
+    }
+}

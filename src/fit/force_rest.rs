@@ -1,0 +1,278 @@
+//! What the line of one component in one set-up leaves, level by level.
+
+use super::force_steps::{Reading, SetupSteps, WILD, Weighted, spread, weighted};
+
+/// What the line of one component in one set-up leaves.
+pub(super) struct Rest {
+    pub readings: Vec<Reading>,
+    pub kept: Vec<f64>,
+    /// Cell of each reading: forces of one level and one branch.
+    pub cells: Vec<usize>,
+    pub count: Vec<f64>,
+    pub cycles: usize,
+    pub component: usize,
+    pub point: usize,
+    pub direction: usize,
+}
+
+/// One level and branch of one set-up and component.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Level {
+    /// Index of the point.
+    pub point: usize,
+    /// Direction of the force.
+    pub direction: usize,
+    /// Component of the displacement.
+    pub component: usize,
+    /// Mean force, N.
+    pub force: f64,
+    /// Readings averaged.
+    pub count: f64,
+    /// Whether the force rises there.
+    pub rising: bool,
+}
+
+/// Levels of a half cycle that are told apart.
+const LEVELS: f64 = 20.0;
+
+impl Rest {
+    pub fn new(
+        readings: Vec<Reading>,
+        residuals: &[f64],
+        own: &SetupSteps,
+        component: usize,
+    ) -> Self {
+        let largest = readings.iter().fold(0.0_f64, |m, r| m.max(r.force.abs()));
+        let level = |force: f64| (force / largest.max(f64::MIN_POSITIVE) * LEVELS).round() as i64;
+        let rising = |i: usize| {
+            let before = i
+                .checked_sub(1)
+                .filter(|j| readings[*j].cycle == readings[i].cycle);
+            match before {
+                Some(j) => readings[i].force > readings[j].force,
+                None => readings
+                    .get(i + 1)
+                    .is_some_and(|next| next.force > readings[i].force),
+            }
+        };
+        let keys: Vec<(i64, bool)> = (0..readings.len())
+            .map(|i| (level(readings[i].force), rising(i)))
+            .collect();
+        let mut distinct = keys.clone();
+        distinct.sort_unstable();
+        distinct.dedup();
+        let find = |key: &(i64, bool)| distinct.binary_search(key).unwrap_or(0);
+        let cells: Vec<usize> = keys.iter().map(find).collect();
+        let kept = tame(residuals, &cells, distinct.len());
+        let mut count = vec![0.0; distinct.len()];
+        cells
+            .iter()
+            .zip(&kept)
+            .for_each(|(cell, w)| count[*cell] += w);
+        Self {
+            readings,
+            kept,
+            cells,
+            count,
+            cycles: own.cycles.len(),
+            component,
+            point: own.point,
+            direction: own.direction,
+        }
+    }
+
+    /// Squares of the change from one reading to the next beyond the line, and how many there are.
+    pub fn steps(&self) -> (f64, f64) {
+        let left = self.left();
+        let kept = |i: &usize| {
+            let same = self.readings[*i].cycle == self.readings[i - 1].cycle;
+            same && self.kept[*i] * self.kept[i - 1] > 0.0
+        };
+        let changes = (1..left.len()).filter(kept);
+        let changes: Vec<f64> = changes.map(|i| (left[i] - left[i - 1]).powi(2)).collect();
+        (changes.iter().sum(), changes.len() as f64)
+    }
+
+    /// Shares of the even part, of the cubic part and of the loop in what the line leaves.
+    pub fn bends(&self, left: &[f64]) -> [f64; 3] {
+        let levels = self.levels();
+        let largest = levels.iter().fold(1e-300, |m: f64, l| m.max(l.force.abs()));
+        let root: Vec<f64> = self.count.iter().map(|n| n.sqrt()).collect();
+        let shape = |of: fn(f64, f64) -> f64| -> Vec<f64> {
+            let side = |l: &Level| if l.rising { 1.0 } else { -1.0 };
+            let value = |(l, n): (&Level, &f64)| n * of(l.force / largest, side(l));
+            levels.iter().zip(&root).map(value).collect()
+        };
+        let wanted = [
+            shape(|_, _| 1.0),
+            shape(|f, _| f),
+            shape(|f, _| f.abs()),
+            shape(|f, _| f * f * f),
+            shape(|_, side| side),
+        ];
+        let mut basis: Vec<Vec<f64>> = Vec::new();
+        for mut own in wanted {
+            let size = dot(&own, &own).sqrt();
+            for before in &basis {
+                let share = dot(&own, before);
+                own.iter_mut()
+                    .zip(before)
+                    .for_each(|(o, b)| *o -= share * b);
+            }
+            let rest = dot(&own, &own).sqrt();
+            let scale = if rest > 1e-6 * size { 1.0 / rest } else { 0.0 };
+            basis.push(own.iter().map(|o| o * scale).collect());
+        }
+        [2, 3, 4].map(|k| dot(&basis[k], left))
+    }
+
+    /// The line of what was used.
+    pub fn line(&self) -> Option<(Weighted, Vec<f64>)> {
+        weighted(&self.readings, &self.kept, self.cycles)
+    }
+
+    /// What the line leaves of every reading.
+    pub fn left(&self) -> Vec<f64> {
+        let line = self.line();
+        line.map_or_else(|| vec![0.0; self.readings.len()], |line| line.1)
+    }
+
+    /// The force before a reading in its cycle.
+    pub fn before(&self, i: usize) -> Option<f64> {
+        let before = i.checked_sub(1).map(|j| self.readings[j]);
+        before
+            .filter(|b| b.cycle == self.readings[i].cycle)
+            .map(|b| b.force)
+    }
+
+    /// Squares of the zeros of the cycles about their mean, m², and how many are free.
+    pub fn zeros(&self, slope: f64) -> [f64; 2] {
+        let mut sums = vec![[0.0; 2]; self.cycles];
+        for (i, r) in self.readings.iter().enumerate() {
+            let zero = r.displacement - slope * r.force;
+            let own = &mut sums[r.cycle];
+            own[0] += self.kept[i] * zero;
+            own[1] += self.kept[i];
+        }
+        let means: Vec<f64> = sums
+            .iter()
+            .filter(|s| s[1] > 0.0)
+            .map(|s| s[0] / s[1])
+            .collect();
+        let n = means.len() as f64;
+        let mean = means.iter().sum::<f64>() / n.max(1.0);
+        let squares = means.iter().map(|m| (m - mean).powi(2)).sum();
+        [squares, (n - 1.0).max(0.0)]
+    }
+
+    /// Mean over the readings of every cell.
+    pub fn means(&self, values: impl Fn(usize) -> f64) -> Vec<f64> {
+        let mut sums = vec![0.0; self.count.len()];
+        for (i, (cell, w)) in self.cells.iter().zip(&self.kept).enumerate() {
+            sums[*cell] += w * values(i);
+        }
+        let mean = |(sum, n): (&f64, &f64)| if *n > 0.0 { sum / n } else { 0.0 };
+        sums.iter().zip(&self.count).map(mean).collect()
+    }
+
+    /// Slope, and what the line leaves in the cells in standard deviations.
+    pub fn project(&self, readings: &[Reading], noise: f64) -> (Option<f64>, Vec<f64>) {
+        let Some((fit, left)) = weighted(readings, &self.kept, self.cycles) else {
+            return (None, vec![0.0; self.count.len()]);
+        };
+        let means = self.means(|i| left[i]);
+        let scaled = means.iter().zip(&self.count);
+        let noise = noise.max(f64::MIN_POSITIVE);
+        (
+            Some(fit.slope),
+            scaled.map(|(m, n)| m * n.sqrt() / noise).collect(),
+        )
+    }
+
+    /// Squares about the means of the cells, and their degrees of freedom.
+    pub fn scatter(&self, left: &[f64]) -> [f64; 2] {
+        let means = self.means(|i| left[i]);
+        let square = |(i, cell): (usize, &usize)| self.kept[i] * (left[i] - means[*cell]).powi(2);
+        let squares: f64 = self.cells.iter().enumerate().map(square).sum();
+        let freedom: f64 = self.count.iter().map(|n| (n - 1.0).max(0.0)).sum();
+        [squares, (freedom - (self.cycles as f64 - 1.0)).max(0.0)]
+    }
+
+    /// Squares of the slopes of single cycles about the common one, in units of their variance from
+    /// `noise`, and their degrees of freedom: slow noise moves slopes more than its scatter says.
+    pub fn slope_scatter(&self, left: &[f64], noise: f64) -> [f64; 2] {
+        let mut squares = 0.0;
+        for cycle in 0..self.cycles {
+            let own = |(i, r): (usize, &Reading)| {
+                (r.cycle == cycle).then_some(Reading {
+                    displacement: left[i],
+                    ..*r
+                })
+            };
+            let all = self.readings.iter().enumerate();
+            let readings: Vec<Reading> = all.clone().filter_map(own).collect();
+            let kept = all.filter(|(_, r)| r.cycle == cycle);
+            let kept: Vec<f64> = kept.map(|(i, _)| self.kept[i]).collect();
+            if let Some((fit, _)) = weighted(&readings, &kept, self.cycles) {
+                let variance = (noise * noise / fit.force_squares).max(f64::MIN_POSITIVE);
+                squares += fit.slope.powi(2) / variance;
+            }
+        }
+        match self.cycles > 1 && noise > 0.0 {
+            true => [squares, self.cycles as f64 - 1.0],
+            false => [0.0; 2],
+        }
+    }
+
+    pub fn levels(&self) -> Vec<Level> {
+        let force = self.means(|i| self.readings[i].force);
+        let mut rising = vec![false; self.count.len()];
+        for (i, cell) in self.cells.iter().enumerate() {
+            let next = self.readings.get(i + 1).map(|r| r.force);
+            let before = i.checked_sub(1).map(|j| self.readings[j].force);
+            let own = self.readings[i].force;
+            rising[*cell] |= before.map_or(next.is_some_and(|n| n > own), |b| own > b);
+        }
+        let level = |(i, count): (usize, &f64)| Level {
+            point: self.point,
+            direction: self.direction,
+            component: self.component,
+            force: force[i],
+            count: *count,
+            rising: rising[i],
+        };
+        self.count.iter().enumerate().map(level).collect()
+    }
+}
+
+/// Which readings are used: one that the other cycles do not repeat, and that lies off the line by
+/// far, is wild. What all cycles repeat is shape, however far off.
+fn tame(residuals: &[f64], cells: &[usize], count: usize) -> Vec<f64> {
+    let mut own: Vec<Vec<f64>> = vec![Vec::new(); count];
+    residuals
+        .iter()
+        .zip(cells)
+        .for_each(|(r, c)| own[*c].push(*r));
+    let middle = |values: &mut Vec<f64>| {
+        values.sort_by(f64::total_cmp);
+        match values.len() {
+            0 | 1 => 0.0,
+            2 if values[0].abs() < values[1].abs() => values[0],
+            2 => values[1],
+            n => values[n / 2],
+        }
+    };
+    let middles: Vec<f64> = own.iter_mut().map(middle).collect();
+    let limit = WILD * spread(residuals).max(f64::MIN_POSITIVE);
+    let off = |(r, c): (&f64, &usize)| r.abs() > limit && (r - middles[*c]).abs() > limit;
+    let kept = |one| if off(one) { 0.0 } else { 1.0 };
+    let kept: Vec<f64> = residuals.iter().zip(cells).map(kept).collect();
+    match kept.iter().sum::<f64>() > 0.5 * kept.len() as f64 {
+        true => kept,
+        false => vec![1.0; kept.len()],
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

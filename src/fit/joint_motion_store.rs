@@ -1,0 +1,96 @@
+//! `fits/<campaign>/*-extended.toml` of a joint motion: what was found, with provenance, loaded back.
+
+use super::parameter::Identified;
+use crate::ground::files;
+use crate::ground::problem::{Outcome, Problem};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// The schema written today.
+pub const SCHEMA: &str = "ident-joint-motion/1";
+
+/// What a motion said of its joints.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StoredMotion {
+    /// Format of this file.
+    pub schema: String,
+    /// What wrote it.
+    pub version: String,
+    /// The measurement.
+    pub input: String,
+    /// Its SHA-256.
+    pub input_sha256: String,
+    /// True when the measurement was simulated.
+    pub synthetic: bool,
+    /// The robot that the measurement names.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub robot: Option<String>,
+    /// The verdict.
+    pub verdict: String,
+    /// Causes that were named.
+    pub causes: Vec<StoredCause>,
+    /// Delays and stiffnesses, SI.
+    pub parameters: Vec<Identified>,
+}
+
+/// A cause that was named.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StoredCause {
+    /// Its name.
+    pub effect: String,
+    /// Where.
+    pub site: String,
+    /// Its parameters.
+    pub parameters: Vec<StoredValue>,
+}
+
+/// A parameter of a cause.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StoredValue {
+    /// Its name.
+    pub name: String,
+    /// Value, SI.
+    pub value: f64,
+    /// Its unit.
+    pub unit: String,
+}
+
+impl StoredMotion {
+    /// Its text.
+    ///
+    /// # Errors
+    /// It cannot be written as TOML.
+    pub fn text(&self) -> Outcome<String> {
+        let body = toml::to_string(self).map_err(|e| {
+            Problem::new(
+                format!("fit cannot be written as TOML ({e})"),
+                "report this as a defect",
+            )
+        })?;
+        let label = match self.synthetic {
+            true => "# synthetic: fitted to simulated measurements\n",
+            false => "",
+        };
+        Ok(format!(
+            "{label}# SI units; value and interval are left out where the data do not fix them\n{body}"
+        ))
+    }
+
+    /// Reads it back.
+    ///
+    /// # Errors
+    /// It is no such fit.
+    pub fn read(path: &Path) -> Outcome<Self> {
+        let bytes = files::read_bytes(path)?;
+        let refused = |why: String| {
+            let remedy = "give a fit of a joint motion that `ident diagnose` wrote";
+            Problem::new(format!("is no such fit ({why})"), remedy).in_file(path)
+        };
+        let text = String::from_utf8(bytes).map_err(|e| refused(e.to_string()))?;
+        let fit: Self = toml::from_str(&text).map_err(|e| refused(e.message().trim().into()))?;
+        match fit.schema == SCHEMA {
+            true => Ok(fit),
+            false => Err(refused(format!("its schema is `{}`", fit.schema))),
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! Delimiter and columns, as the header row tells them.
+
+use super::column::{Column, column_of};
+use crate::ground::problem::{Outcome, Problem};
+
+/// Delimiter and columns as the header row tells them.
+pub(super) struct Layout {
+    pub(super) delimiter: u8,
+    pub(super) columns: Vec<Column>,
+    pub(super) header_line: usize,
+}
+
+impl Layout {
+    pub(super) fn of_header(header: &str, line: usize) -> Outcome<Self> {
+        let delimiter = [b'\t', b';', b',']
+            .into_iter()
+            .find(|d| header.bytes().any(|b| b == *d))
+            .unwrap_or(b',');
+        let columns = header
+            .split(delimiter as char)
+            .map(|name| column_of(name.trim().trim_matches('"').trim()))
+            .collect::<Outcome<Vec<_>>>()
+            .map_err(|p| p.at_line(line))?;
+        let layout = Self {
+            delimiter,
+            columns,
+            header_line: line,
+        };
+        layout.reject_doubles().map_err(|p| p.at_line(line))?;
+        Ok(layout)
+    }
+
+    fn reject_doubles(&self) -> Outcome<()> {
+        for (i, column) in self.columns.iter().enumerate() {
+            if self.columns[..i]
+                .iter()
+                .any(|other| other.stem == column.stem)
+            {
+                return Err(Problem::new(
+                    format!("`{}` occurs twice", column.stem),
+                    "give every column its own name",
+                )
+                .in_column(&column.name));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,106 @@
+//! The general reader: CSV with front matter, units in the column names, into SI columns.
+//!
+//! One pass, row by row; memory is the numbers and one line. Delimiter (`,` `;` tab) and decimal
+//! comma are recognised from the header and the cells.
+
+mod body;
+mod cell;
+mod column;
+mod layout;
+mod source;
+
+pub use column::{Cells, Column};
+
+use super::front::Front;
+use crate::ground::problem::Outcome;
+use body::Body;
+use layout::Layout;
+use source::{Hashing, read_head, unreadable};
+use std::fs::File;
+use std::io::{BufReader, Read};
+use std::path::{Path, PathBuf};
+
+/// A measurement file as read: facts and columns.
+#[derive(Debug, Clone)]
+pub struct Table {
+    /// Where it came from.
+    pub path: PathBuf,
+    /// SHA-256 of the file.
+    pub sha256: String,
+    /// Its facts.
+    pub front: Front,
+    /// Its columns, in file order.
+    pub columns: Vec<Column>,
+    /// Number of data rows.
+    pub rows: usize,
+    /// Delimiter found.
+    pub delimiter: char,
+    /// Whether numbers use a decimal comma.
+    pub decimal_comma: bool,
+    /// 1-based line of the first data row.
+    pub first_line: usize,
+    /// Rows that do not stand on the line after the row before, and their 1-based lines.
+    jumps: Vec<(usize, usize)>,
+}
+
+impl Table {
+    /// Reads a file.
+    pub fn read(path: &Path) -> Outcome<Self> {
+        let open = || {
+            let file = File::open(path)?;
+            let bytes = file.metadata()?.len();
+            Ok((file, bytes))
+        };
+        let (file, bytes) = open().map_err(|e| unreadable(&e).in_file(path))?;
+        Self::from_reader(path, file, bytes)
+    }
+
+    /// Reads a table from any source; `path` names it, `bytes` (any good guess) is its length.
+    pub fn from_reader(path: &Path, source: impl Read, bytes: u64) -> Outcome<Self> {
+        Self::parse(path, source, bytes).map_err(|problem| problem.in_file(path))
+    }
+
+    /// The column with this stem, if present.
+    pub fn column(&self, stem: &str) -> Option<&Column> {
+        self.columns.iter().find(|column| column.stem == stem)
+    }
+
+    /// 1-based line on which a data row stands.
+    pub fn line_of(&self, row: usize) -> usize {
+        match self.jumps.partition_point(|jump| jump.0 <= row) {
+            0 => self.first_line + row,
+            n => self.jumps[n - 1].1 + row - self.jumps[n - 1].0,
+        }
+    }
+
+    fn parse(path: &Path, source: impl Read, bytes: u64) -> Outcome<Self> {
+        let mut reader = BufReader::with_capacity(1 << 18, Hashing::new(source));
+        let (front, header, header_line) = read_head(&mut reader)?;
+        let layout = Layout::of_header(&header, header_line)?;
+        let mut body = Body::new(layout, bytes as usize, header.len());
+        body.read(&mut reader)?;
+        let digest = reader.into_inner().finish();
+        Ok(Self {
+            path: path.to_path_buf(),
+            sha256: digest,
+            front,
+            rows: body.rows,
+            delimiter: body.layout.delimiter as char,
+            decimal_comma: body.decimal_comma == Some(true),
+            first_line: header_line + 1,
+            columns: body.columns,
+            jumps: body.jumps,
+        })
+    }
+}
+
+/// The front matter of a file, without its rows, if it can be read that far.
+pub fn front_of(path: &Path) -> Option<Front> {
+    let mut reader = BufReader::new(File::open(path).ok()?);
+    Some(read_head(&mut reader).ok()?.0)
+}
+
+/// The kind that a file's front matter names, if it can be read that far.
+pub fn kind_of(path: &Path) -> Option<String> {
+    Some(front_of(path)?.text("kind").ok()??.to_string())
+}

@@ -1,0 +1,333 @@
+//! `ident diagnose` on joint motion: hidden effects of an independent generator, and a real KR 300.
+
+mod common;
+mod joint_motion_generator;
+
+use ident::findings::joint_motion::{MotionDiagnosis, diagnose};
+use ident::fit::joint_motion_store::StoredMotion;
+use ident::fit::parameter::Status;
+use ident::measurement::joint_motion::JointMotion;
+use ident::measurement::table::Table;
+use joint_motion_generator::{NAMES, record};
+use rayon::prelude::*;
+use std::path::Path;
+
+fn read(text: &str) -> JointMotion {
+    let table = Table::from_reader(Path::new("run.csv"), text.as_bytes(), text.len() as u64);
+    JointMotion::from_table(table.unwrap()).unwrap()
+}
+
+/// Every name in the answer, groups as `{a/b}`.
+fn said(found: &MotionDiagnosis) -> Vec<String> {
+    let causes = found.answer.causes.iter().map(|c| c.effect.to_string());
+    let groups = found
+        .answer
+        .groups
+        .iter()
+        .map(|g| format!("{{{}}}", g.effects.join("/")));
+    causes.chain(groups).collect()
+}
+
+fn holds(said: &[String], name: &str) -> bool {
+    said.iter()
+        .any(|s| s == name || s.trim_matches(['{', '}']).split('/').any(|p| p == name))
+}
+
+#[test]
+fn hidden_effects_are_named() {
+    let each: u64 = std::env::var("IDENT_BLIND_CASES")
+        .ok()
+        .and_then(|n| n.parse().ok())
+        .unwrap_or(16);
+    let seed: u64 = std::env::var("IDENT_BLIND_SEED")
+        .ok()
+        .and_then(|n| n.parse().ok())
+        .unwrap_or(1);
+    let jobs: Vec<(&'static str, u64)> = NAMES
+        .iter()
+        .flat_map(|n| (0..each).map(move |i| (*n, i)))
+        .collect();
+    let answers: Vec<(&str, Vec<String>, &str)> = jobs
+        .par_iter()
+        .map(|(name, i)| {
+            let (text, hidden) = record(name, seed * 1000 + i);
+            let found = diagnose(&read(&text), None);
+            if std::env::var_os("IDENT_BLIND_LIST").is_some() {
+                println!(
+                    "{i} {hidden:?}\n   {:?} {} {:?}",
+                    said(&found),
+                    found.answer.verdict.name(),
+                    found.remarks
+                );
+                println!(
+                    "   {:?} left {:.3} noise {:.2e}",
+                    found.answer.candidates, found.joints[0].share_left, found.joints[0].noise_rms
+                );
+            }
+            (*name, said(&found), found.answer.verdict.name())
+        })
+        .collect();
+    let (mut right, mut wrong, mut alarms) = (0.0, 0.0, 0.0);
+    for name in NAMES {
+        let own: Vec<_> = answers.iter().filter(|a| a.0 == name).collect();
+        let text: Vec<String> = own
+            .iter()
+            .map(|a| format!("{} ({})", a.1.join("+"), a.2))
+            .collect();
+        println!("{name}: {}", text.join(", "));
+        if name == "clean" {
+            alarms = own.iter().filter(|a| !a.1.is_empty()).count() as f64 / each as f64;
+            continue;
+        }
+        right += own
+            .iter()
+            .filter(|a| a.1.len() == 1 && holds(&a.1, name))
+            .count() as f64;
+        wrong += own
+            .iter()
+            .filter(|a| !a.1.is_empty() && !holds(&a.1, name))
+            .count() as f64;
+    }
+    let hidden = (each * (NAMES.len() as u64 - 1)) as f64;
+    println!(
+        "right {:.3} wrong {:.3} false alarms {alarms:.3} of {} cases",
+        right / hidden,
+        wrong / hidden,
+        jobs.len()
+    );
+    assert!(right >= 0.9 * hidden && wrong <= 0.04 * hidden && alarms <= 0.03);
+}
+
+/// The real run: front matter, header, rows.
+fn real_run() -> Option<(Vec<String>, String, Vec<String>)> {
+    let text = std::fs::read_to_string(common::shared("kr300/run_a.csv")?).unwrap();
+    let facts: Vec<String> = text
+        .lines()
+        .take_while(|l| l.starts_with('#'))
+        .map(String::from)
+        .collect();
+    let mut rest = text.lines().skip(facts.len()).map(String::from);
+    let header = rest.next()?;
+    Some((facts, header, rest.collect()))
+}
+
+fn diagnosed(facts: &[String], more: &str, header: &str, rows: &[String]) -> MotionDiagnosis {
+    let text = format!(
+        "{}\n{more}{header}\n{}\n",
+        facts.join("\n"),
+        rows.join("\n")
+    );
+    let robot = ident::robot::builtin::named("kr300").unwrap().unwrap();
+    diagnose(&read(&text), Some(&robot))
+}
+
+fn no_stiffness(found: &MotionDiagnosis) {
+    let stiffness: Vec<_> = found
+        .parameters
+        .iter()
+        .filter(|p| p.name == "stiffness")
+        .collect();
+    assert_eq!(stiffness.len(), 3);
+    for p in stiffness {
+        assert_eq!(
+            (p.status, p.value, p.ci95),
+            (Status::NotIdentifiable, None, None),
+            "{}",
+            p.site
+        );
+    }
+}
+
+#[test]
+fn a_real_kr300_has_a_skew_on_every_axis_and_no_stiffness() {
+    let Some((facts, header, rows)) = real_run() else {
+        return;
+    };
+    let found = diagnosed(&facts, "", &header, &rows);
+    assert_eq!(found.answer.verdict.name(), "explained");
+    let mut sites: Vec<&str> = found
+        .answer
+        .causes
+        .iter()
+        .map(|c| c.site.as_str())
+        .collect();
+    sites.sort_unstable();
+    assert_eq!(sites, ["A1", "A2", "A3"]);
+    for cause in &found.answer.causes {
+        assert_eq!(cause.effect, "time_skew");
+        assert!(
+            (2.5e-3..3.3e-3).contains(&cause.parameters[0].1),
+            "{:?}",
+            cause.parameters
+        );
+    }
+    assert!(found.answer.groups.is_empty());
+    no_stiffness(&found);
+}
+
+#[test]
+fn thinned_and_cut_the_real_run_says_the_same() {
+    let Some((facts, header, rows)) = real_run() else {
+        return;
+    };
+    let thinned = [2, 3, 5].map(|k| rows.iter().step_by(k).cloned().collect::<Vec<_>>());
+    let cut = [
+        (0, 1250),
+        (1250, 2501),
+        (300, 2200),
+        (500, 2000),
+        (0, 2000),
+        (500, 2501),
+    ];
+    let cut = cut.map(|(a, b)| rows[a..b].to_vec());
+    for part in thinned.iter().chain(&cut) {
+        let found = diagnosed(&facts, "", &header, part);
+        assert_eq!(found.answer.verdict.name(), "explained");
+        let causes = &found.answer.causes;
+        assert!(
+            causes.len() == 3 && causes.iter().all(|c| c.effect == "time_skew"),
+            "{:?}",
+            said(&found)
+        );
+        no_stiffness(&found);
+    }
+}
+
+#[test]
+fn with_the_skew_declared_nothing_is_invented() {
+    let Some((facts, header, rows)) = real_run() else {
+        return;
+    };
+    for delay in [
+        "0.0027",
+        "0.0029",
+        "0.003",
+        "0.0031",
+        "[0.0030, 0.0030, 0.0029]",
+    ] {
+        let declared = format!("# encoder_delay_s = {delay}\n");
+        for part in [&rows[..], &rows[..1250], &rows[1250..]] {
+            let found = diagnosed(&facts, &declared, &header, part);
+            assert!(said(&found).is_empty(), "{delay}: {:?}", said(&found));
+            no_stiffness(&found);
+        }
+    }
+}
+
+fn ident(folder: &Path, arguments: &[&str]) -> std::process::Output {
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_ident"));
+    command
+        .current_dir(folder)
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+#[test]
+fn the_verb_writes_a_model_that_loads_back_and_answers_the_same_twice() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("run.csv"), record("time_skew", 7).0).unwrap();
+    let first = ident(folder.path(), &["diagnose", "run.csv", "--json"]);
+    assert_eq!(first.status.code(), Some(1));
+    assert_eq!(
+        first.stdout,
+        ident(folder.path(), &["diagnose", "run.csv", "--json"]).stdout
+    );
+    let json: serde_json::Value = serde_json::from_slice(&first.stdout).unwrap();
+    assert_eq!(
+        (&json["kind"], &json["synthetic"]),
+        (&"joint-motion".into(), &true.into())
+    );
+    assert_eq!(json["causes"][0]["effect"], "time_skew");
+    assert_eq!(json["causes"][0]["site"], "A2");
+    let stored = StoredMotion::read(&folder.path().join("fits/run-extended.toml")).unwrap();
+    assert!(stored.synthetic && stored.causes[0].effect == "time_skew");
+    assert!(
+        stored
+            .parameters
+            .iter()
+            .any(|p| p.name == "delay" && p.value.is_some())
+    );
+    assert!(folder.path().join("reports/run-a2-twist.svg").is_file());
+}
+
+#[test]
+fn what_is_wrong_is_refused_with_place_and_remedy() {
+    let header = "time_s,motor_angle_deg_1,link_angle_deg_1,motor_torque_Nm_1";
+    let rows: String = (0..80)
+        .map(|i| format!("{},{i},{i},1\n", f64::from(i) * 0.01))
+        .collect();
+    let file = |facts: &str, header: &str, rows: &str| {
+        format!("# kind = \"joint-motion\"\n{facts}{header}\n{rows}")
+    };
+    let cases = [
+        (
+            file(
+                "",
+                "time_s,motor_angle_deg_1,link_angle_deg_1,motor_torque_deg_1",
+                &rows,
+            ),
+            "run.csv:2: `motor_torque_deg_1`",
+        ),
+        (
+            file(
+                "",
+                "time_s,motor_angle_deg_1,link_angle_deg_1,force_N",
+                &rows,
+            ),
+            "add a column `motor_torque_Nm_1`",
+        ),
+        (
+            file("# gear_ratio = [100.0, 90.0]\n", header, &rows),
+            "run.csv:2: `gear_ratio`: has 2 numbers for 1 joints",
+        ),
+        (
+            file("# gear_ratio = -3.0\n", header, &rows),
+            "not above zero",
+        ),
+        (
+            file("", header, &rows.replace("0.5,50", "0.49,50")),
+            "run.csv:53: `time_s`: two rows",
+        ),
+        (file("", header, "0,1,1,1\n"), "at least 64 rows"),
+        (
+            file("# robot = \"none.toml\"\n", header, &rows),
+            "none.toml",
+        ),
+    ];
+    let folder = tempfile::tempdir().unwrap();
+    for (text, wanted) in cases {
+        std::fs::write(folder.path().join("run.csv"), text).unwrap();
+        let output = ident(folder.path(), &["diagnose", "run.csv"]);
+        let said = String::from_utf8_lossy(&output.stderr).to_string();
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(
+            said.contains(wanted) && said.contains("help:"),
+            "{wanted}: {said}"
+        );
+    }
+}
+
+#[test]
+fn a_joint_that_stands_still_or_has_no_noise_is_no_trouble() {
+    for (angle, torque) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)] {
+        let rows: String = (0..100)
+            .map(|i| {
+                let x = f64::from(i) * 0.05;
+                format!(
+                    "{},{},{},{}\n",
+                    f64::from(i) * 0.004,
+                    angle * x.sin(),
+                    angle * x.sin(),
+                    torque * x.cos()
+                )
+            })
+            .collect();
+        let text = format!(
+            "# kind = \"joint-motion\"\ntime_s,motor_angle_deg_1,link_angle_deg_1,motor_torque_Nm_1\n{rows}"
+        );
+        let found = diagnose(&read(&text), None);
+        assert!(said(&found).is_empty(), "{:?}", said(&found));
+        assert!(found.answer.discrepancy.rms.is_finite());
+    }
+}

@@ -1,0 +1,145 @@
+//! Diagnosis of workspace tests on the command line.
+
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn ident(arguments: &[&str], folder: &Path) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_ident"));
+    command
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap()
+}
+
+fn document(output: &Output) -> Value {
+    let said = String::from_utf8_lossy(&output.stderr);
+    serde_json::from_slice(&output.stdout).unwrap_or_else(|e| panic!("{e}: {said}"))
+}
+
+/// A campaign that holds the example's workspace test, changed.
+fn campaign(change: impl Fn(String) -> String) -> (tempfile::TempDir, PathBuf) {
+    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("measurements/kr210/workspace.csv");
+    let text = std::fs::read_to_string(example).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let own = folder.path().join("measurements/mill");
+    std::fs::create_dir_all(&own).unwrap();
+    let file = own.join("points.csv");
+    std::fs::write(&file, change(text)).unwrap();
+    (folder, file)
+}
+
+/// The built-in robot as a file, with every bearing rigid.
+fn without_tilt(folder: &Path) {
+    let output = ident(&["robot", "convert", "kr210"], folder);
+    let text = String::from_utf8(output.stdout).unwrap();
+    let rigid = |line: &&str| !line.starts_with("tilt = ");
+    let text: Vec<&str> = text.lines().filter(rigid).collect();
+    std::fs::write(folder.join("measurements/mill/bare.toml"), text.join("\n")).unwrap();
+}
+
+fn bare(text: String) -> String {
+    text.replace("robot = \"kr210\"", "robot = \"bare.toml\"")
+}
+
+#[test]
+fn a_model_with_its_tilts_is_sufficient() {
+    let (folder, file) = campaign(|text| text);
+    let typed = ["diagnose", file.to_str().unwrap(), "--json"];
+    let output = ident(&typed, folder.path());
+    assert_eq!(output.status.code(), Some(0));
+    let answer = document(&output);
+    assert_eq!(answer["verdict"], "sufficient", "{answer:#}");
+    assert_eq!(answer["kind"], "workspace");
+    assert_eq!(answer["model"], Value::Null);
+    let limits = answer["limits"].as_array().unwrap();
+    let hidden = |l: &&Value| l["effect"] == "drive_stiffness" && l["site"] == "A6";
+    assert!(limits.iter().any(|l| hidden(&l)), "{limits:?}");
+}
+
+#[test]
+fn missing_tilts_are_found_placed_and_carried_on() {
+    let (folder, file) = campaign(bare);
+    without_tilt(folder.path());
+    let typed = ["diagnose", file.to_str().unwrap(), "--json"];
+    let output = ident(&typed, folder.path());
+    assert_eq!(output.status.code(), Some(1));
+    let answer = document(&output);
+    let causes = answer["causes"].as_array().unwrap();
+    assert!(!causes.is_empty(), "{answer:#}");
+    let tilt =
+        |c: &Value| c["effect"] == "missing_tilt" && c["site"].as_str().unwrap().ends_with("-tilt");
+    assert!(causes.iter().all(tilt), "{causes:#?}");
+    let errors = answer["stiffness_error_at_unseen_points"]
+        .as_array()
+        .unwrap();
+    let y = errors.iter().find(|e| e["direction"] == "y").unwrap();
+    assert!(y["before_percent"].as_f64().unwrap() > 50.0, "{y}");
+    assert!(y["after_percent"].as_f64().unwrap() < 8.0, "{y}");
+    let model = answer["model"].as_str().unwrap();
+    let named = |end: &str| folder.path().join("reports/mill").join(end).is_file();
+    assert!(named("points-diagnosis.html") && named("points-diagnosis.svg"));
+    let again = [
+        "validate",
+        file.to_str().unwrap(),
+        "--robot",
+        model,
+        "--dry-run",
+        "--json",
+    ];
+    let checked = document(&ident(&again, folder.path()));
+    assert!(checked["mean_abs_error_percent"].as_f64().unwrap() < 8.0);
+    let twice = ident(&typed, folder.path());
+    assert_eq!(
+        twice.stdout, output.stdout,
+        "the same input gives the same bytes"
+    );
+}
+
+#[test]
+fn an_instrument_is_blamed_before_the_robot() {
+    let tenth = |line: &str| -> String {
+        let cells: Vec<&str> = line.split(',').collect();
+        match cells[..] {
+            [a, b, c, d, x, y, z] if a.parse::<u32>().is_ok() => {
+                let y: f64 = y.parse().unwrap();
+                format!("{a},{b},{c},{d},{x},{:.5},{z}", 1.25 * y)
+            }
+            _ => line.to_string(),
+        }
+    };
+    let (folder, file) = campaign(|text| {
+        let lines: Vec<String> = text.lines().map(tenth).collect();
+        lines.join("\n") + "\n"
+    });
+    let typed = ["diagnose", file.to_str().unwrap(), "--json", "--dry-run"];
+    let answer = document(&ident(&typed, folder.path()));
+    let cause = &answer["causes"][0];
+    assert_eq!(cause["effect"], "sensor_gain", "{answer:#}");
+    assert_eq!(cause["site"], "sensor-y");
+    let gain = cause["parameters"][0]["value"].as_f64().unwrap();
+    assert!((gain - 0.25).abs() < 0.03, "{gain}");
+}
+
+#[test]
+fn wrong_input_is_refused_with_a_remedy() {
+    let refused = |change: fn(String) -> String, word: &str| {
+        let (folder, file) = campaign(change);
+        let output = ident(&["diagnose", file.to_str().unwrap()], folder.path());
+        let said = String::from_utf8_lossy(&output.stderr).to_string();
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains(word), "{said}");
+    };
+    refused(
+        |t| t.replace("robot = \"kr210\"", "robot = \"none.toml\""),
+        "none.toml",
+    );
+    refused(|t| t.replace("1,x,1,150.0", "11,x,1,150.0"), "point 11");
+    refused(|t| t.replace("1,x,1,150.0", "1,w,1,150.0"), "direction");
+    refused(
+        |t| t.replace("kind = \"workspace\"", "kind = \"path\""),
+        "path",
+    );
+    refused(|t| t.replace(", 21.0375],", "],"), "angles");
+}
