@@ -17,16 +17,33 @@ pub struct Chapter {
 }
 
 impl Chapter {
-    /// Verdicts first and in the open, the rest folded away.
+    /// Verdicts, the first figure and the first table in the open, the rest folded away.
     pub fn blocks(self) -> Vec<Block> {
-        let is_verdict = |block: &Block| matches!(block, Block::Verdict { .. });
+        let (mut figure, mut table) = (true, true);
+        let in_the_open = |block: &Block| match block {
+            Block::Verdict { .. } => true,
+            Block::Chart(_) => std::mem::take(&mut figure),
+            Block::Table(_) => std::mem::take(&mut table),
+            _ => false,
+        };
         let (mut open, rest): (Vec<Block>, Vec<Block>) =
-            self.page.blocks.into_iter().partition(is_verdict);
+            self.page.blocks.into_iter().partition(in_the_open);
         open.insert(0, Block::heading(&self.title));
-        open.push(Block::details(
-            format!("{}: tables and figures", self.title),
-            rest,
-        ));
+        let more = format!("{}: more tables and figures", self.title);
+        open.push(Block::details(more, without_empty_sections(rest)));
         open
     }
+}
+
+/// Leaves out headings that nothing stands under any more.
+fn without_empty_sections(blocks: Vec<Block>) -> Vec<Block> {
+    let is_heading = |block: &Block| matches!(block, Block::Heading(_));
+    let next = blocks.iter().skip(1).map(is_heading).chain([true]);
+    let empty: Vec<bool> = blocks
+        .iter()
+        .zip(next)
+        .map(|(b, next)| is_heading(b) && next)
+        .collect();
+    let kept = blocks.into_iter().zip(empty).filter(|(_, empty)| !empty);
+    kept.map(|(block, _)| block).collect()
 }

@@ -10,6 +10,7 @@ use crate::report::{folder, json};
 use crate::sheet::page::{Block, Page, Tone};
 use clap::{ArgMatches, Args};
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// The verb.
@@ -99,12 +100,14 @@ fn nothing(place: &Place) -> Problem {
 
 /// Causes first, then what was identified.
 fn page(place: &Place, chapters: Vec<(&str, Chapter)>) -> Page {
-    let files: usize = chapters.iter().map(|c| c.1.inputs.len()).sum();
+    let inputs = chapters.iter().flat_map(|c| &c.1.inputs);
+    let files: BTreeSet<&PathBuf> = inputs.map(|(path, _)| path).collect();
     let title = format!("Campaign {}", place.campaign);
     let mut page = Page::new(
         title,
         format!(
-            "{files} readings of measurement files, {} steps",
+            "{} measurement files, {} steps",
+            files.len(),
             chapters.len()
         ),
     );

@@ -7,6 +7,7 @@ pub mod gain;
 pub mod hammer;
 pub mod joint_motion;
 pub mod load_cycle;
+pub mod next_setups;
 pub mod sentence;
 pub mod workspace;
 

@@ -141,6 +141,8 @@ pub struct Panel {
     pub categories: Vec<String>,
     /// One short sentence above the panel.
     pub note: Option<String>,
+    /// A unit is as long on either axis: a map, not a curve.
+    pub equal: bool,
 }
 
 impl Panel {
@@ -164,6 +166,13 @@ impl Panel {
     #[must_use]
     pub fn over<S: Into<String>>(mut self, categories: impl IntoIterator<Item = S>) -> Self {
         self.categories = categories.into_iter().map(Into::into).collect();
+        self
+    }
+
+    /// The same panel as a map: a unit is as long on either axis.
+    #[must_use]
+    pub fn equal_axes(mut self) -> Self {
+        self.equal = true;
         self
     }
 

@@ -1,7 +1,7 @@
 //! The diagnosis of a whole campaign.
 
 use super::kind::{Diagnosed, KINDS, kind};
-use super::{One, page};
+use super::{One, overview, page};
 use crate::cli::chapter::Chapter;
 use crate::cli::{Ending, progress::Progress};
 use crate::findings::campaign::{Check, named, verdict};
@@ -75,7 +75,10 @@ pub fn examine(place: &Place, progress: bool) -> Outcome<Campaign> {
 }
 
 /// One file; a test of the whole robot is simulated with what the axis tests found.
-fn one(path: &Path, place: &Place, tests: &[axis_tests::AxisTest]) -> Outcome<One> {
+///
+/// # Errors
+/// A file that cannot be read, or that nothing diagnoses.
+pub fn one(path: &Path, place: &Place, tests: &[axis_tests::AxisTest]) -> Outcome<One> {
     let (kind, diagnose) = kind(path)?;
     let found = diagnose(path)?;
     let informed = found.robot().filter(|_| !tests.is_empty());
@@ -174,8 +177,12 @@ impl Campaign {
         page.synthetic = self.synthetic();
         page = page
             .with(Block::verdict(page::tone(self.verdict), self.sentence()))
-            .with(Block::heading("What is wrong, and why"))
-            .with(Block::Table(self.overview()));
+            .with(Block::heading("What is wrong, and why"));
+        let figure = overview::figure(&self.files, self.synthetic());
+        page = figure
+            .into_iter()
+            .fold(page, |page, chart| page.with(Block::Chart(chart)));
+        page = page.with(Block::Table(self.overview()));
         if !self.checks.is_empty() {
             page = page.with(Block::Table(self.checked()));
         }
@@ -223,9 +230,12 @@ impl Campaign {
                 self.files.len()
             ),
             n => format!(
-                "The simulation misses {n} of {} experiments: {}.",
+                "The simulation misses {n} of {} experiments{}.",
                 self.files.len(),
-                wrong.join(", ")
+                match wrong.len() < self.files.len() {
+                    true => format!(": {}", wrong.join(", ")),
+                    false => String::new(),
+                }
             ),
         };
         let count = |word: &str| {
@@ -248,13 +258,13 @@ impl Campaign {
             "causes",
             "error",
             "noise",
-            "with the causes, held out",
+            "with causes",
         ];
         let mut table = Table::new("What each experiment says", header).numeric([3, 4, 5]);
         for one in &self.files {
             table.push(line(&one.stem(), one.found.answer()));
         }
-        table.noted("error: rms of measured − simulated; groups that cannot be told apart stand with their first member and a question mark")
+        table.noted("error: rms of measured − simulated; with causes: on data held out of the fit; groups that cannot be told apart stand with their first member and a question mark")
     }
 
     /// What one experiment found, held against the others.
@@ -346,12 +356,7 @@ fn check_json(check: &Check) -> Value {
 }
 
 fn line(stem: &str, answer: &Answer) -> [String; 6] {
-    let last = answer
-        .causes
-        .iter()
-        .map(|c| c.gain)
-        .chain(answer.groups.iter().map(|g| g.gain));
-    let after = last.map(|gain| gain.after).reduce(f64::min);
+    let after = overview::held_out(answer);
     let unsure = answer
         .groups
         .iter()

@@ -28,6 +28,10 @@ pub trait Diagnosed: Send + Sync {
     fn source(&self) -> Source<'_>;
     /// What was measured, as `A6 of kr210`.
     fn about(&self) -> String;
+    /// The present simulation, where it came from elsewhere than the file: one sentence.
+    fn present(&self) -> Option<String> {
+        None
+    }
     /// Figures of what was measured and simulated.
     fn before_and_after(&self) -> Vec<Chart>;
     /// Figures of what no named cause explains.

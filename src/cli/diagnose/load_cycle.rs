@@ -1,5 +1,6 @@
 //! A diagnosed load cycle: its figures and its extended model.
 
+use super::base::{Base, Origin, of_fit, of_robot};
 use super::kind::{Diagnosed, Source};
 use crate::experiments::load_cycle::Curves;
 use crate::findings::Answer;
@@ -9,11 +10,14 @@ use crate::ground::problem::Outcome;
 use crate::measurement::load_cycle::LoadCycle;
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
 use crate::sheet::number::prefix;
+use serde_json::{Map, Value};
 use std::path::Path;
 
 struct CycleDiagnosis {
     file: LoadCycle,
     found: Diagnosis,
+    /// Where the present simulation came from, if not from the file.
+    origin: Option<Origin>,
 }
 
 /// Diagnoses a file of this kind.
@@ -21,9 +25,33 @@ struct CycleDiagnosis {
 /// # Errors
 /// The file is no load cycle.
 pub fn diagnosed(path: &Path) -> Outcome<Box<dyn Diagnosed>> {
-    let file = LoadCycle::read(path)?;
-    let found = diagnose(&file, &Settings::default());
-    Ok(Box::new(CycleDiagnosis { file, found }))
+    let mut file = LoadCycle::read(path)?;
+    let base = of_robot(&mut file);
+    Ok(beside(file, base))
+}
+
+/// Diagnoses a file of this kind, the present simulation being an earlier fit.
+///
+/// # Errors
+/// The file is no load cycle, or the fit is none of the same joint.
+pub fn diagnosed_with(path: &Path, fit: &Path) -> Outcome<Box<dyn Diagnosed>> {
+    let mut file = LoadCycle::read(path)?;
+    let base = of_fit(&mut file, fit)?;
+    Ok(beside(file, Some(base)))
+}
+
+fn beside(file: LoadCycle, base: Option<Base>) -> Box<dyn Diagnosed> {
+    let (present, origin) = base.map_or((None, None), |base| (base.present, Some(base.origin)));
+    let settings = Settings {
+        present,
+        ..Settings::default()
+    };
+    let found = diagnose(&file, &settings);
+    Box::new(CycleDiagnosis {
+        file,
+        found,
+        origin,
+    })
 }
 
 impl Diagnosed for CycleDiagnosis {
@@ -46,6 +74,16 @@ impl Diagnosed for CycleDiagnosis {
             self.file.site(),
             robot.unwrap_or("an unnamed robot")
         )
+    }
+
+    fn present(&self) -> Option<String> {
+        self.origin.as_ref().map(Origin::sentence)
+    }
+
+    fn more(&self) -> Map<String, Value> {
+        let origin = self.origin.as_ref();
+        let of = |o: &Origin| ("present".to_string(), o.json());
+        origin.map(of).into_iter().collect()
     }
 
     fn before_and_after(&self) -> Vec<Chart> {

@@ -1,5 +1,6 @@
 //! `ident diagnose`: what the simulation gets wrong, and why.
 
+mod base;
 mod campaign;
 mod hammer;
 mod hammer_figures;
@@ -7,6 +8,8 @@ mod joint_motion;
 mod json;
 mod kind;
 mod load_cycle;
+mod next;
+mod overview;
 mod page;
 mod tables;
 mod workspace;
@@ -18,7 +21,7 @@ use super::run::place;
 use super::{Ending, Verb, arguments, parsed};
 use crate::findings::{Verdict, sentence::sentences};
 use crate::ground::files;
-use crate::ground::problem::Outcome;
+use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::workspace::{Place, resolve};
 use crate::report::{folder, html, svg, text};
 use crate::sheet::page::file;
@@ -39,8 +42,15 @@ pub const VERB: Verb = Verb {
 #[derive(Args)]
 struct Arguments {
     /// Measurement files (a bare name is looked up under measurements/), or the folder of a campaign
-    #[arg(required = true)]
+    #[arg(required_unless_present = "next")]
     files: Vec<PathBuf>,
+    /// Simulate load cycles with the model of a fit that `stiffness` or `diagnose` wrote
+    #[arg(long, value_name = "FIT")]
+    model: Option<PathBuf>,
+    /// Plan the next N set-ups on the whole robot instead, by the information each would bring; takes a
+    /// workspace file or a folder, without either the only campaign under measurements/
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=50))]
+    next: Option<u16>,
     /// Print one JSON document instead of the account
     #[arg(long)]
     json: bool,
@@ -63,14 +73,20 @@ pub struct One {
 
 fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let arguments: Arguments = parsed(matches);
+    if let Some(count) = arguments.next {
+        return next::run(&arguments, usize::from(count));
+    }
     if let [folder] = &arguments.files[..]
         && folder.is_dir()
     {
+        if arguments.model.is_some() {
+            return Err(misplaced("this is the folder of a campaign").in_file(folder));
+        }
         return whole(&place(Some(folder))?, &arguments);
     }
     let progress = Progress::new(arguments.files.len(), arguments.progress);
     let results = arguments.files.par_iter().map(|name| {
-        let one = one(name);
+        let one = one(name, arguments.model.as_deref());
         progress.done(&name.display().to_string());
         one
     });
@@ -91,14 +107,27 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
     })
 }
 
-fn one(name: &Path) -> Outcome<One> {
+fn misplaced(what: &str) -> Problem {
+    let remedy = "leave out --model, or give load cycles of the joint that was fitted";
+    Problem::new(
+        format!("--model is for single load cycles, and {what}"),
+        remedy,
+    )
+}
+
+fn one(name: &Path, fit: Option<&Path>) -> Outcome<One> {
     let (path, said) = resolve(name)?;
     said.iter().for_each(|s| tell(s));
     let (kind, diagnose) = kind(&path)?;
+    let found = match fit {
+        None => diagnose(&path)?,
+        Some(fit) if kind == "load-cycle" => load_cycle::diagnosed_with(&path, fit)?,
+        Some(_) => return Err(misplaced(&format!("this is of kind `{kind}`")).in_file(&path)),
+    };
     Ok(One {
         kind,
         place: Place::of(&path),
-        found: diagnose(&path)?,
+        found,
     })
 }
 
@@ -216,7 +245,8 @@ fn account(one: &One) -> String {
         source.path.display(),
         answer.verdict.name()
     );
-    let mut said = sentences(answer);
+    let mut said: Vec<String> = sentences(answer);
+    said.extend(one.found.present());
     said.extend(one.found.remarks());
     said.iter().fold(head, |all, s| all + &text::indented(s, 2))
 }

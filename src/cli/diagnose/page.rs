@@ -15,8 +15,8 @@ pub fn page(result: &dyn Diagnosed, stem: &str) -> Page {
     let mut page = Page::new(format!("Diagnosis of {stem}"), subtitle);
     page.synthetic = source.synthetic;
     page = page.with(Block::verdict(tone(answer.verdict), sentence(answer)));
-    for remark in result.remarks() {
-        page = page.with(Block::text(remark));
+    for said in result.present().into_iter().chain(result.remarks()) {
+        page = page.with(Block::text(said));
     }
     page = page.with(Block::heading(
         "What the simulation shows and what was measured",

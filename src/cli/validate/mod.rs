@@ -179,7 +179,10 @@ fn examine(arguments: &Arguments, path: &Path) -> Outcome<Validated> {
 }
 
 /// Refuses a robot that these points cannot be simulated with.
-fn fits(robot: &Robot, test: &WorkspaceTest) -> Outcome<()> {
+///
+/// # Errors
+/// Another number of joints, nothing elastic, bodies that cannot be.
+pub fn fits(robot: &Robot, test: &WorkspaceTest) -> Outcome<()> {
     let angles = test.facts.joint_angles.first().map_or(0, Vec::len);
     let refuse = |what: String, remedy: &str| Err(Problem::new(what, remedy).in_file(&test.path));
     if angles != robot.dof() {

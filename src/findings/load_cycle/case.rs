@@ -4,6 +4,7 @@ use super::ambiguity::Posterior;
 use super::comparison::Comparison;
 use super::diagnosis::Settings;
 use super::lattice;
+use super::present::Present;
 use super::refine::{Refined, refine_from};
 use super::unseen::{Split, gain, held_out};
 use crate::effects::{Composite, shapes};
@@ -34,6 +35,8 @@ pub(super) struct Case<'a> {
     pub(super) posterior: Posterior,
     pub(super) base: f64,
     pub(super) plain: Refined,
+    /// The present simulation, where it is more than a straight spring.
+    pub(super) present: Option<Present>,
     /// Step of a coarse lattice of readings.
     pub(super) step: Option<f64>,
 }
@@ -65,6 +68,7 @@ pub(super) fn compare<'a>(file: &'a LoadCycle, settings: &Settings) -> Case<'a> 
         refined: comparison.refined,
         posterior: comparison.posterior,
         base: 0.0,
+        present: settings.present.clone(),
         plain: comparison.plain,
     };
     case.plain = case.again(&case.plain);
@@ -101,7 +105,7 @@ impl Case<'_> {
     }
 
     /// A gain that chance and a coarse lattice of readings do not explain.
-    fn is_real(&self, gain: &Gain) -> bool {
+    pub(super) fn is_real(&self, gain: &Gain) -> bool {
         let lifted = (gain.before * gain.before - gain.after * gain.after)
             .max(0.0)
             .sqrt();

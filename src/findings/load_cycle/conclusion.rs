@@ -6,6 +6,7 @@ use super::diagnosis::Diagnosis;
 use super::naming::Named;
 use super::refine::Refined;
 use super::structure;
+use crate::effects::Composite;
 use crate::findings::answer::{Answer, Candidate, Verdict};
 use crate::fit::least_squares::Problem;
 
@@ -28,13 +29,7 @@ impl Case<'_> {
         problem.residual(&set.optimum.p)
     }
 
-    pub(super) fn conclude(
-        self,
-        chosen: Refined,
-        mut named: Named,
-        scaled: bool,
-        spring: f64,
-    ) -> Diagnosis {
+    pub(super) fn conclude(self, chosen: Refined, mut named: Named, scaled: bool) -> Diagnosis {
         let adequacy = adequacy::judge(
             &self.residual(&chosen),
             chosen.dimension + 1,
@@ -55,9 +50,9 @@ impl Case<'_> {
             // what the library could make of it is not the story: name nothing
             named = Named::default();
         }
-        let extended = chosen.model.predict(&chosen.optimum.p, &self.data.scene);
-        let stiffness = self.present_stiffness(scaled, spring);
-        let simulated: Vec<f64> = self.data.scene.load.iter().map(|m| m / stiffness).collect();
+        let (model, p) = self.extended(&chosen, &named);
+        let extended = model.predict(&p, &self.data.scene);
+        let simulated = self.simulated(scaled);
         let difference = |f: &[f64]| {
             self.data
                 .reading
@@ -90,8 +85,8 @@ impl Case<'_> {
         Diagnosis {
             answer,
             adequacy,
-            model: chosen.model,
-            p: chosen.optimum.p,
+            model,
+            p,
             simulated,
             extended,
             imposed: false,
@@ -114,13 +109,28 @@ impl Case<'_> {
         self.step.is_some_and(|step| left.sqrt() < 0.5 * step)
     }
 
-    /// The stiffness that the present simulation uses: the nominal one where its stated spread does
-    /// not cover the identified one; else the best straight spring within that spread.
-    fn present_stiffness(&self, scaled: bool, _spring: f64) -> f64 {
-        match self.file.facts.nominal_stiffness {
+    /// The chosen model, with what the present one has and these data do not deny.
+    fn extended(&self, chosen: &Refined, named: &Named) -> (Composite, Vec<f64>) {
+        let Some(present) = &self.present else {
+            return (chosen.model.clone(), chosen.optimum.p.clone());
+        };
+        let gone = named.causes.iter().map(|cause| cause.effect);
+        let gone: Vec<&str> = gone.filter(|c| !chosen.causes.contains(c)).collect();
+        present.extended(chosen, &gone)
+    }
+
+    /// What the present simulation predicts. Its stiffness is the nominal one where the stated
+    /// spread does not cover the identified one; else the best within that spread.
+    fn simulated(&self, scaled: bool) -> Vec<f64> {
+        let scene = &self.data.scene;
+        if let Some(present) = &self.present {
+            return present.predict(scene, (!scaled).then_some(&self.data.reading[..]));
+        }
+        let stiffness = match self.file.facts.nominal_stiffness {
             Some(nominal) if scaled => nominal,
             _ => self.plain.optimum.p[0],
-        }
+        };
+        scene.load.iter().map(|m| m / stiffness).collect()
     }
 
     fn table(&self) -> Vec<Candidate> {

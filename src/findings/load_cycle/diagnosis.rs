@@ -3,6 +3,7 @@
 use super::adequacy::Adequacy;
 use super::case::compare;
 use super::imposed::diagnose_imposed;
+use super::present::Present;
 use crate::effects::{Composite, EFFECTS, Effect};
 use crate::findings::answer::Answer;
 use crate::fit::imposed::is_imposed;
@@ -44,6 +45,8 @@ pub struct Settings {
     pub library: Vec<&'static dyn Effect>,
     /// Rows beyond which neighbours are averaged.
     pub rows: usize,
+    /// The present simulation, where it is more than a straight spring.
+    pub present: Option<Present>,
 }
 
 impl Default for Settings {
@@ -51,6 +54,7 @@ impl Default for Settings {
         Self {
             library: EFFECTS.to_vec(),
             rows: 2000,
+            present: None,
         }
     }
 }
@@ -63,9 +67,11 @@ pub fn diagnose(file: &LoadCycle, settings: &Settings) -> Diagnosis {
     let case = compare(file, settings);
     let chosen = case.choose();
     let mut named = case.name(&chosen);
-    let spring = chosen.optimum.p[0];
     let scales = case.scales(&chosen);
+    if let Some(present) = &case.present {
+        named = case.beyond(present, &chosen, named);
+    }
     named.extend(case.name_scales(&scales, &chosen));
     named.extend(case.name_lattice());
-    case.conclude(chosen, named, !scales.is_empty(), spring)
+    case.conclude(chosen, named, !scales.is_empty())
 }

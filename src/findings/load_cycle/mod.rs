@@ -16,6 +16,7 @@ pub mod look_alikes;
 mod naming;
 mod naming_scales;
 pub mod next;
+pub mod present;
 pub mod refine;
 pub mod scales;
 pub mod search;
@@ -24,3 +25,4 @@ pub mod tints;
 pub mod unseen;
 
 pub use diagnosis::{Diagnosis, Settings, diagnose};
+pub use present::Present;

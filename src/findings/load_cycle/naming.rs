@@ -9,7 +9,7 @@ use crate::findings::gain::Gain;
 use crate::fit::solution::unit_of;
 
 /// A stand-in with at least this share of the winner's probability cannot be ruled out.
-const AMBIGUOUS: f64 = 0.03;
+pub(super) const AMBIGUOUS: f64 = 0.03;
 
 /// Causes and groups as they are named.
 #[derive(Default)]
@@ -51,7 +51,7 @@ impl Case<'_> {
     }
 
     /// Runners-up with their sites.
-    fn alternatives(
+    pub(super) fn alternatives(
         &self,
         chosen: &Refined,
         cause: &'static str,
@@ -109,7 +109,7 @@ impl Case<'_> {
     }
 
     /// Measurement effects sit at the sensor, physics at the joint.
-    fn site(&self, chosen: &Refined, cause: &str) -> String {
+    pub(super) fn site(&self, chosen: &Refined, cause: &str) -> String {
         let known = chosen
             .model
             .effects()
@@ -126,7 +126,11 @@ impl Case<'_> {
         }
     }
 
-    fn parameters(&self, chosen: &Refined, cause: &str) -> Vec<(&'static str, f64, &'static str)> {
+    pub(super) fn parameters(
+        &self,
+        chosen: &Refined,
+        cause: &str,
+    ) -> Vec<(&'static str, f64, &'static str)> {
         let slots = chosen.model.slots();
         let own = slots
             .iter()

@@ -12,7 +12,7 @@ use nalgebra::DMatrix;
 /// Probability of a set against the same set less one cause, below which that cause is not named.
 const NEEDED: f64 = 0.9;
 /// Sets looked through for one whose causes all gain.
-const SETS: usize = 200;
+const SETS: usize = 80;
 /// A set with less than this share of the best one's probability is no explanation.
 const UNLIKELY: f64 = 1e-3;
 
@@ -70,9 +70,9 @@ impl Case<'_> {
         let (before, after) = match self.point_of(own) {
             Some(point) => (self.seen_at(point, &without), self.seen_at(point, with)),
             None => {
-                let folds = self.folds(own);
-                let of =
-                    |set: &Set| held_out(&self.rows(set), &folds, self.springs.columns.ncols());
+                let folds = self.folds(set, own);
+                let springs = self.springs.columns.ncols();
+                let of = |set: &Set| held_out(&self.rows(set, folds.len()), &folds, springs);
                 let (before, after) = (of(&without), of(with));
                 let carried = gain(&before.carried, &after.carried, self.unit());
                 if carried.is_real() {
@@ -93,7 +93,7 @@ impl Case<'_> {
     /// What is left at one point for the cycles of a set-up that follow the one fitted: the slopes
     /// of cycles differ by the noise of readings only, which is small beside that of a set-up.
     fn seen_at(&self, point: usize, set: &Set) -> Vec<f64> {
-        let mut left = fitted(&self.rows(set));
+        let mut left = fitted(&self.rows(set, self.readings.len()));
         let places = self.weighing.places();
         let here = |i: usize| places.get(i).is_some_and(|place| place.0 == point);
         let far = (0..left.len()).filter(|i| !here(*i));
@@ -103,28 +103,33 @@ impl Case<'_> {
         left
     }
 
-    /// Which rows are left out together: those of one point.
-    fn folds(&self, seat: &Seat) -> Vec<Option<usize>> {
+    /// Which rows are left out together: those of one point. Beyond the slopes the levels are rows
+    /// where the set bends the curve, and left out where the seat does.
+    fn folds(&self, set: &Set, seat: &Seat) -> Vec<Option<usize>> {
+        let bends = |column: usize| !self.seats.columns[column].pattern.left.is_empty();
         let places = self.weighing.places();
-        let bends = !self.seats.columns[seat.first].pattern.left.is_empty();
         let slopes = places.iter().map(|place| Some(place.0));
-        let levels = self.shapes.levels();
-        let levels = levels.iter().map(|l| bends.then_some(l.point));
+        let levels = match self.columns_of(set).into_iter().any(bends) {
+            true => self.shapes.levels(),
+            false => Vec::new(),
+        };
+        let levels = levels.iter().map(|l| bends(seat.first).then_some(l.point));
         slopes.chain(levels).collect()
     }
 
-    fn rows(&self, set: &Set) -> Rows<'_> {
+    /// The first `count` rows with what the springs and a set explain of them.
+    fn rows(&self, set: &Set, count: usize) -> Rows {
         let own = self.columns_of(set);
         let springs = &self.springs.columns;
         let k = springs.ncols();
-        let columns = DMatrix::from_fn(springs.nrows(), k + own.len(), |i, j| match j < k {
+        let columns = DMatrix::from_fn(count, k + own.len(), |i, j| match j < k {
             true => springs[(i, j)],
             false => self.columns[(i, own[j - k])],
         });
         let spread = std::iter::repeat_n(self.springs.spread, k);
         let prior = own.iter().map(|c| 10.0 * self.field.prior(*c));
         Rows {
-            readings: &self.readings,
+            readings: self.readings.rows(0, count).into_owned(),
             columns,
             prior: spread.chain(prior).collect(),
         }
@@ -156,7 +161,7 @@ impl Case<'_> {
         let levels = std::iter::repeat_n(None, self.levels);
         let folds: Vec<Option<usize>> = points.chain(levels).collect();
         let springs = self.springs.columns.ncols();
-        let found = held_out(&self.rows(set), &folds, springs);
+        let found = held_out(&self.rows(set, folds.len()), &folds, springs);
         let columns = self.columns_of(set);
         let mut slopes = self.scene.base.slopes.clone();
         for (point, slope) in slopes.iter_mut().enumerate() {

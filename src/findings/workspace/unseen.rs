@@ -4,9 +4,9 @@ use crate::findings::gain::Gain;
 use nalgebra::{DMatrix, DVector};
 
 /// Readings with everything linear that may explain them, row by row in standard deviations.
-pub struct Rows<'a> {
+pub struct Rows {
     /// Readings less the simulation.
-    pub readings: &'a DVector<f64>,
+    pub readings: DVector<f64>,
     /// The springs of the model, then the amounts of causes.
     pub columns: DMatrix<f64>,
     /// Standard deviation of every column before the data.
@@ -22,13 +22,12 @@ pub fn fitted(rows: &Rows) -> Vec<f64> {
     }
     let solved = normal
         .cholesky()
-        .map(|root| root.solve(&d.tr_mul(rows.readings)));
-    let left = solved.map_or(rows.readings.clone(), |x| rows.readings - d * x);
+        .map(|root| root.solve(&d.tr_mul(&rows.readings)));
+    let left = solved.map_or(rows.readings.clone(), |x| &rows.readings - d * x);
     left.iter().copied().collect()
 }
 
-/// What is left of every row that is predicted from the rows of the other folds; rows without a
-/// fold are always fitted, and come back as NaN.
+/// What is left of every row, predicted without its fold.
 pub struct HeldOut {
     /// With the amounts of the causes alone, the springs as they are: what an extended robot predicts.
     pub carried: Vec<f64>,
@@ -38,14 +37,15 @@ pub struct HeldOut {
     pub amounts: Vec<Vec<f64>>,
 }
 
-/// Predicts every fold from the others; the first `springs` columns are those of the springs.
+/// Predicts every fold from the others; rows without a fold are always fitted, and come back as NaN.
+/// The first `springs` columns are those of the springs.
 pub fn held_out(rows: &Rows, folds: &[Option<usize>], springs: usize) -> HeldOut {
     let d = &rows.columns;
     let mut normal = d.tr_mul(d);
     for (i, prior) in rows.prior.iter().enumerate() {
         normal[(i, i)] += prior.powi(-2);
     }
-    let gradient = d.tr_mul(rows.readings);
+    let gradient = d.tr_mul(&rows.readings);
     let mut out = HeldOut {
         carried: vec![f64::NAN; folds.len()],
         refitted: vec![f64::NAN; folds.len()],

@@ -42,10 +42,18 @@ fn height(panels: usize) -> f64 {
     }
 }
 
+/// Height of the data area of a map.
+const MAP: f64 = 320.0;
+/// Width of the data area of a map, about: tick labels take the rest.
+const MAP_WIDTH: f64 = WIDTH - 90.0;
+
 /// The panels of a chart below `top`, and where they end.
 pub(super) fn place(chart: &Chart, top: f64) -> (Vec<Placed<'_>>, f64) {
-    let height = height(chart.panels.len());
-    let scales = scales(&chart.panels);
+    let height = match chart.panels.iter().any(|panel| panel.equal) {
+        true => MAP,
+        false => height(chart.panels.len()),
+    };
+    let scales = scales(&chart.panels, height);
     let vertical =
         |(panel, (_, y)): (&Panel, &(Scale, Scale))| ticks(y, &panel.y.unit, height, SMALL, false);
     let y_ticks: Vec<Ticks> = chart.panels.iter().zip(&scales).map(vertical).collect();
@@ -73,11 +81,15 @@ pub(super) fn place(chart: &Chart, top: f64) -> (Vec<Placed<'_>>, f64) {
 }
 
 /// Scales of x and y for each panel.
-fn scales(panels: &[Panel]) -> Vec<(Scale, Scale)> {
+fn scales(panels: &[Panel], height: f64) -> Vec<(Scale, Scale)> {
     let of_group = |group: &[Panel]| {
         let x = scale::x_of(&group.iter().collect::<Vec<_>>());
         let both = group.iter().map(|panel| (x, scale::y_of(panel)));
-        both.collect::<Vec<_>>()
+        let mut both = both.collect::<Vec<_>>();
+        if group.iter().any(|panel| panel.equal) {
+            scale::equalise(&mut both, MAP_WIDTH / height);
+        }
+        both
     };
     panels.chunk_by(shared).flat_map(of_group).collect()
 }

@@ -30,6 +30,20 @@ impl Scale {
         }
     }
 
+    fn span(&self) -> f64 {
+        self.high - self.low
+    }
+
+    /// The same middle with another span.
+    fn about(self, span: f64) -> Self {
+        let middle = 0.5 * (self.low + self.high);
+        Self {
+            low: middle - 0.5 * span,
+            high: middle + 0.5 * span,
+            ..self
+        }
+    }
+
     /// Coordinate of a value; none for what cannot be drawn.
     pub fn coordinate(&self, value: f64) -> Option<f64> {
         coordinate(self.log, value)
@@ -106,6 +120,17 @@ pub(super) fn y_of(panel: &Panel) -> Scale {
     scale
 }
 
+/// Widens the scales of panels that share x until a unit is as long on both axes. `aspect`: width of a
+/// data area over its height.
+pub(super) fn equalise(scales: &mut [(Scale, Scale)], aspect: f64) {
+    let spans = scales.iter().map(|(x, y)| x.span().max(aspect * y.span()));
+    let span = spans.fold(0.0, f64::max);
+    for (x, y) in scales {
+        *x = x.about(span);
+        *y = y.about(span / aspect);
+    }
+}
+
 fn y_values(series: &Series) -> Vec<f64> {
     let middle = series.points.iter().map(|p| p[1]);
     let ends = series.lower_upper.iter().flatten().flatten().copied();
@@ -159,6 +184,16 @@ mod tests {
         let panel = Panel::default().with(Series::bars("a", &[1.0, 2.0]));
         assert_eq!(y_of(&panel).low, 0.0);
         assert!(y_of(&panel).high > 2.0);
+    }
+
+    #[test]
+    fn maps_have_equal_units() {
+        let of = |low: f64, high: f64| Scale::of(false, [low, high].into_iter(), 0.0);
+        let mut both = [(of(0.0, 1.0), of(0.0, 4.0)), (of(0.0, 1.0), of(-1.0, 1.0))];
+        equalise(&mut both, 2.0);
+        for (x, y) in both {
+            assert_eq!((x.low, x.high, y.high - y.low), (-3.5, 4.5, 4.0));
+        }
     }
 
     #[test]

@@ -2,6 +2,9 @@
 
 use std::collections::HashSet;
 
+/// A line may run this far beside its points, px: less than what is drawn can show.
+const STRAIGHT: f64 = 0.15;
+
 /// A point in axis coordinates.
 pub(super) type Point = [f64; 2];
 
@@ -19,6 +22,19 @@ impl Pixels {
     pub fn rise(&self, line: &[Point]) -> f64 {
         let steps = line.windows(2).map(|pair| (pair[1][1] - pair[0][1]).abs());
         steps.sum::<f64>() * self.per_unit[1]
+    }
+
+    /// Distance of a point from the piece of line between two others, in pixels.
+    fn distance(&self, point: Point, from: Point, to: Point) -> f64 {
+        let px = |a: Point, b: Point| [0, 1].map(|k| (a[k] - b[k]) * self.per_unit[k]);
+        let (line, own) = (px(to, from), px(point, from));
+        let length = line[0].hypot(line[1]);
+        if length == 0.0 {
+            return own[0].hypot(own[1]);
+        }
+        let along = (own[0] * line[0] + own[1] * line[1]) / length;
+        let across = (own[0] * line[1] - own[1] * line[0]) / length;
+        across.hypot((along - along.clamp(0.0, length)).abs())
     }
 
     fn column(&self, point: Point) -> i64 {
@@ -48,7 +64,7 @@ pub(super) fn markers(points: &[Point], pixels: &Pixels, budget: usize) -> Vec<P
 
 /// A line as one or several pieces with at most about `budget` points together.
 pub(super) fn line(points: &[Point], pixels: &Pixels, budget: usize) -> Vec<Vec<Point>> {
-    let runs = per_column(points, pixels);
+    let runs = bent(&per_column(points, pixels), pixels);
     if runs.len() <= budget {
         return vec![runs];
     }
@@ -91,6 +107,24 @@ fn per_column(points: &[Point], pixels: &Pixels) -> Vec<Point> {
         kept.extend(four.into_iter().map(|i| run[i]));
     }
     kept
+}
+
+/// Leaves out what lies on the straight line between its neighbours, to within [`STRAIGHT`] of a pixel
+/// (Douglas and Peucker 1973).
+fn bent(points: &[Point], pixels: &Pixels) -> Vec<Point> {
+    let mut kept = vec![false; points.len()];
+    let mut open = vec![(0, points.len().saturating_sub(1))];
+    while let Some((from, to)) = open.pop() {
+        let ends = [from, to].into_iter().filter(|i| *i < points.len());
+        ends.for_each(|i| kept[i] = true);
+        let off = |i: &usize| pixels.distance(points[*i], points[from], points[to]);
+        let worst = (from + 1..to).max_by(|a, b| off(a).total_cmp(&off(b)));
+        if let Some(worst) = worst.filter(|i| off(i) > STRAIGHT) {
+            open.extend([(from, worst), (worst, to)]);
+        }
+    }
+    let kept = kept.iter().zip(points).filter(|(kept, _)| **kept);
+    kept.map(|(_, point)| *point).collect()
 }
 
 /// Leaves out segments that join the same two pixels as one that is already drawn.
@@ -180,6 +214,16 @@ mod tests {
         assert!(holds_extremes(
             &line(&noisy(100_000), &PIXELS, 100).concat()
         ));
+    }
+
+    #[test]
+    fn straight_lines_need_their_ends_only() {
+        let slope = |i: usize| [i as f64, 0.5 * (i as f64).min(300.0)];
+        let points: Vec<Point> = (0..600).map(slope).collect();
+        let pieces = line(&points, &PIXELS, 10_000);
+        assert_eq!(pieces, [vec![points[0], points[300], points[599]]]);
+        let there_and_back = [[0.0, 0.0], [5.0, 1.0], [2.0, 0.4]];
+        assert_eq!(line(&there_and_back, &PIXELS, 100)[0].len(), 3);
     }
 
     #[test]
