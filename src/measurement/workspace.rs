@@ -210,6 +210,11 @@ pub fn kind_of(path: &Path) -> Outcome<Option<String>> {
 
 /// A text that the front matter of a CSV file states; only its leading lines are read.
 pub fn fact_of(path: &Path, name: &str) -> Outcome<Option<String>> {
+    Ok(front_of(path)?.text(name)?.map(str::to_string))
+}
+
+/// The front matter of a CSV file; only its leading lines are read.
+pub fn front_of(path: &Path) -> Outcome<Front> {
     let unreadable = |e: std::io::Error| {
         Problem::new(
             format!("cannot be read ({e})"),
@@ -226,7 +231,7 @@ pub fn fact_of(path: &Path, name: &str) -> Outcome<Option<String>> {
         text.push_str(fact.strip_prefix(' ').unwrap_or(fact));
         text.push('\n');
     }
-    Ok(Front::parse(text)?.text(name)?.map(str::to_string))
+    Front::parse(text)
 }
 
 /// The file meant by `name`: the path itself, or, when it is not there, the only file of that name

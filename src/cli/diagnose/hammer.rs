@@ -97,6 +97,18 @@ impl Diagnosed for HammerDiagnosis {
         }))
     }
 
+    fn remarks(&self) -> Vec<String> {
+        let hits = self.found.frf.screened.iter();
+        let left_out: Vec<String> = hits
+            .filter_map(|hit| Some(format!("{} {} ({})", hit.direction, hit.hit, hit.why()?)))
+            .collect();
+        let mut said = self.found.frf.remarks.clone();
+        if !left_out.is_empty() {
+            said.push(format!("Hits left out: {}.", left_out.join("; ")));
+        }
+        said
+    }
+
     fn model(&self) -> Outcome<Option<String>> {
         Ok(self.found.extended.as_ref().map(write))
     }

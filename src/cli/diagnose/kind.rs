@@ -2,8 +2,8 @@
 
 use super::{hammer, joint_motion, load_cycle, workspace};
 use crate::findings::Answer;
-use crate::ground::problem::{Outcome, Problem};
-use crate::measurement::workspace::kind_of;
+use crate::ground::problem::Outcome;
+use crate::measurement::workspace::front_of;
 use crate::robot::Robot;
 use crate::sheet::chart::Chart;
 use serde_json::{Map, Value};
@@ -77,12 +77,17 @@ pub const KINDS: &[(&str, Diagnose)] = &[
 /// # Errors
 /// The file cannot be read, or is of a kind that nothing diagnoses.
 pub fn kind(path: &Path) -> Outcome<(&'static str, Diagnose)> {
-    let said = kind_of(path).map_err(|problem| problem.in_file(path))?;
-    let said = said.unwrap_or_else(|| KINDS[0].0.into());
+    kind_said(path).map_err(|problem| problem.in_file(path))
+}
+
+fn kind_said(path: &Path) -> Outcome<(&'static str, Diagnose)> {
+    let front = front_of(path)?;
+    let said = front.text("kind")?.unwrap_or(KINDS[0].0);
     let found = KINDS.iter().find(|kind| kind.0 == said).copied();
     found.ok_or_else(|| {
         let known: Vec<&str> = KINDS.iter().map(|kind| kind.0).collect();
+        let what = format!("nothing diagnoses the kind `{said}`");
         let remedy = format!("give a file of kind {}", known.join(", "));
-        Problem::new(format!("nothing diagnoses the kind `{said}`"), remedy).in_file(path)
+        front.problem("kind", what, remedy)
     })
 }
