@@ -148,7 +148,7 @@ fn broken_facts_are_refused() {
             "wrong kind",
             with_fact("kind", "\"screw\""),
             1,
-            "nothing diagnoses",
+            "`screw`",
         ),
         refused("kind as a number", with_fact("kind", "3"), 1, "text"),
         refused("no joint", without_fact("joint"), 1, "joint"),
