@@ -117,7 +117,7 @@ pub trait Cause: Sync {
         vec![(0..self.card().amounts.len()).collect()]
     }
 
-    /// How many of its leading amounts a hammer test can tell; the others stay zero there.
+    /// How many of its leading amounts a hammer test or a plan tells apart; the others stay zero there.
     fn heard(&self) -> usize {
         self.card().amounts.len()
     }

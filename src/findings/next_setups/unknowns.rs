@@ -83,7 +83,7 @@ fn widened(robot: &Robot) -> Robot {
     let mut wide = robot.clone();
     let physics = seen_by(Sight::Workspace).filter(|c| c.card().family == Family::Physics);
     for cause in physics {
-        let amounts = vec![1.0; cause.card().amounts.len()];
+        let amounts = vec![1.0; cause.heard()];
         for site in cause.sites(robot) {
             let mut one = robot.clone();
             cause.alter(&mut one, &site, &amounts);
