@@ -144,12 +144,7 @@ fn broken_facts_are_refused() {
             "not TOML",
         ),
         refused("no kind", without_fact("kind"), 1, "kind"),
-        refused(
-            "wrong kind",
-            with_fact("kind", "\"screw\""),
-            1,
-            "`screw`",
-        ),
+        refused("wrong kind", with_fact("kind", "\"screw\""), 1, "`screw`"),
         refused("kind as a number", with_fact("kind", "3"), 1, "text"),
         refused("no joint", without_fact("joint"), 1, "joint"),
         refused("joint 7", with_fact("joint", "7"), line_of("joint"), "is 7"),

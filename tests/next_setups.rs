@@ -106,13 +106,13 @@ fn a6_drive_and_a5_tilt_about_the_same_line_are_one_until_the_wrist_bends() {
         assert!((rows.column(a6) - rows.column(line)).norm() <= 1e-9 * size);
         desk.belief.expect(rows);
     }
-    // Link 5 and the tool about x share the line of the drive for good, link 4 that of the tilt: the
+    // Link 5 about x and the tool about its own z share the line of the drive for good, link 4 that of the tilt: the
     // two sums are what bending the wrist can tell apart.
     let mut direction = DVector::zeros(desk.belief.sites.len());
     let signs = [
         ("A6", 1.0),
         ("link5-x", 1.0),
-        ("tool-x", 1.0),
+        ("tool-z", 1.0),
         ("A5-line", -1.0),
         ("link4-x", -1.0),
     ];

@@ -9,7 +9,7 @@ use super::{Ending, Verb, arguments, parsed};
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::hammer_uff::is_universal;
 use crate::measurement::table::kind_of;
-use crate::measurement::workspace::resolve;
+use crate::measurement::workspace::{front_of, resolve};
 use crate::report::json;
 use clap::{ArgMatches, Args};
 use serde_json::{Map, Value};
@@ -82,15 +82,13 @@ fn reader(path: &Path) -> Outcome<Reader> {
     let found = KINDS.iter().find(|(name, _)| *name == kind);
     found.map(|(_, reader)| *reader).ok_or_else(|| {
         let known: Vec<&str> = KINDS.iter().map(|(name, _)| *name).collect();
-        Problem::new(
-            format!("is of kind `{kind}`, which `inspect` does not know"),
-            format!(
-                "it knows {}; correct `# kind`, if it is one of them",
-                known.join(", ")
-            ),
-        )
-        .in_file(path)
-        .in_column("kind")
+        let what = format!("is of kind `{kind}`, which `inspect` does not know");
+        let remedy = format!(
+            "it knows {}; correct `# kind`, if it is one of them",
+            known.join(", ")
+        );
+        let placed = front_of(path).map(|front| front.problem("kind", what, remedy));
+        placed.unwrap_or_else(|problem| problem).in_file(path)
     })
 }
 
