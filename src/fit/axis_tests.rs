@@ -4,8 +4,8 @@ use super::parameter::{Identified, Z95};
 use super::store::{SCHEMA, StoredFit};
 use crate::ground::files;
 use crate::ground::problem::Outcome;
+use crate::measurement::leading::front_of;
 use crate::measurement::load_cycle::{LEVER_REL_STD, lever_spread};
-use crate::measurement::table::front_of;
 use std::path::{Path, PathBuf};
 
 /// One axis test with its stiffness.
@@ -103,7 +103,7 @@ fn one(path: &Path, measurements: &Path) -> Outcome<Option<AxisTest>> {
 
 /// Relative standard deviation by the levers of a measurement; the usual one if it is not there.
 fn levers(measurement: &Path) -> f64 {
-    let front = front_of(measurement);
+    let front = front_of(measurement).ok();
     let stated = front.and_then(|front| lever_spread(&front).ok());
     stated.unwrap_or(LEVER_REL_STD * std::f64::consts::SQRT_2)
 }

@@ -6,6 +6,7 @@ pub mod front;
 pub mod hammer;
 pub mod hammer_uff;
 pub mod joint_motion;
+pub mod leading;
 pub mod load_cycle;
 pub mod table;
 pub mod uff;

@@ -1,8 +1,7 @@
 //! A workspace on disk: `measurements/<campaign>/`, `fits/<campaign>/`, `reports/<campaign>/`.
 
-use super::front::Front;
+use super::leading::kind_of;
 use crate::ground::problem::{Outcome, Problem};
-use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 /// Where a measurement belongs, and where its results go.
@@ -185,7 +184,7 @@ pub fn only_of_kind(folder: &Path, kind: &str) -> Outcome<PathBuf> {
     let paths = entries.map(|e| e.path());
     let mut found: Vec<PathBuf> = paths
         .filter(|p| p.extension().is_some_and(|e| e == "csv"))
-        .filter(|p| super::table::kind_of(p).as_deref() == Some(kind))
+        .filter(|p| kind_of(p).ok().flatten().as_deref() == Some(kind))
         .collect();
     found.sort();
     match found.len() {
@@ -201,37 +200,6 @@ pub fn only_of_kind(folder: &Path, kind: &str) -> Outcome<PathBuf> {
         )
         .in_file(folder)),
     }
-}
-
-/// The kind that the front matter of a CSV file names; only its leading lines are read.
-pub fn kind_of(path: &Path) -> Outcome<Option<String>> {
-    fact_of(path, "kind")
-}
-
-/// A text that the front matter of a CSV file states; only its leading lines are read.
-pub fn fact_of(path: &Path, name: &str) -> Outcome<Option<String>> {
-    Ok(front_of(path)?.text(name)?.map(str::to_string))
-}
-
-/// The front matter of a CSV file; only its leading lines are read.
-pub fn front_of(path: &Path) -> Outcome<Front> {
-    let unreadable = |e: std::io::Error| {
-        Problem::new(
-            format!("cannot be read ({e})"),
-            "make it a readable file, or move it away",
-        )
-    };
-    let file = std::fs::File::open(path).map_err(unreadable)?;
-    let mut text = String::new();
-    for line in BufReader::new(file.take(1 << 20)).split(b'\n') {
-        let line = String::from_utf8_lossy(&line.map_err(unreadable)?).to_string();
-        let Some(fact) = line.trim_start_matches('\u{feff}').strip_prefix('#') else {
-            break;
-        };
-        text.push_str(fact.strip_prefix(' ').unwrap_or(fact));
-        text.push('\n');
-    }
-    Front::parse(text)
 }
 
 /// The file meant by `name`: the path itself, or, when it is not there, the only file of that name

@@ -3,7 +3,7 @@
 use super::{hammer, joint_motion, load_cycle, workspace};
 use crate::findings::Answer;
 use crate::ground::problem::Outcome;
-use crate::measurement::workspace::front_of;
+use crate::measurement::leading::front_of;
 use crate::robot::Robot;
 use crate::sheet::chart::Chart;
 use serde_json::{Map, Value};

@@ -6,10 +6,10 @@ mod workspace;
 
 use super::output::{print, tell};
 use super::{Ending, Verb, arguments, parsed};
-use crate::ground::problem::{Outcome, Problem};
+use crate::ground::problem::Outcome;
 use crate::measurement::hammer_uff::is_universal;
-use crate::measurement::table::kind_of;
-use crate::measurement::workspace::{front_of, resolve};
+use crate::measurement::leading::{front_of, kind_of};
+use crate::measurement::workspace::resolve;
 use crate::report::json;
 use clap::{ArgMatches, Args};
 use serde_json::{Map, Value};
@@ -76,7 +76,7 @@ fn reader(path: &Path) -> Outcome<Reader> {
     if is_universal(path) {
         return Ok(hammer::account);
     }
-    let Some(kind) = kind_of(path) else {
+    let Some(kind) = kind_of(path).ok().flatten() else {
         return Ok(load_cycle::account);
     };
     let found = KINDS.iter().find(|(name, _)| *name == kind);

@@ -93,14 +93,3 @@ impl Table {
         })
     }
 }
-
-/// The front matter of a file, without its rows, if it can be read that far.
-pub fn front_of(path: &Path) -> Option<Front> {
-    let mut reader = BufReader::new(File::open(path).ok()?);
-    Some(read_head(&mut reader).ok()?.0)
-}
-
-/// The kind that a file's front matter names, if it can be read that far.
-pub fn kind_of(path: &Path) -> Option<String> {
-    Some(front_of(path)?.text("kind").ok()??.to_string())
-}

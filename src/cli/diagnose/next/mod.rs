@@ -13,8 +13,8 @@ use crate::findings::next_setups::{Chosen, Desk, Plan, Tells};
 use crate::fit::axis_tests::{self, AxisTest};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::units::DEGREE;
-use crate::measurement::table::front_of;
-use crate::measurement::workspace::{Place, kind_of, only_of_kind, resolve};
+use crate::measurement::leading::{front_of, kind_of};
+use crate::measurement::workspace::{Place, only_of_kind, resolve};
 use crate::measurement::workspace_test::{DIRECTIONS, WorkspaceTest};
 use crate::report::{folder, text};
 use crate::robot::check;
@@ -109,7 +109,7 @@ fn of_points(place: Place, path: &Path) -> Outcome<Start> {
 fn of_name(place: Place) -> Outcome<Start> {
     for kind in NAMING {
         for path in place.files_of(kind)? {
-            let Some(front) = front_of(&path) else {
+            let Ok(front) = front_of(&path) else {
                 continue;
             };
             if let Some(name) = front.text("robot").map_err(|p| p.in_file(&path))? {
