@@ -15,7 +15,7 @@ const STEPS: [usize; 3] = [2, 8, 20];
 /// Suspects that are tried by descent, those of them that go on, singles continued to pairs, partners
 /// tried for each.
 const TRIED: usize = 40;
-const KEPT: usize = 12;
+const KEPT: usize = 24;
 const BASES: usize = 4;
 const PARTNERS: usize = 6;
 /// A start this near shows the tangent.
@@ -24,7 +24,7 @@ const NEAR: f64 = 0.05;
 const ROUNDS: usize = 2;
 const LARGEST: usize = 2;
 /// Nats that a partner must promise to be tried.
-const PROMISE: f64 = 4.0;
+const PROMISE: f64 = 3.0;
 /// How far a partner may be from its start for the straight line to count, in starts.
 const REACH: f64 = 2.0;
 /// Sets on broad peaks go on to sharp ones within these nats of the best, or this share of what the
@@ -222,9 +222,20 @@ pub fn promise(
         Some((nats, base.point.and(suspect, &within(suspect, &amounts))))
     };
     let starts = suspect.starts();
-    let near = starts.first().and_then(|start| along(start, NEAR));
+    let near = tangents(&starts).into_iter();
+    let near = near.filter_map(|start| along(&start, NEAR));
     let tried = starts.iter().filter_map(|start| along(start, 1.0));
     tried.chain(near).max_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// The first start of every amount alone.
+fn tangents(starts: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let first = starts.first().map_or(&[][..], Vec::as_slice);
+    let alone = |k: usize| {
+        let own = first.iter().enumerate();
+        own.map(|(i, s)| if i == k { *s } else { 0.0 }).collect()
+    };
+    (0..first.len()).map(alone).collect()
 }
 
 /// Amounts inside their bounds, and not quite nothing.
