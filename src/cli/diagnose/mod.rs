@@ -9,7 +9,6 @@ mod json;
 mod kind;
 mod load_cycle;
 mod next;
-mod overview;
 mod page;
 mod tables;
 mod workspace;
@@ -196,14 +195,18 @@ fn whole(place: &Place, arguments: &Arguments) -> Outcome<Ending> {
     let campaign = campaign::examine(place, arguments.progress)?;
     if !arguments.dry_run {
         write(&campaign.files, campaign.written())?;
-        folder::write_as(&place.reports(), "diagnosis.html", &campaign.page())?;
+        folder::write_as(
+            &place.reports(),
+            "diagnosis.html",
+            &campaign::story(&campaign),
+        )?;
     }
     let said = match arguments.json {
         true => {
             let sources: Vec<_> = campaign.files.iter().map(|r| r.found.source()).collect();
             let inputs: Vec<(&Path, &str)> = sources.iter().map(|s| (s.path, s.sha256)).collect();
             let mut map = crate::report::json::head("diagnose", &inputs);
-            map.extend(campaign.json(arguments.dry_run)?);
+            map.extend(campaign::body(&campaign, arguments.dry_run)?);
             crate::report::json::print(map)
         }
         false => campaign::account(&campaign),

@@ -1,6 +1,6 @@
 //! The error of every experiment of a campaign in one figure.
 
-use super::One;
+use crate::cli::diagnose::One;
 use crate::findings::Answer;
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
 

@@ -1,0 +1,33 @@
+//! The account of a campaign on the terminal.
+
+use super::{Campaign, tables};
+use crate::findings::{Verdict, sentence::sentences};
+use crate::report::text;
+
+/// The account on the terminal.
+pub fn account(campaign: &Campaign) -> String {
+    let mut said = format!(
+        "{}{}: {}\n",
+        campaign.place.measurements().display(),
+        if campaign.synthetic() {
+            " (synthetic)"
+        } else {
+            ""
+        },
+        campaign.verdict.name()
+    );
+    said.push_str(&text::indented(&campaign.sentence(), 2));
+    said.push_str(&format!("\n{}", text::table(&tables::overview(campaign))));
+    if !campaign.checks.is_empty() {
+        said.push_str(&format!("\n{}", text::table(&tables::checked(campaign))));
+    }
+    for one in &campaign.files {
+        let answer = one.found.answer();
+        if answer.verdict == Verdict::Sufficient {
+            continue;
+        }
+        said.push_str(&format!("\n{}\n", one.stem()));
+        said.extend(sentences(answer).iter().map(|s| text::indented(s, 2)));
+    }
+    said
+}

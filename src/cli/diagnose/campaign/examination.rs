@@ -1,0 +1,123 @@
+//! Every file of a campaign diagnosed, and each held against the others.
+
+use super::Campaign;
+use crate::cli::diagnose::One;
+use crate::cli::diagnose::kind::{Diagnosed, KINDS, kind};
+use crate::cli::progress::Progress;
+use crate::findings::campaign::{Check, verdict};
+use crate::fit::axis_tests::{self, AxisTest};
+use crate::fit::identified_robot::with_axis_tests;
+use crate::ground::problem::{Outcome, Problem};
+use crate::measurement::leading::fact_of;
+use crate::measurement::workspace::Place;
+use crate::robot::Robot;
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+
+/// Role of a file that is measured only to be compared with another.
+const COMPARISON: &str = "comparison";
+
+/// Diagnoses every file of a campaign that can be diagnosed.
+///
+/// # Errors
+/// A file that cannot be read, or none at all.
+pub fn examine(place: &Place, progress: bool) -> Outcome<Campaign> {
+    let mut paths: Vec<PathBuf> = Vec::new();
+    for (name, _) in KINDS {
+        for path in place.files_of(name)? {
+            let role = fact_of(&path, "role").map_err(|problem| problem.in_file(&path))?;
+            paths.extend(role.is_none_or(|role| role != COMPARISON).then_some(path));
+        }
+    }
+    if paths.is_empty() {
+        let remedy = "put measurements there whose front matter says `kind`";
+        return Err(
+            Problem::new("holds no measurement that can be diagnosed", remedy)
+                .in_file(&place.measurements()),
+        );
+    }
+    let tests = axis_tests::read(&place.fits(), &place.measurements())?;
+    let progress = Progress::new(paths.len(), progress);
+    let files = paths.par_iter().map(|path| {
+        let one = one(path, place, &tests);
+        progress.done(&path.display().to_string());
+        one
+    });
+    let files: Vec<Outcome<One>> = files.collect();
+    progress.finish();
+    let files = files.into_iter().collect::<Outcome<Vec<One>>>()?;
+    let checks = checks(&files);
+    Ok(Campaign {
+        verdict: verdict(files.iter().map(|one| one.found.answer()), &checks),
+        robot: extended(&files),
+        place: place.clone(),
+        checks,
+        files,
+    })
+}
+
+/// One file; a test of the whole robot is simulated with what the axis tests found.
+///
+/// # Errors
+/// A file that cannot be read, or that nothing diagnoses.
+pub fn one(path: &Path, place: &Place, tests: &[AxisTest]) -> Outcome<One> {
+    let (kind, diagnose) = kind(path)?;
+    let found = diagnose(path)?;
+    let informed = found.robot().filter(|_| !tests.is_empty());
+    let informed = informed.and_then(|robot| found.under(&stiffened(robot, tests)));
+    Ok(One {
+        kind,
+        place: place.clone(),
+        found: informed.unwrap_or(found),
+    })
+}
+
+/// A robot with the stiffness that the axis tests found, their gaps left closed: weight presses each
+/// joint to one side, and whether it does is what a test of the whole robot says.
+fn stiffened(robot: &Robot, tests: &[AxisTest]) -> Robot {
+    let mut informed = with_axis_tests(robot, tests);
+    let gaps = robot.springs().map(|(_, spring)| spring.backlash.clone());
+    let gaps: Vec<Vec<f64>> = gaps.collect();
+    for ((_, spring), own) in informed.springs_mut().zip(gaps) {
+        spring.backlash = own;
+    }
+    informed
+}
+
+/// Every pair of tests of the whole robot of which one changed the robot.
+fn checks(files: &[One]) -> Vec<Check> {
+    let pairs: Vec<(&One, &One)> = files
+        .iter()
+        .flat_map(|from| files.iter().map(move |against| (from, against)))
+        .filter(|(from, against)| from.path() != against.path())
+        .collect();
+    let check = |(from, against): (&One, &One)| {
+        let robot = from
+            .found
+            .extended()
+            .filter(|r| Some(*r) != from.found.robot())?;
+        let after = against.found.under(robot)?;
+        let (a, b) = (from.found.answer(), against.found.answer());
+        Some(Check::new(
+            (&from.name(), a),
+            (&against.name(), b),
+            after.answer(),
+        ))
+    };
+    pairs.into_par_iter().filter_map(check).collect()
+}
+
+/// The robot that all tests together extend, each starting from what those before it found.
+fn extended(files: &[One]) -> Option<Robot> {
+    let mut robot: Option<Robot> = None;
+    let mut changed = false;
+    for one in files {
+        let again = robot.as_ref().and_then(|robot| one.found.under(robot));
+        let found: &dyn Diagnosed = again.as_deref().unwrap_or(one.found.as_ref());
+        if let (Some(before), Some(after)) = (found.robot(), found.extended()) {
+            changed |= before != after;
+            robot = Some(after.clone());
+        }
+    }
+    robot.filter(|_| changed)
+}

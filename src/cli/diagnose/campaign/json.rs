@@ -1,0 +1,69 @@
+//! A campaign as JSON.
+
+use super::Campaign;
+use crate::cli::diagnose::One;
+use crate::findings::campaign::Check;
+use crate::ground::problem::Outcome;
+use serde_json::{Map, Value, json};
+
+/// The body of the JSON document.
+pub fn body(campaign: &Campaign, dry: bool) -> Outcome<Map<String, Value>> {
+    let mut map = Map::new();
+    map.insert("kind".into(), json!("campaign"));
+    map.insert("campaign".into(), json!(campaign.place.campaign));
+    map.insert("synthetic".into(), json!(campaign.synthetic()));
+    map.insert("verdict".into(), json!(campaign.verdict.name()));
+    map.insert("sentence".into(), json!(campaign.sentence()));
+    let mut gathered = [Vec::new(), Vec::new()];
+    let mut experiments = Vec::new();
+    for one in &campaign.files {
+        let body = one.body(dry)?;
+        for (list, key) in gathered.iter_mut().zip(["causes", "cannot_separate"]) {
+            let own = body.get(key).and_then(Value::as_array).cloned();
+            list.extend(own.into_iter().flatten().map(|value| with_file(value, one)));
+        }
+        experiments.push(with_file(Value::Object(body), one));
+    }
+    let [mut causes, groups] = gathered;
+    causes.sort_by(|a, b| gain(b).total_cmp(&gain(a)));
+    map.insert("causes".into(), Value::Array(causes));
+    map.insert("cannot_separate".into(), Value::Array(groups));
+    map.insert(
+        "checks".into(),
+        campaign.checks.iter().map(check_json).collect(),
+    );
+    map.insert("experiments".into(), Value::Array(experiments));
+    let robot = campaign
+        .robot
+        .as_ref()
+        .filter(|_| !dry)
+        .map(|_| campaign.robot_path());
+    map.insert(
+        "model".into(),
+        json!(robot.map(|path| path.display().to_string())),
+    );
+    Ok(map)
+}
+
+fn gain(cause: &Value) -> f64 {
+    cause["gain"]["reduction_percent"].as_f64().unwrap_or(0.0)
+}
+
+fn with_file(mut value: Value, one: &One) -> Value {
+    if let Value::Object(map) = &mut value {
+        map.insert("file".into(), json!(one.path().display().to_string()));
+    }
+    value
+}
+
+fn check_json(check: &Check) -> Value {
+    json!({
+        "from": check.from,
+        "causes": check.causes,
+        "against": check.against,
+        "rms_before": check.before,
+        "rms_after": check.after,
+        "unit": check.unit,
+        "prediction": check.word(),
+    })
+}

@@ -1,0 +1,119 @@
+//! The diagnosis of a whole campaign.
+
+mod account;
+mod errors;
+mod examination;
+mod json;
+mod page;
+mod tables;
+
+pub use account::account;
+pub use examination::{examine, one};
+pub use json::body;
+pub use page::story;
+
+use super::One;
+use crate::cli::Ending;
+use crate::cli::chapter::Chapter;
+use crate::findings::Verdict;
+use crate::findings::campaign::Check;
+use crate::ground::problem::Outcome;
+use crate::measurement::workspace::Place;
+use crate::robot::{Robot, write};
+use std::path::PathBuf;
+
+/// Everything that a campaign's files say together.
+pub struct Campaign {
+    /// Where they are.
+    pub place: Place,
+    /// Every file, diagnosed by itself; whole-robot tests with what the axis tests found.
+    pub files: Vec<One>,
+    /// What one found, held against the others.
+    pub checks: Vec<Check>,
+    /// The robot with everything that was found; `None` if nothing changed it.
+    pub robot: Option<Robot>,
+    /// The verdict on all.
+    pub verdict: Verdict,
+}
+
+impl Campaign {
+    /// Where the extended robot goes.
+    pub fn robot_path(&self) -> PathBuf {
+        self.place.fits().join("extended-robot.toml")
+    }
+
+    /// Everything that is written beside the files' own results.
+    pub fn written(&self) -> Vec<(PathBuf, String)> {
+        let robot = self.robot.as_ref().map(|robot| {
+            let label = match self.synthetic() {
+                true => "# synthetic: extended from simulated measurements\n",
+                false => "",
+            };
+            (self.robot_path(), format!("{label}{}", write::write(robot)))
+        });
+        robot.into_iter().collect()
+    }
+
+    fn synthetic(&self) -> bool {
+        self.files.iter().any(|one| one.found.source().synthetic)
+    }
+
+    /// How the verb ends.
+    pub fn ending(&self) -> Ending {
+        match self.verdict {
+            Verdict::Sufficient => Ending::Done,
+            _ => Ending::Attention,
+        }
+    }
+
+    /// The verdict in one sentence.
+    pub fn sentence(&self) -> String {
+        let wrong = self
+            .files
+            .iter()
+            .filter(|one| one.found.answer().verdict != Verdict::Sufficient);
+        let wrong: Vec<String> = wrong.map(One::stem).collect();
+        let said = match wrong.len() {
+            0 => format!(
+                "The simulation agrees with all {} experiments to within their noise.",
+                self.files.len()
+            ),
+            n => format!(
+                "The simulation misses {n} of {} experiments{}.",
+                self.files.len(),
+                match wrong.len() < self.files.len() {
+                    true => format!(": {}", wrong.join(", ")),
+                    false => String::new(),
+                }
+            ),
+        };
+        let count = |word: &str| {
+            let checks = self.checks.iter();
+            checks.filter(|check| check.word() == word).count()
+        };
+        match (count("confirmed"), count("contradicted")) {
+            (0, 0) => said,
+            (good, bad) => format!(
+                "{said} Of what one experiment predicts for another, {good} predictions are confirmed and {bad} contradicted."
+            ),
+        }
+    }
+}
+
+/// Diagnoses a campaign, and writes what that found.
+///
+/// # Errors
+/// A file that cannot be read, results that cannot be written.
+pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
+    let campaign = examine(place, false)?;
+    super::write(&campaign.files, campaign.written())?;
+    let sources = campaign.files.iter().map(|one| one.found.source());
+    Ok(Some(Chapter {
+        title: "What the simulation gets wrong".into(),
+        ending: campaign.ending(),
+        inputs: sources
+            .map(|s| (s.path.to_path_buf(), s.sha256.to_string()))
+            .collect(),
+        page: story(&campaign),
+    }))
+}
