@@ -15,8 +15,11 @@ pub use page::story;
 use super::One;
 use crate::cli::Ending;
 use crate::cli::chapter::Chapter;
-use crate::findings::Verdict;
+use crate::findings::belief;
 use crate::findings::campaign::Check;
+use crate::findings::joint::Joint;
+use crate::findings::sentence::probability;
+use crate::findings::{Group, Verdict};
 use crate::ground::problem::Outcome;
 use crate::measurement::workspace::Place;
 use crate::robot::{Robot, write};
@@ -30,6 +33,8 @@ pub struct Campaign {
     pub files: Vec<One>,
     /// What one found, held against the others.
     pub checks: Vec<Check>,
+    /// What the tests of the whole robot believe together; `None` for fewer than two.
+    pub joint: Option<Joint>,
     /// The robot with everything that was found; `None` if nothing changed it.
     pub robot: Option<Robot>,
     /// The verdict on all.
@@ -52,6 +57,34 @@ impl Campaign {
             (self.robot_path(), format!("{label}{}", write::write(robot)))
         });
         robot.into_iter().collect()
+    }
+
+    /// What all tests believe together, if there is something to list.
+    fn joined(&self) -> Option<&Joint> {
+        self.joint.as_ref().filter(|joint| !joint.causes.is_empty())
+    }
+
+    /// Which member of a group all tests together tell from the others.
+    fn told(&self, group: &Group) -> Option<(belief::Place, f64)> {
+        self.joint.as_ref()?.told(group)
+    }
+
+    /// What one experiment cannot tell and all together can, one sentence each.
+    fn settled(&self) -> Vec<String> {
+        let groups = self.files.iter().flat_map(|one| {
+            let groups = one.found.answer().groups.iter();
+            groups.map(move |group| (one.stem(), group))
+        });
+        let said = groups.filter_map(|(stem, group)| {
+            let ((effect, site), p) = self.told(group)?;
+            Some(format!(
+                "{stem} alone cannot tell {}; all tests of the robot together say {} at {site} ({}).",
+                places(group).join(" from "),
+                effect.replace('_', " "),
+                probability(p)
+            ))
+        });
+        said.collect()
     }
 
     fn synthetic(&self) -> bool {
@@ -98,6 +131,14 @@ impl Campaign {
             ),
         }
     }
+}
+
+/// The members of a group, as `tilt_stiffness at A3-tilt`.
+fn places(group: &Group) -> Vec<String> {
+    let members = group.effects.iter().zip(&group.sites);
+    members
+        .map(|(e, site)| format!("{} at {site}", e.replace('_', " ")))
+        .collect()
 }
 
 /// Diagnoses a campaign, and writes what that found.

@@ -23,6 +23,11 @@ pub fn story(campaign: &Campaign) -> Page {
         .into_iter()
         .fold(page, |page, chart| page.with(Block::Chart(chart)));
     page = page.with(Block::Table(tables::overview(campaign)));
+    if let Some(joint) = campaign.joined() {
+        page = page.with(Block::Table(tables::together(joint)));
+        let settled = campaign.settled().into_iter();
+        page = settled.fold(page, |page, said| page.with(Block::text(said)));
+    }
     if !campaign.checks.is_empty() {
         page = page.with(Block::Table(tables::checked(campaign)));
     }
@@ -45,7 +50,8 @@ pub fn story(campaign: &Campaign) -> Page {
 fn open_questions(campaign: &Campaign) -> Vec<String> {
     let groups = campaign.files.iter().flat_map(|one| {
         let groups = one.found.answer().groups.iter();
-        groups.map(|g| {
+        let open = groups.filter(|g| campaign.told(g).is_none());
+        open.map(|g| {
             format!(
                 "{}, to tell {}: {}.",
                 one.stem(),

@@ -3,6 +3,8 @@
 use super::{Campaign, errors};
 use crate::findings::Answer;
 use crate::findings::campaign::named;
+use crate::findings::joint::Joint;
+use crate::findings::sentence::probability;
 use crate::sheet::number::engineering;
 use crate::sheet::table::Table;
 
@@ -21,6 +23,24 @@ pub fn overview(campaign: &Campaign) -> Table {
         table.push(line(&one.stem(), one.found.answer()));
     }
     table.noted("error: rms of measured − simulated; with causes: on data held out of the fit; groups that cannot be told apart stand with their first member and a question mark")
+}
+
+/// Causes as the tests of the whole robot see them alone and together.
+pub fn together(joint: &Joint) -> Table {
+    let header = ["cause", "site"].map(String::from).into_iter();
+    let header = header.chain(joint.tests.iter().cloned());
+    let header = header.chain(["together".to_string()]);
+    let mut table = Table::new("All tests of the whole robot together", header);
+    table = table.numeric(2..3 + joint.tests.len());
+    for cause in &joint.causes {
+        let alone = cause
+            .alone
+            .iter()
+            .map(|p| p.map_or("not seen".into(), probability));
+        let line = [cause.place.0.to_string(), cause.place.1.clone()].into_iter();
+        table.push(line.chain(alone).chain([probability(cause.probability)]));
+    }
+    table.noted("probability that the cause is present, by each test alone and with the evidence of all multiplied; not seen: the test would not show it")
 }
 
 /// What one experiment found, held against the others.
