@@ -18,6 +18,7 @@ pub fn account(campaign: &Campaign) -> String {
     );
     said.push_str(&text::indented(&campaign.sentence(), 2));
     said.push_str(&format!("\n{}", text::table(&tables::overview(campaign))));
+    said.push_str(&format!("\n{}", text::table(&tables::causes(campaign))));
     if !campaign.checks.is_empty() {
         said.push_str(&format!("\n{}", text::table(&tables::checked(campaign))));
     }
@@ -29,5 +30,9 @@ pub fn account(campaign: &Campaign) -> String {
         said.push_str(&format!("\n{}\n", one.stem()));
         said.extend(sentences(answer).iter().map(|s| text::indented(s, 2)));
     }
+    if !campaign.remarks.is_empty() {
+        said.push('\n');
+    }
+    said.extend(campaign.remarks.iter().map(|s| text::indented(s, 0)));
     said
 }

@@ -5,6 +5,8 @@ mod errors;
 mod examination;
 mod json;
 mod page;
+mod remarks;
+mod sentence;
 mod tables;
 
 pub use account::account;
@@ -13,6 +15,7 @@ pub use json::body;
 pub use page::story;
 
 use super::One;
+use super::next::Proposal;
 use crate::cli::Ending;
 use crate::cli::chapter::Chapter;
 use crate::findings::Verdict;
@@ -34,6 +37,10 @@ pub struct Campaign {
     pub robot: Option<Robot>,
     /// The verdict on all.
     pub verdict: Verdict,
+    /// What to measure next on the whole robot; `None` where no file names it.
+    pub next: Option<Proposal>,
+    /// What a reader should know beside the causes, one sentence each.
+    pub remarks: Vec<String>,
 }
 
 impl Campaign {
@@ -66,37 +73,9 @@ impl Campaign {
         }
     }
 
-    /// The verdict in one sentence.
+    /// The verdict in a sentence or three.
     pub fn sentence(&self) -> String {
-        let wrong = self
-            .files
-            .iter()
-            .filter(|one| one.found.answer().verdict != Verdict::Sufficient);
-        let wrong: Vec<String> = wrong.map(One::stem).collect();
-        let said = match wrong.len() {
-            0 => format!(
-                "The simulation agrees with all {} experiments to within their noise.",
-                self.files.len()
-            ),
-            n => format!(
-                "The simulation misses {n} of {} experiments{}.",
-                self.files.len(),
-                match wrong.len() < self.files.len() {
-                    true => format!(": {}", wrong.join(", ")),
-                    false => String::new(),
-                }
-            ),
-        };
-        let count = |word: &str| {
-            let checks = self.checks.iter();
-            checks.filter(|check| check.word() == word).count()
-        };
-        match (count("confirmed"), count("contradicted")) {
-            (0, 0) => said,
-            (good, bad) => format!(
-                "{said} Of what one experiment predicts for another, {good} predictions are confirmed and {bad} contradicted."
-            ),
-        }
+        sentence::sentence(&self.files, &self.checks)
     }
 }
 
