@@ -62,6 +62,9 @@ impl Belief {
     /// Logarithm of the probability of these causes (in order, all visible). A set that was not weighed is at
     /// least as good as any part of it, with the prior odds of what is added: more causes never fit worse.
     pub fn ln_p(&self, causes: &[Place]) -> f64 {
+        if let Some(own) = self.sets.iter().find(|set| set.causes == causes) {
+            return own.ln_p;
+        }
         let within = |set: &&Weighed| set.causes.iter().all(|c| causes.contains(c));
         let parts = self.sets.iter().filter(within);
         let worth = |set: &Weighed| {

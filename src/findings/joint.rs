@@ -134,3 +134,55 @@ fn causes(beliefs: &[&Belief], sets: &[(Vec<Place>, f64)]) -> Vec<Together> {
     all.sort_by(|a, b| b.probability.total_cmp(&a.probability));
     all
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::builtin::named;
+
+    fn at(site: &str) -> Place {
+        ("drive_stiffness", site.to_string())
+    }
+
+    /// An experiment that sees `sees` and believes in these sets.
+    fn belief(sees: &[&str], sets: &[(&[&str], f64)]) -> Belief {
+        let robot = named("kr210").unwrap().unwrap();
+        let sets = sets.iter().map(|(sites, p)| {
+            let causes = sites.iter().map(|site| at(site)).collect();
+            (causes, *p, robot.clone())
+        });
+        Belief::new(sees.iter().map(|site| at(site)).collect(), sets)
+    }
+
+    fn joint(beliefs: &[&Belief]) -> Joint {
+        let all: Vec<(String, &Belief)> = beliefs.iter().map(|b| (String::new(), *b)).collect();
+        Joint::of(&all).unwrap()
+    }
+
+    #[test]
+    fn two_tests_separate_what_neither_does() {
+        let a = belief(&["A1", "A2", "A3"], &[(&["A1"], 0.5), (&["A2"], 0.5)]);
+        let b = belief(&["A1", "A2", "A3"], &[(&["A2"], 0.5), (&["A3"], 0.5)]);
+        let joint = joint(&[&a, &b]);
+        assert_eq!(joint.best, [at("A2")]);
+        assert!(joint.probability(&at("A2")) > 0.95, "{joint:?}");
+    }
+
+    #[test]
+    fn a_test_does_not_judge_what_it_cannot_see() {
+        let a = belief(&["A1"], &[(&["A1"], 1.0)]);
+        let b = belief(&["A2"], &[(&[], 0.5), (&["A2"], 0.5)]);
+        let joint = joint(&[&a, &b]);
+        assert!(joint.probability(&at("A1")) > 0.99);
+        assert!((joint.probability(&at("A2")) - 0.5).abs() < 1e-6);
+        assert_eq!(joint.causes[0].alone, [Some(1.0), None]);
+    }
+
+    #[test]
+    fn a_cause_that_would_show_and_does_not_is_less_probable() {
+        let a = belief(&["A1"], &[(&[], 0.1), (&["A1"], 0.9)]);
+        let b = belief(&["A1"], &[(&[], 0.999), (&["A1"], 0.001)]);
+        let joint = joint(&[&a, &b]);
+        assert!(joint.probability(&at("A1")) < 0.6, "{joint:?}");
+    }
+}

@@ -33,6 +33,35 @@ pub fn probability(p: f64) -> String {
     }
 }
 
+/// Candidates that cannot be told apart: `lever arm or cosine error at A3`, `joint damping at A3 or A5`.
+pub fn candidates(group: &Group) -> String {
+    let same = |all: &[&str]| all.windows(2).all(|pair| pair[0] == pair[1]);
+    let sites: Vec<&str> = group.sites.iter().map(String::as_str).collect();
+    let effects: Vec<String> = group.effects.iter().map(|e| spoken(e)).collect();
+    let places: Vec<String> = sites.iter().map(|s| place(s)).collect();
+    match (same(&group.effects), same(&sites), places.first()) {
+        (true, false, _) => format!("{} at {}", effects[0], either(&places)),
+        (_, true, Some(site)) => format!("{} at {site}", either(&effects)),
+        _ => {
+            let pairs = effects.iter().zip(&places);
+            either(
+                &pairs
+                    .map(|(e, s)| format!("{e} at {s}"))
+                    .collect::<Vec<_>>(),
+            )
+        }
+    }
+}
+
+/// `a`, `a or b`, `a, b or c`.
+fn either(all: &[String]) -> String {
+    match all {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} or {last}", first.join(", ")),
+    }
+}
+
 /// How much is left, and what the noise is like.
 pub fn left(answer: &Answer) -> String {
     let percent = 100.0 * answer.unexplained.share_of_variance;
@@ -89,7 +118,7 @@ fn of_cause(cause: &Cause, numbered: &str, unit: &str) -> String {
 
 fn of_group(group: &Group, unit: &str) -> String {
     let one_site = group.sites.windows(2).all(|pair| pair[0] == pair[1]);
-    let candidates: Vec<String> = group
+    let told: Vec<String> = group
         .effects
         .iter()
         .zip(&group.sites)
@@ -104,7 +133,7 @@ fn of_group(group: &Group, unit: &str) -> String {
     };
     format!(
         "These data cannot tell {}{site}; either {}. What would tell: {}.",
-        candidates.join(" from "),
+        told.join(" from "),
         of_gain(&group.gain, unit),
         group.would_tell
     )
@@ -140,14 +169,16 @@ fn amount(value: f64, unit: &str) -> String {
 }
 
 /// A site as words: the axes have names, the rest are things.
-fn place(site: &str) -> String {
-    match site.starts_with(char::is_lowercase) {
-        true => format!("the {site}"),
-        false => site.to_string(),
+pub fn place(site: &str) -> String {
+    let name = site.trim_end_matches(|c: char| c.is_ascii_digit());
+    match (site.starts_with(char::is_lowercase), &site[name.len()..]) {
+        (true, "") => format!("the {site}"),
+        (true, number) => format!("{name} {number}"),
+        (false, _) => site.to_string(),
     }
 }
 
 /// A name of the table as words.
-fn spoken(name: &str) -> String {
+pub fn spoken(name: &str) -> String {
     name.replace('_', " ")
 }

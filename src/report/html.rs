@@ -214,11 +214,19 @@ impl Writer {
             let class = flush(table, k);
             let _ = match k {
                 0 => write!(self.out, "<th scope=\"row\"{class}>{text}</th>"),
+                _ if class.is_empty() && is_word(&text) => {
+                    write!(self.out, "<td class=\"word\">{text}</td>")
+                }
                 _ => write!(self.out, "<td{class}>{text}</td>"),
             };
         }
         self.line("</tr>");
     }
+}
+
+/// Whether a cell is one short word, as `A1-tilt`, that must not be broken.
+fn is_word(text: &str) -> bool {
+    (1..=12).contains(&text.len()) && !text.contains(' ')
 }
 
 /// A file name as a relative link: signs that mean something there are encoded.

@@ -81,7 +81,11 @@ pub fn prefix(largest: f64, unit: &str) -> (f64, String) {
     // A value that rounds up to 1000 belongs to the next prefix.
     let power = magnitude(largest, 4).div_euclid(3) * 3;
     match PREFIXES.iter().find(|(exponent, _)| *exponent == power) {
-        Some((exponent, sign)) => (ten(-exponent), format!("{sign}{unit}")),
+        Some((exponent, sign)) => {
+            let inside = unit.trim_start_matches('(');
+            let bracket = &unit[..unit.len() - inside.len()];
+            (ten(-exponent), format!("{bracket}{sign}{inside}"))
+        }
         None => plain,
     }
 }
@@ -97,6 +101,7 @@ const PREFIXES: [(i32, &str); 6] = [
 
 fn takes_prefix(unit: &str) -> bool {
     let starts = ["N", "m", "rad", "s", "Hz", "J", "W", "Pa", "V", "A"];
+    let unit = unit.trim_start_matches('(');
     let first = unit.split(['·', '/', '²', '³']).next().unwrap_or("");
     // k(m²) is not km²: a squared first unit takes no prefix.
     let powered = unit[first.len()..].starts_with(['²', '³']);

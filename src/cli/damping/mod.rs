@@ -97,10 +97,8 @@ enum Terms {
 fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let arguments: Arguments = parsed(matches);
     let damped = act(&arguments)?;
-    damped
-        .remarks()
-        .iter()
-        .for_each(|remark| tell(&format!("note: {remark}")));
+    let notes = [damped.remarks(), damped.passed_over()].concat();
+    notes.iter().for_each(|note| tell(&format!("note: {note}")));
     let written = match arguments.dry_run {
         true => Vec::new(),
         false => write::all(&damped)?,

@@ -25,8 +25,11 @@ pub fn page(damped: &Damped) -> Page {
     page.synthetic = damped.synthetic();
     let (tone, sentence) = verdict(damped);
     page = page.with(Block::verdict(tone, sentence));
-    for remark in damped.remarks() {
+    for remark in damped.remarks().into_iter().chain(damped.left_out()) {
         page = page.with(Block::verdict(Tone::Attention, remark));
+    }
+    for remark in damped.passed_over() {
+        page = page.with(Block::verdict(Tone::Neutral, remark));
     }
     page = page
         .with(Block::heading("Simulated beside measured"))

@@ -35,18 +35,31 @@ impl Damped {
             1 => remark.clone(),
             _ => format!("{}: {remark}", file_name(&test.path)),
         };
-        let mut all: Vec<String> = tests
+        tests
             .iter()
             .flat_map(|test| test.frf.remarks.iter().map(|r| named(test, r)))
-            .collect();
-        let left = self.input.passed_over.iter();
-        all.extend(left.map(|path| {
+            .collect()
+    }
+
+    /// Comparison tests of the campaign that were not taken.
+    pub fn passed_over(&self) -> Vec<String> {
+        let left = self.input.passed_over.iter().map(|path| path.display());
+        let said = left.map(|path| {
             format!(
-                "{} is a comparison test: name it after --frf to use it",
-                path.display()
+                "{path} is a comparison test and left out; `ident damping --frf {path}` tunes to it"
             )
-        }));
-        all
+        });
+        said.collect()
+    }
+
+    /// Hits that were left out, with why, in one sentence.
+    pub fn left_out(&self) -> Option<String> {
+        let hits = || self.input.tests.iter().flat_map(|test| &test.frf.screened);
+        let left: Vec<String> = hits()
+            .filter_map(|hit| Some(format!("{} {} ({})", hit.direction, hit.hit, hit.why()?)))
+            .collect();
+        let count = format!("{} of {} hits are left out", left.len(), hits().count());
+        (!left.is_empty()).then(|| format!("{count}: {}.", left.join("; ")))
     }
 
     /// Whether something needs attention: a hit left out, a remark, an FRF that is not met.
@@ -136,7 +149,10 @@ impl Damped {
                 "band_Hz": [self.request.from_hz, self.request.settings.band_hz],
             }),
         );
-        map.insert("remarks".into(), json!(self.remarks()));
+        map.insert(
+            "remarks".into(),
+            json!([self.remarks(), self.passed_over()].concat()),
+        );
         map
     }
 

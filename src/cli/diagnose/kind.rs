@@ -60,6 +60,10 @@ pub trait Diagnosed: Send + Sync {
     fn remarks(&self) -> Vec<String> {
         Vec::new()
     }
+    /// What this measurement could not have shown: one sentence.
+    fn unseen(&self) -> Option<String> {
+        None
+    }
     /// What this kind adds to the common JSON.
     fn more(&self) -> Map<String, Value> {
         Map::new()

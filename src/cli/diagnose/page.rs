@@ -3,7 +3,7 @@
 
 use super::kind::Diagnosed;
 use super::tables::{candidates_table, causes_table};
-use crate::findings::sentence::{left, sentence};
+use crate::findings::sentence::{candidates, left, sentence};
 use crate::findings::{Answer, Verdict};
 use crate::sheet::page::{Block, Page, Tone};
 
@@ -45,12 +45,8 @@ fn why(mut page: Page, answer: &Answer) -> Page {
         page = page.with(Block::heading("What to measure next"));
     }
     for group in &answer.groups {
-        let said = format!(
-            "To tell {}: {}.",
-            group.effects.join(" from "),
-            group.would_tell
-        );
-        page = page.with(Block::text(said));
+        let said = format!("{}: {}.", candidates(group), group.would_tell);
+        page = page.with(Block::text(format!("To tell apart {said}")));
     }
     if !answer.candidates.is_empty() {
         page = page
@@ -67,5 +63,16 @@ pub fn tone(verdict: Verdict) -> Tone {
         Verdict::Explained => Tone::Neutral,
         Verdict::PartlyExplained | Verdict::CannotTell => Tone::Attention,
         Verdict::UnknownCause => Tone::Bad,
+    }
+}
+
+/// A verdict in words.
+pub fn spoken(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Sufficient => "the simulation is right",
+        Verdict::Explained => "explained",
+        Verdict::PartlyExplained => "partly explained",
+        Verdict::UnknownCause => "unknown cause",
+        Verdict::CannotTell => "not told apart",
     }
 }

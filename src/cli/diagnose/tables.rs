@@ -1,8 +1,8 @@
 //! The tables of an answer.
 
-use crate::findings::Answer;
 use crate::findings::gain::Gain;
-use crate::findings::sentence::probability;
+use crate::findings::sentence::{candidates, probability, spoken};
+use crate::findings::{Answer, Cause};
 use crate::sheet::number::engineering;
 use crate::sheet::table::Table;
 
@@ -21,21 +21,11 @@ pub fn causes_table(answer: &Answer) -> Table {
         Table::new("Causes, with the error on data held out of the fit", header).numeric([2, 4, 5]);
     let unit = answer.unit;
     for cause in &answer.causes {
-        let parameters: Vec<String> = cause
-            .parameters
-            .iter()
-            .map(|(name, value, unit)| {
-                format!(
-                    "{name} {}",
-                    engineering(*value, 3, if *unit == "1" { "" } else { unit })
-                )
-            })
-            .collect();
         table.push([
-            cause.effect.to_string(),
+            spoken(cause.effect),
             cause.site.clone(),
             probability(cause.probability),
-            parameters.join(", "),
+            amounts(cause),
             engineering(cause.gain.before, 3, unit),
             engineering(cause.gain.after, 3, unit),
             reduction(&cause.gain),
@@ -43,7 +33,7 @@ pub fn causes_table(answer: &Answer) -> Table {
     }
     for group in &answer.groups {
         table.push([
-            format!("one of {}", group.effects.join(", ")),
+            candidates(group),
             distinct(&group.sites),
             "not told apart".into(),
             String::new(),
@@ -61,7 +51,18 @@ fn distinct(sites: &[String]) -> String {
     sites.join(", ")
 }
 
-fn reduction(gain: &Gain) -> String {
+/// The parameters of a cause, as `gap 216 µrad, contact load 7.57 N·m`.
+pub fn amounts(cause: &Cause) -> String {
+    let amount = |(name, value, unit): &(&str, f64, &str)| {
+        let unit = if *unit == "1" { "" } else { unit };
+        format!("{} {}", spoken(name), engineering(*value, 3, unit))
+    };
+    let amounts: Vec<String> = cause.parameters.iter().map(amount).collect();
+    amounts.join(", ")
+}
+
+/// What naming a cause gains, as `91.0 % [90.5, 91.4]`.
+pub fn reduction(gain: &Gain) -> String {
     format!(
         "{:.1} % [{:.1}, {:.1}]",
         gain.reduction_percent, gain.ci95_percent[0], gain.ci95_percent[1]
@@ -79,7 +80,7 @@ pub fn candidates_table(answer: &Answer) -> Table {
         let name = if causes.is_empty() {
             "none".to_string()
         } else {
-            causes.join(" + ")
+            spoken(&causes.join(" + "))
         };
         table.push([
             name,

@@ -3,7 +3,8 @@
 use super::kind::{Diagnosed, Source};
 use super::workspace_figures as figures;
 use crate::findings::belief::Belief;
-use crate::findings::workspace::{WorkspaceDiagnosis, diagnose};
+use crate::findings::sentence::spoken;
+use crate::findings::workspace::{Limit, WorkspaceDiagnosis, diagnose};
 use crate::findings::{Answer, Verdict};
 use crate::fit::force_steps::Setup;
 use crate::fit::validation::mean_and_max;
@@ -13,6 +14,7 @@ use crate::measurement::workspace_test::{DIRECTIONS, WorkspaceTest};
 use crate::robot::load::{Loaded, load};
 use crate::robot::{Robot, check, write};
 use crate::sheet::chart::Chart;
+use crate::sheet::number::significant;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
@@ -115,9 +117,27 @@ impl Diagnosed for Workspace {
         Ok(changed.then(|| self.extended()))
     }
 
+    fn unseen(&self) -> Option<String> {
+        let limits = self.found.limits.iter();
+        let said: Vec<String> = limits.map(unnoticed).collect();
+        (!said.is_empty()).then(|| {
+            format!(
+                "what these points hardly load may be wrong without a sign: {}.",
+                said.join(", ")
+            )
+        })
+    }
+
+    fn remarks(&self) -> Vec<String> {
+        let said = self.unseen();
+        said.map(|said| said.replacen('w', "W", 1))
+            .into_iter()
+            .collect()
+    }
+
     fn more(&self) -> Map<String, Value> {
         let mut map = Map::new();
-        let limit = |l: &crate::findings::workspace::Limit| json!({"effect": l.effect, "site": l.site, "unnoticed_excess_of_compliance": l.unnoticed});
+        let limit = |l: &Limit| json!({"effect": l.effect, "site": l.site, "unnoticed_excess_of_compliance": l.known()});
         let limits = self.found.limits.iter().map(limit);
         map.insert("limits".into(), Value::Array(limits.collect()));
         let error = |d: usize| {
@@ -165,6 +185,15 @@ impl Workspace {
         let all = self.found.shapes.setups.iter();
         all.filter(|s| s.direction == direction).collect()
     }
+}
+
+/// `drive stiffness at A4 (up to 2.7 times as soft)`.
+fn unnoticed(limit: &Limit) -> String {
+    let extent = match limit.known() {
+        Some(excess) => format!("up to {} times as soft", significant(1.0 + excess, 2)),
+        None => "however soft".into(),
+    };
+    format!("{} at {} ({extent})", spoken(limit.effect), limit.site)
 }
 
 /// Mean error of the simulated stiffness along the force, %, by direction.

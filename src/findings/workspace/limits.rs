@@ -15,6 +15,16 @@ pub struct Limit {
     pub unnoticed: f64,
 }
 
+/// No spring of a robot that still stands is this many times too soft.
+const ANY: f64 = 1e3;
+
+impl Limit {
+    /// The excess from which on it would be seen; `None` if these points would never show it.
+    pub fn known(&self) -> Option<f64> {
+        (self.unnoticed < ANY).then_some(self.unnoticed)
+    }
+}
+
 /// Nats that a cause must explain before it is named, besides its own price of freedom.
 const NATS: f64 = 6.0;
 /// Worth telling: a compliance may be this much too large unnoticed.

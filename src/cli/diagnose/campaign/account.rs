@@ -18,6 +18,7 @@ pub fn account(campaign: &Campaign) -> String {
     );
     said.push_str(&text::indented(&campaign.sentence(), 2));
     said.push_str(&format!("\n{}", text::table(&tables::overview(campaign))));
+    said.push_str(&format!("\n{}", text::table(&tables::causes(campaign))));
     if let Some(joint) = campaign.joined() {
         said.push_str(&format!("\n{}", text::table(&tables::together(joint))));
         let settled = campaign.settled();
@@ -34,5 +35,9 @@ pub fn account(campaign: &Campaign) -> String {
         said.push_str(&format!("\n{}\n", one.stem()));
         said.extend(sentences(answer).iter().map(|s| text::indented(s, 2)));
     }
+    if !campaign.remarks.is_empty() {
+        said.push('\n');
+    }
+    said.extend(campaign.remarks.iter().map(|s| text::indented(s, 0)));
     said
 }

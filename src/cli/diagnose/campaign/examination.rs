@@ -1,8 +1,9 @@
 //! Every file of a campaign diagnosed, and each held against the others.
 
-use super::Campaign;
+use super::{Campaign, remarks};
 use crate::cli::diagnose::One;
 use crate::cli::diagnose::kind::{Diagnosed, KINDS, kind};
+use crate::cli::diagnose::next::Proposal;
 use crate::cli::progress::Progress;
 use crate::findings::campaign::{Check, verdict};
 use crate::findings::joint::Joint;
@@ -48,10 +49,17 @@ pub fn examine(place: &Place, progress: bool) -> Outcome<Campaign> {
     progress.finish();
     let files = files.into_iter().collect::<Outcome<Vec<One>>>()?;
     let checks = checks(&files);
+    let (next, refused) = match Proposal::of_campaign(place, &files) {
+        Ok(next) => (next, None),
+        Err(problem) => (None, Some(format!("No set-ups are planned: {problem}"))),
+    };
+    let closed = remarks::closed_gaps(&files, &tests);
     let believed = files.iter();
     let believed = believed.filter_map(|one| Some((one.stem(), one.found.belief()?)));
     let joint = Joint::of(&believed.collect::<Vec<_>>());
     Ok(Campaign {
+        next,
+        remarks: closed.into_iter().chain(refused).collect(),
         verdict: verdict(
             files.iter().map(|one| one.found.answer()),
             &checks,

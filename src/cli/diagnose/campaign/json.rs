@@ -2,6 +2,7 @@
 
 use super::Campaign;
 use crate::cli::diagnose::One;
+use crate::cli::diagnose::next::setups;
 use crate::findings::belief::Place;
 use crate::findings::campaign::Check;
 use crate::findings::joint::{Joint, Together};
@@ -44,6 +45,9 @@ pub fn body(campaign: &Campaign, dry: bool) -> Outcome<Map<String, Value>> {
         "checks".into(),
         campaign.checks.iter().map(check_json).collect(),
     );
+    map.insert("remarks".into(), json!(campaign.remarks));
+    let next = campaign.next.as_ref();
+    map.insert("next".into(), json!(next.map(|next| setups(&next.plan))));
     map.insert("experiments".into(), Value::Array(experiments));
     let robot = campaign
         .robot

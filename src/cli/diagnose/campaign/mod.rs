@@ -5,6 +5,8 @@ mod errors;
 mod examination;
 mod json;
 mod page;
+mod remarks;
+mod sentence;
 mod tables;
 
 pub use account::account;
@@ -13,12 +15,13 @@ pub use json::body;
 pub use page::story;
 
 use super::One;
+use super::next::Proposal;
 use crate::cli::Ending;
 use crate::cli::chapter::Chapter;
 use crate::findings::belief;
 use crate::findings::campaign::Check;
 use crate::findings::joint::Joint;
-use crate::findings::sentence::probability;
+use crate::findings::sentence::{candidates, place, probability, spoken};
 use crate::findings::{Group, Verdict};
 use crate::ground::problem::Outcome;
 use crate::measurement::workspace::Place;
@@ -39,6 +42,10 @@ pub struct Campaign {
     pub robot: Option<Robot>,
     /// The verdict on all.
     pub verdict: Verdict,
+    /// What to measure next on the whole robot; `None` where no file names it.
+    pub next: Option<Proposal>,
+    /// What a reader should know beside the causes, one sentence each.
+    pub remarks: Vec<String>,
 }
 
 impl Campaign {
@@ -78,9 +85,10 @@ impl Campaign {
         let said = groups.filter_map(|(stem, group)| {
             let ((effect, site), p) = self.told(group)?;
             Some(format!(
-                "{stem} alone cannot tell {}; all tests of the robot together say {} at {site} ({}).",
-                places(group).join(" from "),
-                effect.replace('_', " "),
+                "{stem} alone cannot tell {}; all tests of the robot together say {} at {} ({}).",
+                candidates(group),
+                spoken(effect),
+                place(&site),
                 probability(p)
             ))
         });
@@ -99,46 +107,10 @@ impl Campaign {
         }
     }
 
-    /// The verdict in one sentence.
+    /// The verdict in a sentence or three.
     pub fn sentence(&self) -> String {
-        let wrong = self
-            .files
-            .iter()
-            .filter(|one| one.found.answer().verdict != Verdict::Sufficient);
-        let wrong: Vec<String> = wrong.map(One::stem).collect();
-        let said = match wrong.len() {
-            0 => format!(
-                "The simulation agrees with all {} experiments to within their noise.",
-                self.files.len()
-            ),
-            n => format!(
-                "The simulation misses {n} of {} experiments{}.",
-                self.files.len(),
-                match wrong.len() < self.files.len() {
-                    true => format!(": {}", wrong.join(", ")),
-                    false => String::new(),
-                }
-            ),
-        };
-        let count = |word: &str| {
-            let checks = self.checks.iter();
-            checks.filter(|check| check.word() == word).count()
-        };
-        match (count("confirmed"), count("contradicted")) {
-            (0, 0) => said,
-            (good, bad) => format!(
-                "{said} Of what one experiment predicts for another, {good} predictions are confirmed and {bad} contradicted."
-            ),
-        }
+        sentence::sentence(self)
     }
-}
-
-/// The members of a group, as `tilt_stiffness at A3-tilt`.
-fn places(group: &Group) -> Vec<String> {
-    let members = group.effects.iter().zip(&group.sites);
-    members
-        .map(|(e, site)| format!("{} at {site}", e.replace('_', " ")))
-        .collect()
 }
 
 /// Diagnoses a campaign, and writes what that found.

@@ -1,11 +1,12 @@
 //! The tables of a campaign.
 
 use super::{Campaign, errors};
-use crate::findings::Answer;
-use crate::findings::campaign::named;
+use crate::cli::diagnose::page;
+use crate::cli::diagnose::tables::{amounts, reduction};
+use crate::findings::Cause;
 use crate::findings::joint::Joint;
-use crate::findings::sentence::probability;
-use crate::sheet::number::engineering;
+use crate::findings::sentence::{candidates, place, probability, spoken};
+use crate::sheet::number::{engineering, significant};
 use crate::sheet::table::Table;
 
 /// One line per file.
@@ -13,32 +14,86 @@ pub fn overview(campaign: &Campaign) -> Table {
     let header = [
         "experiment",
         "verdict",
-        "causes",
         "error",
         "noise",
+        "error / noise",
         "with causes",
     ];
-    let mut table = Table::new("What each experiment says", header).numeric([3, 4, 5]);
+    let title = "What each experiment says";
+    let mut table = Table::new(title, header).numeric([2, 3, 4, 5]);
     for one in &campaign.files {
-        table.push(line(&one.stem(), one.found.answer()));
+        let answer = one.found.answer();
+        let (error, noise) = (answer.discrepancy.rms, answer.discrepancy.noise_rms);
+        let after = errors::held_out(answer);
+        table.push([
+            one.stem(),
+            page::spoken(answer.verdict).to_string(),
+            engineering(error, 3, answer.unit),
+            engineering(noise, 2, answer.unit),
+            significant(error / noise, 2),
+            after.map_or(String::new(), |after| engineering(after, 3, answer.unit)),
+        ]);
     }
-    table.noted("error: rms of measured − simulated; with causes: on data held out of the fit; groups that cannot be told apart stand with their first member and a question mark")
+    table.noted("error: rms of measured − simulated; with causes: of that what is left on data held out of the fit")
+}
+
+/// Every cause that was named and every question left open, with how sure and what it gained.
+pub fn causes(campaign: &Campaign) -> Table {
+    let header = [
+        "cause",
+        "amount",
+        "experiment",
+        "probability",
+        "reduction [95 %]",
+    ];
+    let mut table = Table::new("Causes, and what each gained", header).numeric([3, 4]);
+    for one in &campaign.files {
+        let answer = one.found.answer();
+        for cause in &answer.causes {
+            table.push([
+                format!("{} at {}", spoken(cause.effect), place(&cause.site)),
+                amount(cause),
+                one.stem(),
+                probability(cause.probability),
+                reduction(&cause.gain),
+            ]);
+        }
+        for group in &answer.groups {
+            table.push([
+                candidates(group),
+                String::new(),
+                one.stem(),
+                "not told apart".into(),
+                reduction(&group.gain),
+            ]);
+        }
+    }
+    table.noted("reduction: of the error on data held out of the fit, by naming the cause, with its 95 % interval")
+}
+
+/// The leading amount of a cause; the others stand with its experiment.
+fn amount(cause: &Cause) -> String {
+    let leading = Cause {
+        parameters: cause.parameters.iter().take(1).copied().collect(),
+        ..cause.clone()
+    };
+    amounts(&leading)
 }
 
 /// Causes as the tests of the whole robot see them alone and together.
 pub fn together(joint: &Joint) -> Table {
-    let header = ["cause", "site"].map(String::from).into_iter();
+    let header = ["cause".to_string()].into_iter();
     let header = header.chain(joint.tests.iter().cloned());
     let header = header.chain(["together".to_string()]);
     let mut table = Table::new("All tests of the whole robot together", header);
-    table = table.numeric(2..3 + joint.tests.len());
+    table = table.numeric(1..2 + joint.tests.len());
     for cause in &joint.causes {
-        let alone = cause
-            .alone
-            .iter()
-            .map(|p| p.map_or("not seen".into(), probability));
-        let line = [cause.place.0.to_string(), cause.place.1.clone()].into_iter();
-        table.push(line.chain(alone).chain([probability(cause.probability)]));
+        let (effect, site) = &cause.place;
+        let alone = cause.alone.iter();
+        let alone = alone.map(|p| p.map_or("not seen".into(), probability));
+        let named = format!("{} at {}", spoken(effect), place(site));
+        let line = [named].into_iter().chain(alone);
+        table.push(line.chain([probability(cause.probability)]));
     }
     table.noted("probability that the cause is present, by each test alone and with the evidence of all multiplied; not seen: the test would not show it")
 }
@@ -58,7 +113,7 @@ pub fn checked(campaign: &Campaign) -> Table {
     for check in &campaign.checks {
         table.push([
             check.from.clone(),
-            check.causes.join(", "),
+            spoken(&check.causes.join(", ")),
             check.against.clone(),
             engineering(check.before, 3, check.unit),
             engineering(check.after, 3, check.unit),
@@ -66,29 +121,4 @@ pub fn checked(campaign: &Campaign) -> Table {
         ]);
     }
     table.noted("nothing was fitted to the experiment it is held against")
-}
-
-fn line(stem: &str, answer: &Answer) -> [String; 6] {
-    let after = errors::held_out(answer);
-    let unsure = answer
-        .groups
-        .iter()
-        .filter_map(|g| g.effects.first().map(|e| format!("{e}?")));
-    let causes: Vec<String> = match answer.groups.is_empty() {
-        true => named(answer),
-        false => answer
-            .causes
-            .iter()
-            .map(|c| format!("{} at {}", c.effect, c.site))
-            .chain(unsure)
-            .collect(),
-    };
-    [
-        stem.to_string(),
-        answer.verdict.name().to_string(),
-        causes.join(", "),
-        engineering(answer.discrepancy.rms, 3, answer.unit),
-        engineering(answer.discrepancy.noise_rms, 2, answer.unit),
-        after.map_or(String::new(), |after| engineering(after, 3, answer.unit)),
-    ]
 }

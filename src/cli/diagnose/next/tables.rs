@@ -119,6 +119,7 @@ fn words(site: &str) -> String {
         (_, _, "tilt") => format!("{place} tilt"),
         ("base", _, axis @ ("x" | "y" | "z")) => format!("foundation about {axis}"),
         ("tool", _, axis @ ("x" | "y" | "z")) => format!("tool about {axis}"),
+        ("tool-across", _, axis @ ("x" | "y" | "z")) => format!("tool across its length, {axis}"),
         (_, Some(i), axis @ ("x" | "y" | "z")) => format!("link {i} about {axis}"),
         _ => site.to_string(),
     }
@@ -130,12 +131,21 @@ mod tests {
 
     #[test]
     fn places_have_names() {
-        let said = ["A1", "A6-tilt", "base-z", "link2-x", "spindle-holder"].map(words);
+        let said = [
+            "A1",
+            "A6-tilt",
+            "base-z",
+            "link2-x",
+            "tool-across-x",
+            "spindle-holder",
+        ]
+        .map(words);
         let wanted = [
             "A1 drive",
             "A6 tilt",
             "foundation about z",
             "link 2 about x",
+            "tool across its length, x",
             "spindle-holder",
         ];
         assert_eq!(said, wanted);
