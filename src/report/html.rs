@@ -210,7 +210,9 @@ impl Writer {
     fn row(&mut self, row: &[String], table: &Table) {
         self.out.push_str("<tr>");
         for k in 0..table.columns() {
-            let text = escape(row.get(k).map_or("", String::as_str));
+            // No line breaks between a number and its sign.
+            let text = row.get(k).map_or("", String::as_str);
+            let text = escape(&text.replace(" %", "\u{a0}%")).into_owned();
             let class = flush(table, k);
             let _ = match k {
                 0 => write!(self.out, "<th scope=\"row\"{class}>{text}</th>"),

@@ -143,6 +143,8 @@ pub struct Panel {
     pub note: Option<String>,
     /// A unit is as long on either axis: a map, not a curve.
     pub equal: bool,
+    /// Short names of places in the panel, beside them: x, y, name.
+    pub names: Vec<([f64; 2], String)>,
 }
 
 impl Panel {
@@ -173,6 +175,13 @@ impl Panel {
     #[must_use]
     pub fn equal_axes(mut self) -> Self {
         self.equal = true;
+        self
+    }
+
+    /// The same panel with the name of a place beside it.
+    #[must_use]
+    pub fn named(mut self, place: [f64; 2], name: impl Into<String>) -> Self {
+        self.names.push((place, name.into()));
         self
     }
 

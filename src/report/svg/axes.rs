@@ -51,7 +51,23 @@ pub(super) fn above(placed: &Placed) -> Outcome<String> {
     }
     vertical(placed, &mut out);
     remarks(placed, &mut out);
+    names(placed, &mut out);
     Ok(out)
+}
+
+/// Names of places, to the upper right of each.
+fn names(placed: &Placed, out: &mut String) {
+    let frame = &placed.frame;
+    if placed.panel.names.is_empty() {
+        return;
+    }
+    // A white rim keeps a name readable on a line.
+    out.push_str("<g paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"4\">\n");
+    for ([x, y], name) in &placed.panel.names {
+        let (x, y) = (frame.place_x(*x) + 8.0, frame.place_y(*y) - 6.0);
+        Letters::new(name, x, y, NORMAL).bold().write(out);
+    }
+    out.push_str("</g>\n");
 }
 
 fn frame(placed: &Placed) -> Outcome<String> {

@@ -21,8 +21,8 @@ pub fn poses(robot: &Robot, plan: &Plan, synthetic: bool) -> Chart {
         _ => "The set-ups".into(),
     };
     let caption = format!(
-        "{which} as lines from the foot over the joints to where the force acts: from the side above, \
-         from above below. Dashed: direction of the load. Large markers: place of the sensor."
+        "{which} as lines from the foot over the joints to where the force acts, with their rank there: from \
+         the side above, from above below. Dashed: direction of the load. Large markers: place of the sensor."
     );
     let poses: Vec<(String, Skeleton, usize)> = (0..shown)
         .map(|i| {
@@ -45,6 +45,9 @@ fn view(poses: &[(String, Skeleton, usize)], [h, v]: [usize; 2], note: &str) -> 
     for (name, skeleton, _) in poses {
         let line = skeleton.line.iter().map(seen).collect();
         panel = panel.with(Series::line(name, line).emphasised());
+    }
+    for (rank, (_, skeleton, _)) in poses.iter().enumerate() {
+        panel = panel.named(seen(&skeleton.tip()), (rank + 1).to_string());
     }
     let joints = poses.iter().flat_map(|(_, skeleton, _)| &skeleton.line);
     let loads = poses.iter().flat_map(|(_, skeleton, direction)| {
