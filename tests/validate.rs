@@ -490,3 +490,27 @@ fn the_campaign_is_found_or_asked_for() {
     let nowhere = tempfile::tempdir().unwrap();
     assert_eq!(ident(nowhere.path(), &["validate"]).status.code(), Some(2));
 }
+
+/// One cycle of two levels fits every line exactly; the stated noise stands in for the scatter.
+#[test]
+fn two_levels_of_one_cycle_give_stiffness_by_the_stated_noise() {
+    let mut seen = std::collections::BTreeSet::new();
+    let mut kept = |line: &&str| {
+        let cells: Vec<&str> = line.split(',').collect();
+        let level = cells.get(3).copied().unwrap_or_default();
+        let row = line.starts_with(|c: char| c.is_ascii_digit());
+        let first = ["0.0", "750.0"].contains(&level) && cells[2] == "1";
+        !row || (first && seen.insert(cells[..4].join(",")))
+    };
+    let text = example();
+    let text: Vec<&str> = text.lines().filter(|line| kept(line)).collect();
+    let bench = bench(&(text.join("\n") + "\n"));
+    let output = ident(bench.path(), &["validate", "--json", "--dry-run"]);
+    let said: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let points = said["points"].as_array().unwrap();
+    assert_eq!(points.len(), 27);
+    for point in points {
+        assert_eq!(point["rows"], 2);
+        assert_eq!(point["status"], "identified", "{point}");
+    }
+}
