@@ -428,7 +428,7 @@ fn bad_input_is_refused_with_place_and_remedy() {
             ":6: ",
             "fraction",
         ),
-        (swap("dx_mm", "dx_N"), "`dx_N`", "expected Length"),
+        (swap("dx_mm", "dx_N"), "`dx_N`", "expected length"),
         (swap("force_N", "load_N"), "", "no column `force_N`"),
         (
             swap("1,x,1,0.0", "1,u,1,0.0"),

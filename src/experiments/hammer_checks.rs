@@ -1,12 +1,15 @@
 //! Hammer tests: what a linear, passive, reciprocal structure with well mounted sensors would show.
 
 use super::hammer_frf::{HammerFrf, InputFrf};
+use super::hammer_variance::variance;
 use crate::signal::frf::{Estimator, HitSpectra};
 use crate::signal::jackknife::t95;
 use rustfft::num_complex::Complex64;
 
 /// Relative difference of `Hij` and `Hji` that is worth a remark.
 const RECIPROCITY: f64 = 0.25;
+/// ... and that is this many times what the scatter of the hits makes of it.
+const CLEAR: f64 = 2.0;
 /// Relative change of the FRF from soft to hard hits that is worth a remark.
 const LINEARITY: f64 = 0.05;
 /// Remarks on sensor signs, reciprocity and linearity from 1 Hz up to `band_hz`.
@@ -14,6 +17,7 @@ pub fn remarks(frf: &HammerFrf, band_hz: f64) -> Vec<String> {
     let inside = |k: &usize| (1.0..=band_hz).contains(&frf.frequency_hz[*k]);
     let lines: Vec<usize> = (1..frf.frequency_hz.len()).filter(inside).collect();
     let mut remarks: Vec<String> = Vec::new();
+    remarks.extend(silent(frf));
     for (i, input) in frf.inputs.iter().enumerate() {
         remarks.extend(upside_down(frf, input, &lines));
         remarks.extend(nonlinear(input, &lines));
@@ -23,6 +27,26 @@ pub fn remarks(frf: &HammerFrf, band_hz: f64) -> Vec<String> {
     remarks
 }
 
+/// A channel that never moves.
+fn silent(frf: &HammerFrf) -> Option<String> {
+    let moves = |o: usize| {
+        let hits = frf.inputs.iter().flat_map(|input| &input.hits);
+        let lines = hits.flat_map(|hit| &hit.responses[o]);
+        lines.into_iter().any(|line| line.norm_sqr() > 0.0)
+    };
+    let names = frf.outputs.iter().enumerate();
+    let dead: Vec<String> = names
+        .filter(|(o, _)| !moves(*o))
+        .map(|(_, name)| format!("a{name}"))
+        .collect();
+    (!dead.is_empty()).then(|| {
+        format!(
+            "{}: nothing but zeros: dead, unplugged or not exported; leave the column out, or measure again",
+            dead.join(", ")
+        )
+    })
+}
+
 /// A passive structure takes up power: the imaginary part of its driving-point accelerance is
 /// positive, summed over the band. Negative: the sensor's sign is wrong.
 fn upside_down(frf: &HammerFrf, input: &InputFrf, lines: &[usize]) -> Option<String> {
@@ -30,7 +54,17 @@ fn upside_down(frf: &HammerFrf, input: &InputFrf, lines: &[usize]) -> Option<Str
     let cross = |k: &usize| input.sums.lines[output][*k].fx;
     let power: f64 = lines.iter().map(|k| cross(k).im).sum();
     let size: f64 = lines.iter().map(|k| cross(k).norm()).sum();
-    (power < -0.1 * size).then(|| {
+    let each = |hit: &HitSpectra| {
+        let own = lines.iter();
+        let own = own.map(|k| (hit.force[*k].conj() * hit.responses[output][*k]).im);
+        own.sum::<f64>()
+    };
+    let each: Vec<f64> = input.hits.iter().map(each).collect();
+    let clear = match each.len() {
+        0 | 1 => true,
+        n => mean(&each) + t95(n as f64 - 1.0) * stderr(&each) < 0.0,
+    };
+    (power < -0.1 * size && clear).then(|| {
         format!(
             "a{0}: the driving point gives out power (Im < 0): the sensor is mounted upside down, or the force has the wrong sign; change the sign of a{0} in the file",
             input.input
@@ -44,7 +78,14 @@ fn not_reciprocal(frf: &HammerFrf, a: &InputFrf, b: &InputFrf, lines: &[usize]) 
     let forward = a.frf(at_b, Estimator::H1);
     let backward = b.frf(at_a, Estimator::H1);
     let apart = distance(&forward, &backward, lines);
-    (apart > RECIPROCITY).then(|| {
+    let noise =
+        variance(a, at_b, lines).iter().sum::<f64>() + variance(b, at_a, lines).iter().sum::<f64>();
+    let size: f64 = lines
+        .iter()
+        .map(|k| forward[*k].norm_sqr() + backward[*k].norm_sqr())
+        .sum();
+    let noise = (2.0 * noise / size).sqrt();
+    (apart > RECIPROCITY && apart > CLEAR * noise).then(|| {
         format!(
             "H_{0}{1} and H_{1}{0} differ by {2:.0} %: hit the same point along the sensor's axes, or expect play or friction",
             a.input,
@@ -52,6 +93,17 @@ fn not_reciprocal(frf: &HammerFrf, a: &InputFrf, b: &InputFrf, lines: &[usize]) 
             100.0 * apart
         )
     })
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Standard error of the mean.
+fn stderr(values: &[f64]) -> f64 {
+    let (n, mean) = (values.len() as f64, mean(values));
+    let squares: f64 = values.iter().map(|v| (v - mean).powi(2)).sum();
+    (squares / (n * (n - 1.0))).sqrt()
 }
 
 /// Regresses the size of each hit's FRF on the logarithm of its force (Student's t at 95 %).

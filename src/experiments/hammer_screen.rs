@@ -11,8 +11,10 @@ use crate::signal::spectrum::lines_up_to;
 use crate::signal::trigger::Trigger;
 use rustfft::num_complex::Complex64;
 
-/// Angle, rad, beyond which a hit counts as struck in another direction (15 degrees).
+/// Angle, rad, beyond which a hit counts as struck in another direction (15 degrees), by so many standard
+/// errors.
 const OFF_AXIS: f64 = 0.26;
+const SURELY: f64 = 3.0;
 
 /// One hit and what became of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -135,12 +137,19 @@ fn judge_axes(hits: &mut [ScreenedHit], interval_s: f64, to_hz: f64) {
         .collect();
     loop {
         let angles = (0..hits.len()).filter_map(|i| Some((i, axis_angle(hits, &frfs, i)?)));
-        let worst = angles.max_by(|a, b| a.1.total_cmp(&b.1));
+        let worst = angles.max_by(|a, b| surely(a.1).total_cmp(&surely(b.1)));
         match worst {
-            Some((i, angle)) if angle > OFF_AXIS => hits[i].faults.push(Fault::OffAxis { angle }),
+            Some((i, found)) if surely(found) > OFF_AXIS => {
+                hits[i].faults.push(Fault::OffAxis { angle: found.0 })
+            }
             _ => return,
         }
     }
+}
+
+/// The least that an angle may be.
+fn surely((angle, stderr): (f64, f64)) -> f64 {
+    angle - SURELY * stderr
 }
 
 type Frf = Vec<Vec<Complex64>>;
@@ -151,8 +160,8 @@ fn ratios(hit: &ScreenedHit, interval_s: f64, to_hz: f64) -> Frf {
     (0..hit.responses.len()).map(|o| spectra.ratio(o)).collect()
 }
 
-/// The angle of hit `i`, told from at least two others in its direction.
-fn axis_angle(hits: &[ScreenedHit], frfs: &[Frf], i: usize) -> Option<f64> {
+/// The angle of hit `i` with its standard error, told from at least two others in its direction.
+fn axis_angle(hits: &[ScreenedHit], frfs: &[Frf], i: usize) -> Option<(f64, f64)> {
     let mean_of = |direction: &str, count: usize| {
         let same = |j: &usize| j != &i && hits[*j].used() && hits[*j].direction == direction;
         let fits = |j: &usize| frfs[*j][0].len() == frfs[i][0].len();

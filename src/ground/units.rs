@@ -25,6 +25,23 @@ pub enum Dimension {
     Temperature,
 }
 
+impl std::fmt::Display for Dimension {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Time => "time",
+            Self::Force => "force",
+            Self::Moment => "moment",
+            Self::Length => "length",
+            Self::Angle => "angle",
+            Self::Speed => "speed",
+            Self::AngularSpeed => "angular speed",
+            Self::Acceleration => "acceleration",
+            Self::Frequency => "frequency",
+            Self::Temperature => "temperature",
+        })
+    }
+}
+
 /// One unit: its spelling in a name, its dimension, its size in SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {

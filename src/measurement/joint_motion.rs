@@ -179,7 +179,7 @@ fn check_column(table: &Table, stem: &str, i: usize, dimension: Dimension) -> Ou
         )
         .at_line(header)),
         Some(column) if column.dimension != Some(dimension) => Err(Problem::new(
-            format!("measures no {dimension:?}"),
+            format!("measures no {dimension}"),
             format!("correct the unit in the name, as in `{stem}_{unit}_{i}`"),
         )
         .in_column(&column.name)

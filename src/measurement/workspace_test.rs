@@ -253,12 +253,7 @@ fn measured<'a>(table: &'a Table, stem: &str, wanted: Dimension) -> Outcome<Opti
     };
     match (&column.cells, column.dimension) {
         (Cells::Numbers(values), Some(found)) if found == wanted => Ok(Some(values)),
-        (_, found) => Err(Problem::new(
-            format!("is in a unit of {found:?}, expected {wanted:?}"),
-            "correct the unit at the end of the name, or swap the columns back",
-        )
-        .in_column(&column.name)
-        .at_line(table.first_line - 1)),
+        _ => Err(column.misplaced(wanted, table.first_line - 1)),
     }
 }
 

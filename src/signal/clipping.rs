@@ -18,8 +18,12 @@ pub fn clipped_above(record: &[f64]) -> bool {
     let middle = median(record);
     let height = highest - middle;
     let step = quantum(record, highest);
+    let noise = spread(record, middle);
+    if height > 8.0 * noise && blunt(record, [highest, height, noise]) {
+        return true;
+    }
     // Nothing stands out: noise or an unused channel.
-    if height <= 8.0 * spread(record, middle).max(step) {
+    if height <= 8.0 * noise.max(step) {
         return stands(record, highest, step) && height > 0.0 && many_levels(height, step);
     }
     stands(record, highest, step) || plateau(record, highest, step)
@@ -83,6 +87,62 @@ fn falls_steeply(record: &[f64], start: usize, length: usize, highest: f64, step
     fall > 6.0 * step
 }
 
+/// Equal samples on top of a pulse of few samples. Two of them a smooth peak has only where it lies midway
+/// between them: then the record falls alike on both sides, and on the next step by no more than twice as
+/// much (parabola) to half as much (sine squared) again; and noise of many digits makes no equal samples.
+/// Three of them it never has.
+fn blunt(record: &[f64], [highest, height, noise]: [f64; 3]) -> bool {
+    let upper = record
+        .iter()
+        .copied()
+        .filter(|v| highest - v < 0.5 * height);
+    let step = decimals(&upper.collect::<Vec<f64>>());
+    let top = |v: &f64| highest - v < 0.5 * step;
+    let Some(at) = record.iter().position(top) else {
+        return false;
+    };
+    let length = record[at..].iter().take_while(|v| top(v)).count();
+    let around = at
+        .checked_sub(2)
+        .and_then(|from| record.get(from..at + length + 2));
+    let Some([a, b, .., y, z]) = around else {
+        return false;
+    };
+    let falls = [highest - b, highest - y];
+    let further = [b - a, y - z];
+    let uneven = (falls[0] - falls[1]).abs() > UNEVEN * height;
+    let blunt = (0..2).any(|i| further[i] > BLUNT * falls[i]);
+    let steep = falls.into_iter().chain(further).fold(0.0, f64::max) > MANY * step;
+    let tied = noise > TIED * step;
+    length >= 2 && steep && (length > 2 || uneven || blunt || tied)
+}
+
+/// The power of ten that all values are multiples of; the rounding of floating-point numbers where there is
+/// none.
+fn decimals(record: &[f64]) -> f64 {
+    let largest = record.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let rounding = 1e-12 * largest;
+    let fits = |step: &f64| {
+        let off = |v: &f64| (v / step - (v / step).round()).abs() * step;
+        record.iter().all(|v| off(v) <= rounding)
+    };
+    let steps = (0..12).map(|k| 10.0_f64.powi(-k));
+    steps
+        .filter(|s| *s > rounding)
+        .find(fits)
+        .unwrap_or(rounding)
+}
+
+/// Equal samples above a fall of fewer steps than these are chance.
+const MANY: f64 = 1000.0;
+/// Difference of the falls on both sides, as a share of the height, that no smooth peak has.
+const UNEVEN: f64 = 0.1;
+/// How many times the first fall the next one may be.
+const BLUNT: f64 = 2.5;
+
+/// Noise of this many steps gives two samples the same value once in a hundred hits at most.
+const TIED: f64 = 50.0;
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -110,6 +170,41 @@ mod tests {
             }
             assert!(!clipped_above(&half_sine(samples)));
         }
+    }
+
+    /// A half sine of `samples` samples that starts `phase` samples after a sample.
+    fn shifted(samples: f64, phase: f64) -> Vec<f64> {
+        let mut record = vec![0.0; 400];
+        for i in 100..150 {
+            let t = (i as f64 - 100.0 - phase) / samples;
+            if (0.0..=1.0).contains(&t) {
+                record[i] = 250.0 * (std::f64::consts::PI * t).sin();
+            }
+        }
+        record
+    }
+
+    #[test]
+    fn a_pulse_of_few_samples_is_judged_by_its_pair() {
+        let phases = (0..20).map(|i| f64::from(i) / 20.0);
+        for phase in phases.clone() {
+            for samples in [4.0, 5.0, 6.5, 10.24] {
+                assert!(!clipped_above(&quantised(&shifted(samples, phase), 0.01)));
+                assert!(!clipped_above(&shifted(samples, phase)));
+            }
+        }
+        let cut = |phase: f64, at: f64| -> Vec<f64> {
+            let whole = shifted(5.0, phase).into_iter();
+            quantised(&whole.map(|v| v.min(at)).collect::<Vec<_>>(), 0.01)
+        };
+        let found = |at: f64| {
+            phases
+                .clone()
+                .filter(|p| clipped_above(&cut(*p, at)))
+                .count()
+        };
+        assert_eq!(found(150.0), 20);
+        assert!(found(200.0) >= 15, "{}", found(200.0));
     }
 
     #[test]

@@ -9,8 +9,9 @@ pub type Column = [Vec<Complex64>];
 /// Angle, rad, between a hit and its stated direction: the hit's own FRF is the sum of the FRFs of
 /// all directions, weighted with the cosines of the force. `own` is the FRF of the stated direction
 /// from the *other* hits, `across` those of the other directions. None without a second output or a
-/// second direction, or where the directions cannot be told apart.
-pub fn angle(hit: &Column, own: &Column, across: &[&Column]) -> Option<f64> {
+/// second direction, or where the directions cannot be told apart. With its standard error, rad, from what
+/// the sum leaves of the hit's FRF: where a direction answers weakly, noise looks like a force along it.
+pub fn angle(hit: &Column, own: &Column, across: &[&Column]) -> Option<(f64, f64)> {
     if hit.len() < 2 || across.is_empty() {
         return None;
     }
@@ -20,9 +21,14 @@ pub fn angle(hit: &Column, own: &Column, across: &[&Column]) -> Option<f64> {
         .collect();
     let target = DVector::from_vec(flattened(hit));
     let basis = DMatrix::from_fn(target.len(), columns.len(), |i, j| columns[j][i]);
-    let cosines = basis.svd(true, true).solve(&target, 1e-6).ok()?;
+    let cosines = basis.clone().svd(true, true).solve(&target, 1e-6).ok()?;
     let sideways = cosines.iter().skip(1).map(|c| c * c).sum::<f64>().sqrt();
-    Some(sideways.atan2(cosines[0]))
+    let freedom = target.len().checked_sub(columns.len() + 1)? as f64;
+    let variance = (&basis * &cosines - &target).norm_squared() / freedom;
+    let spread = (basis.transpose() * basis).pseudo_inverse(1e-300).ok()?;
+    let across: f64 = (1..columns.len()).map(|i| spread[(i, i)]).sum();
+    let stderr = (variance * across).sqrt() / sideways.hypot(cosines[0]);
+    Some((sideways.atan2(cosines[0]), stderr))
 }
 
 /// Real and imaginary parts of all outputs and lines, those that are numbers.
@@ -49,7 +55,8 @@ mod tests {
         let mixed: Vec<Vec<Complex64>> = (0..2)
             .map(|o| (0..9).map(|k| 0.8 * x[o][k] + 0.6 * y[o][k]).collect())
             .collect();
-        let found = angle(&mixed, &x, &[&y]).unwrap();
+        let (found, stderr) = angle(&mixed, &x, &[&y]).unwrap();
+        assert!(stderr < 1e-9);
         assert!((found - 0.6f64.atan2(0.8)).abs() < 1e-9);
     }
 }

@@ -25,7 +25,8 @@ impl Default for Trigger {
 }
 
 impl Trigger {
-    /// Sample ranges of equal length, one per hit, none holding the start of the next hit.
+    /// Sample ranges, one per hit, of equal length but for a last one that the record cuts short; none
+    /// holds the start of the next hit.
     pub fn segments(&self, force: &[f64], interval_s: f64) -> Vec<Range<usize>> {
         let samples = |seconds: f64| (seconds / interval_s).round() as usize;
         let onsets = self.onsets(force, samples(self.refractory_s));
@@ -35,8 +36,7 @@ impl Trigger {
         };
         let starts = onsets.iter().map(|onset| onset.saturating_sub(before));
         starts
-            .map(|start| start..start + length)
-            .filter(|segment| segment.end <= force.len())
+            .map(|start| start..(start + length).min(force.len()))
             .collect()
     }
 
@@ -81,6 +81,8 @@ mod tests {
         }
         let segments = Trigger::default().segments(&force, 1e-3);
         assert_eq!(segments, [950..3950, 3950..6950, 6950..9950]);
+        let cut = Trigger::default().segments(&force[..8000], 1e-3);
+        assert_eq!(cut, [950..3950, 3950..6950, 6950..8000]);
         assert!(Trigger::default().segments(&[0.0; 100], 1e-3).is_empty());
     }
 }

@@ -208,15 +208,7 @@ fn check_dimensions(table: &Table) -> Outcome<()> {
             continue;
         };
         if column.dimension != Some(*wanted) {
-            return Err(Problem::new(
-                format!(
-                    "is in a unit of {:?}, expected {wanted:?}",
-                    column.dimension.unwrap_or(*wanted)
-                ),
-                "correct the unit at the end of the name, or swap the columns back",
-            )
-            .in_column(&column.name)
-            .at_line(table.first_line - 1));
+            return Err(column.misplaced(*wanted, table.first_line - 1));
         }
     }
     Ok(())

@@ -30,6 +30,22 @@ pub struct Column {
     pub missing: usize,
 }
 
+impl Column {
+    /// What is wrong with a column that should measure `wanted`; `header` is the line of the names.
+    pub fn misplaced(&self, wanted: Dimension, header: usize) -> Problem {
+        let found = match self.dimension {
+            Some(found) => format!("has a unit of {found}"),
+            None => "has no unit".into(),
+        };
+        Problem::new(
+            format!("{found}, expected {wanted}"),
+            "correct the unit at the end of the name, or swap the columns back",
+        )
+        .in_column(&self.name)
+        .at_line(header)
+    }
+}
+
 /// Columns that carry no unit, and whether they hold words.
 const PLAIN: &[(&str, bool)] = &[
     ("direction", true),
