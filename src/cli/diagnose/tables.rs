@@ -1,6 +1,7 @@
 //! The tables of an answer.
 
 use crate::findings::Answer;
+use crate::findings::answer::{Cause, LIMIT};
 use crate::findings::gain::Gain;
 use crate::findings::sentence::probability;
 use crate::sheet::number::engineering;
@@ -21,16 +22,7 @@ pub fn causes_table(answer: &Answer) -> Table {
         Table::new("Causes, with the error on data held out of the fit", header).numeric([2, 4, 5]);
     let unit = answer.unit;
     for cause in &answer.causes {
-        let parameters: Vec<String> = cause
-            .parameters
-            .iter()
-            .map(|(name, value, unit)| {
-                format!(
-                    "{name} {}",
-                    engineering(*value, 3, if *unit == "1" { "" } else { unit })
-                )
-            })
-            .collect();
+        let parameters = parameters(cause);
         table.push([
             cause.effect.to_string(),
             cause.site.clone(),
@@ -53,6 +45,19 @@ pub fn causes_table(answer: &Answer) -> Table {
         ]);
     }
     table
+}
+
+/// The parameters of a cause as they are printed: one that is gone shows its limit in place of zero.
+fn parameters(cause: &Cause) -> Vec<String> {
+    let said = |(name, value, unit): &(&'static str, f64, &'static str)| {
+        let amount = |v: f64| engineering(v, 3, if *unit == "1" { "" } else { unit });
+        match (*value, cause.limit()) {
+            (0.0, Some(limit)) => format!("{name} < {}", amount(limit)),
+            _ => format!("{name} {}", amount(*value)),
+        }
+    };
+    let printed = cause.parameters.iter().filter(|(name, ..)| *name != LIMIT);
+    printed.map(said).collect()
 }
 
 fn distinct(sites: &[String]) -> String {
