@@ -41,6 +41,8 @@ const PLAUSIBLE: f64 = 3.0;
 const PER_EFFECT: usize = 4;
 /// Powers of the load on each branch.
 const POWERS: usize = 7;
+/// Powers of time with which the compliance changes.
+const AGEING: usize = 4;
 /// Slow functions of time.
 const SLOW: usize = 6;
 
@@ -222,6 +224,15 @@ fn branch_powers(data: &Observation) -> Vec<Vec<f64>> {
             columns.push(aged.collect());
         }
         columns.push(polynomial);
+    }
+    // a compliance that changes with time, at any pace
+    let age = |t: &f64| (2.0 * (t - start) / span - 1.0).clamp(-1.0, 1.0).acos();
+    for power in 2..=AGEING {
+        let aged = u.iter().zip(&data.scene.time);
+        columns.push(
+            aged.map(|(x, t)| x * (power as f64 * age(t)).cos())
+                .collect(),
+        );
     }
     columns
 }

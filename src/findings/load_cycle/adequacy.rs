@@ -15,6 +15,9 @@ pub struct Adequacy {
     pub test: &'static str,
 }
 
+/// The tests for what repeats with the load.
+pub const REPEATS: [&str; 2] = ["lack of fit", "pattern over load"];
+
 /// One test: its name, p-value, and the sum of squares beyond chance that it points at.
 struct Test {
     name: &'static str,
@@ -38,7 +41,7 @@ pub fn judge(
         lack_of_fit(chi2, dimension, screen),
         line(residual),
         scan("burst in time", &in_time),
-        scan("pattern over load", &by_load(&in_time, data)),
+        scan(REPEATS[1], &by_load(&in_time, data)),
     ];
     let explained = (base - residual.len() as f64).max(1.0);
     let left = tests
@@ -72,7 +75,7 @@ fn lack_of_fit(chi2: f64, dimension: usize, screen: &Screen) -> Test {
     let freedom = screen.dimension.saturating_sub(dimension + 1).max(1) as f64;
     let excess = (chi2 - screen.saturated).max(0.0);
     Test {
-        name: "lack of fit",
+        name: REPEATS[0],
         p_value: tail(excess / LEVEL, freedom),
         left: (excess - freedom).max(0.0),
     }
