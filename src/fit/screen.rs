@@ -41,16 +41,14 @@ const PLAUSIBLE: f64 = 3.0;
 const PER_EFFECT: usize = 4;
 /// Powers of the load on each branch.
 const POWERS: usize = 7;
-/// Powers of time with which the compliance changes.
-const AGEING: usize = 4;
 /// Slow functions of time.
 const SLOW: usize = 6;
 
 impl Screen {
-    /// The same screen with another colour.
+    /// The same screen of readings (cosine coefficients) with another colour.
     #[must_use]
-    pub fn recoloured(&self, colour: Colour, candidates: &Candidates) -> Self {
-        let (basis, left) = project(&self.span, &candidates.reading, &colour);
+    pub fn recoloured(&self, colour: Colour, reading: &[f64]) -> Self {
+        let (basis, left) = project(&self.span, reading, &colour);
         Self {
             saturated: left.norm_squared(),
             dimension: basis.ncols(),
@@ -224,15 +222,6 @@ fn branch_powers(data: &Observation) -> Vec<Vec<f64>> {
             columns.push(aged.collect());
         }
         columns.push(polynomial);
-    }
-    // a compliance that changes with time, at any pace
-    let age = |t: &f64| (2.0 * (t - start) / span - 1.0).clamp(-1.0, 1.0).acos();
-    for power in 2..=AGEING {
-        let aged = u.iter().zip(&data.scene.time);
-        columns.push(
-            aged.map(|(x, t)| x * (power as f64 * age(t)).cos())
-                .collect(),
-        );
     }
     columns
 }

@@ -124,13 +124,7 @@ impl Case<'_> {
 
     /// The largest amplitude (95 %) that the data leave to a law of the present model that is not in
     /// the chosen one, its shapes as they were; `before`: its amplitude there.
-    fn limit(
-        &self,
-        present: &Present,
-        chosen: &Refined,
-        cause: &str,
-        before: f64,
-    ) -> Option<f64> {
+    fn limit(&self, present: &Present, chosen: &Refined, cause: &str, before: f64) -> Option<f64> {
         let mut curve = present.beyond_spring(&self.data.scene, Some(cause));
         self.data.cosine.transform(&mut curve);
         self.screen.colour.whiten(&mut curve);

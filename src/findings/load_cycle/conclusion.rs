@@ -13,6 +13,8 @@ use crate::fit::least_squares::Problem;
 /// Structure counts as left when a test is below the first p-value and the unexplained share is above
 /// the second number: what is seen beyond all doubt need be less to matter.
 const LEFT: [(f64, f64); 2] = [(5e-5, 0.1), (1e-20, 0.05)];
+/// Causes that leave so much of what they should explain need less proof that they are wrong.
+const LITTLE_EXPLAINED: (f64, f64) = (5e-4, 0.25);
 /// With more than this share unexplained the causes found are not the story.
 const NOT_THE_STORY: f64 = 0.13;
 
@@ -36,7 +38,7 @@ impl Case<'_> {
             &self.screen,
             &self.data,
         );
-        let left = is_left(&adequacy) && !self.within_step(&chosen);
+        let left = is_left(&adequacy, &chosen) && !self.within_step(&chosen);
         named.causes.sort_by(|a, b| {
             b.gain
                 .reduction_percent
@@ -145,9 +147,9 @@ fn rms(values: &[f64]) -> f64 {
     (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
 }
 
-fn is_left(adequacy: &Adequacy) -> bool {
+fn is_left(adequacy: &Adequacy, chosen: &Refined) -> bool {
     let beyond = |(p, share): (f64, f64)| adequacy.p_value < p && adequacy.unexplained > share;
-    LEFT.into_iter().any(beyond)
+    LEFT.into_iter().any(beyond) || (!chosen.causes.is_empty() && beyond(LITTLE_EXPLAINED))
 }
 
 /// Whether the causes found are not the story: too much is left, or it repeats with the load as they
