@@ -288,6 +288,7 @@ const PAIRS: f64 = 0.77;
 const WRONG: f64 = 0.03;
 const ALARMS: f64 = 0.04;
 const UNKNOWN: f64 = 0.86;
+const MISSING: f64 = 0.88;
 
 /// A pair without scale errors.
 fn shape_pair(seed: u64) -> Case {
@@ -322,22 +323,34 @@ fn a_missing_cause_is_not_invented() {
                 .copied()
                 .filter(|e| e.card().cause != kind)
                 .collect();
-            let verdict = run_with(
-                &case,
-                &Settings {
-                    library,
-                    ..Settings::default()
-                },
-            )
-            .verdict;
-            matches!(verdict, Verdict::UnknownCause | Verdict::PartlyExplained)
+            let settings = Settings {
+                library,
+                ..Settings::default()
+            };
+            let diagnosis = run_with(&case, &settings);
+            let unknown = matches!(
+                diagnosis.verdict,
+                Verdict::UnknownCause | Verdict::PartlyExplained
+            );
+            if std::env::var("IDENT_DEBUG").is_ok() && !unknown {
+                keep(&format!("missing-{kind}"), &case);
+                println!(
+                    "# missing {kind} {seed} {} {} {:?} -> {} {:?}",
+                    case.schedule,
+                    case.noise,
+                    case.truths[0].parameters,
+                    answer(&diagnosis),
+                    diagnosis.adequacy
+                );
+            }
+            unknown
         })
         .count();
     say(&format!(
         "true cause out of the library: unknown in {unknown} of {}",
         kinds.len()
     ));
-    assert!(share(unknown, kinds.len()) >= 0.78, "missing causes");
+    assert!(share(unknown, kinds.len()) >= MISSING, "missing causes");
 }
 
 /// The stated interval of the gain covers the gain that the generator knows.

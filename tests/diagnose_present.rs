@@ -101,7 +101,13 @@ fn an_earlier_fit_is_the_present_simulation() {
     // no gap any more: it is named with nothing
     let mended = answer(&root, &["--model", fit, &file("mended")]);
     assert_eq!(causes(&mended), ["backlash"], "{mended}");
-    assert_eq!(mended["causes"][0]["parameters"][0]["value"], 0.0);
+    let gone = &mended["causes"][0]["parameters"];
+    assert_eq!(gone[0]["value"], 0.0);
+    assert_eq!(gone[1]["name"], "limit95", "{mended}");
+    assert!(gone[1]["value"].as_f64().unwrap() < 2e-5, "{mended}");
+    let said = mended["sentence"].as_str().unwrap();
+    assert!(said.contains("gap smaller than "), "{said}");
+    assert!(!said.contains("0 rad"), "{said}");
 }
 
 #[test]

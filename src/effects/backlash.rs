@@ -3,7 +3,7 @@ use super::scene::Scene;
 use super::shapes::saturate;
 use crate::ground::dual::Scalar;
 
-/// Free gap in the gear.
+/// Free gap.
 pub struct Backlash;
 
 impl Law for Backlash {
@@ -11,7 +11,7 @@ impl Law for Backlash {
         name: "backlash",
         cause: "backlash",
         family: Family::Physics,
-        summary: "A free gap between the flanks of the gear: the joint moves without load.",
+        summary: "A free gap: the joint moves without load until its flanks meet.",
         equation: "φ += (gap/2) · x/√(1+x²), x = M/contact_load",
         source: "dead zone, Nordin and Gutman 2002, eq. 2, with contact that sets in over a small load",
         signature: "an odd step at zero load, single-valued, no loop; vanishes under preload",

@@ -11,7 +11,7 @@ impl Law for SoftZone {
         name: "soft_zone",
         cause: "soft_zone",
         family: Family::Physics,
-        summary: "The joint is softer below a certain load: teeth come into mesh one after another.",
+        summary: "The joint is softer below a certain load: its contacts close one after another.",
         equation: "φ += extra · clip(M / zone_load), clip rounded with x/(1+|x|⁴)^¼",
         source: "piecewise-linear gear stiffness, Seyfferth, Maghzal and Angeles 1995",
         signature: "single-valued, odd, a knee on either side of zero; small loads look soft",

@@ -50,6 +50,17 @@ pub struct Cause {
     pub gain: Gain,
 }
 
+/// Name of the parameter that says how large, at most, a cause that is gone may still be (95 %).
+pub const LIMIT: &str = "limit95";
+
+impl Cause {
+    /// The largest first parameter that the data allow, where the cause is gone.
+    pub fn limit(&self) -> Option<f64> {
+        let found = self.parameters.iter().find(|(name, ..)| *name == LIMIT);
+        found.map(|(_, limit, _)| *limit)
+    }
+}
+
 /// Causes that these data cannot tell apart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Group {

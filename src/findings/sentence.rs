@@ -100,12 +100,13 @@ fn opening(answer: &Answer) -> String {
 }
 
 fn of_cause(cause: &Cause, numbered: &str, unit: &str) -> String {
-    let size = cause
-        .parameters
-        .first()
-        .map_or(String::new(), |(name, value, unit)| {
-            format!(", {} {}", spoken(name), amount(*value, unit))
-        });
+    let size = match (cause.parameters.first(), cause.limit()) {
+        (Some((name, 0.0, unit)), Some(limit)) => {
+            format!(", {} smaller than {}", spoken(name), amount(limit, unit))
+        }
+        (Some((name, value, unit)), _) => format!(", {} {}", spoken(name), amount(*value, unit)),
+        (None, _) => String::new(),
+    };
     format!(
         "{numbered}: {} at {}{size} ({} probable). {} In the model, it {}.",
         spoken(cause.effect),

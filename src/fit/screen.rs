@@ -45,10 +45,10 @@ const POWERS: usize = 7;
 const SLOW: usize = 6;
 
 impl Screen {
-    /// The same screen with another colour.
+    /// The same screen of readings (cosine coefficients) with another colour.
     #[must_use]
-    pub fn recoloured(&self, colour: Colour, candidates: &Candidates) -> Self {
-        let (basis, left) = project(&self.span, &candidates.reading, &colour);
+    pub fn recoloured(&self, colour: Colour, reading: &[f64]) -> Self {
+        let (basis, left) = project(&self.span, reading, &colour);
         Self {
             saturated: left.norm_squared(),
             dimension: basis.ncols(),

@@ -92,11 +92,9 @@ fn falls_steeply(record: &[f64], start: usize, length: usize, highest: f64, step
 /// much (parabola) to half as much (sine squared) again; and noise of many digits makes no equal samples.
 /// Three of them it never has.
 fn blunt(record: &[f64], [highest, height, noise]: [f64; 3]) -> bool {
-    let upper = record
-        .iter()
-        .copied()
-        .filter(|v| highest - v < 0.5 * height);
-    let step = decimals(&upper.collect::<Vec<f64>>());
+    let depths = record.iter().map(|v| highest - v);
+    let upper: Vec<f64> = depths.filter(|depth| *depth < 0.5 * height).collect();
+    let step = decimals(&upper, 1e-12 * highest.abs());
     let top = |v: &f64| highest - v < 0.5 * step;
     let Some(at) = record.iter().position(top) else {
         return false;
@@ -117,20 +115,15 @@ fn blunt(record: &[f64], [highest, height, noise]: [f64; 3]) -> bool {
     length >= 2 && steep && (length > 2 || uneven || blunt || tied)
 }
 
-/// The power of ten that all values are multiples of; the rounding of floating-point numbers where there is
-/// none.
-fn decimals(record: &[f64]) -> f64 {
-    let largest = record.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    let rounding = 1e-12 * largest;
+/// The power of ten that all values are multiples of; `rounding` where there is none.
+fn decimals(values: &[f64], rounding: f64) -> f64 {
     let fits = |step: &f64| {
         let off = |v: &f64| (v / step - (v / step).round()).abs() * step;
-        record.iter().all(|v| off(v) <= rounding)
+        values.iter().all(|v| off(v) <= rounding)
     };
     let steps = (0..12).map(|k| 10.0_f64.powi(-k));
-    steps
-        .filter(|s| *s > rounding)
-        .find(fits)
-        .unwrap_or(rounding)
+    let steps = steps.filter(|step| *step > 4.0 * rounding);
+    steps.into_iter().find(fits).unwrap_or(rounding)
 }
 
 /// Equal samples above a fall of fewer steps than these are chance.

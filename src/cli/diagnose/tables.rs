@@ -1,5 +1,6 @@
 //! The tables of an answer.
 
+use crate::findings::answer::LIMIT;
 use crate::findings::gain::Gain;
 use crate::findings::sentence::{candidates, probability, spoken};
 use crate::findings::{Answer, Cause};
@@ -51,14 +52,17 @@ fn distinct(sites: &[String]) -> String {
     sites.join(", ")
 }
 
-/// The parameters of a cause, as `gap 216 µrad, contact load 7.57 N·m`.
+/// The parameters of a cause, as `gap 216 µrad, contact load 7.57 N·m`; one that is gone shows its limit.
 pub fn amounts(cause: &Cause) -> String {
     let amount = |(name, value, unit): &(&str, f64, &str)| {
-        let unit = if *unit == "1" { "" } else { unit };
-        format!("{} {}", spoken(name), engineering(*value, 3, unit))
+        let amount = |v: f64| engineering(v, 3, if *unit == "1" { "" } else { unit });
+        match (*value, cause.limit()) {
+            (0.0, Some(limit)) => format!("{} < {}", spoken(name), amount(limit)),
+            _ => format!("{} {}", spoken(name), amount(*value)),
+        }
     };
-    let amounts: Vec<String> = cause.parameters.iter().map(amount).collect();
-    amounts.join(", ")
+    let printed = cause.parameters.iter().filter(|(name, ..)| *name != LIMIT);
+    printed.map(amount).collect::<Vec<_>>().join(", ")
 }
 
 /// What naming a cause gains, as `91.0 % [90.5, 91.4]`.

@@ -15,6 +15,9 @@ pub struct Adequacy {
     pub test: &'static str,
 }
 
+/// The tests for what repeats with the load.
+pub const REPEATS: [&str; 2] = ["lack of fit", "pattern over load"];
+
 /// One test: its name, p-value, and the sum of squares beyond chance that it points at.
 struct Test {
     name: &'static str,
@@ -38,7 +41,7 @@ pub fn judge(
         lack_of_fit(chi2, dimension, screen),
         line(residual),
         scan("burst in time", &in_time),
-        scan("pattern over load", &by_load(&in_time, data)),
+        scan(REPEATS[1], &by_load(&in_time, data)),
     ];
     let explained = (base - residual.len() as f64).max(1.0);
     let left = tests
@@ -72,7 +75,7 @@ fn lack_of_fit(chi2: f64, dimension: usize, screen: &Screen) -> Test {
     let freedom = screen.dimension.saturating_sub(dimension + 1).max(1) as f64;
     let excess = (chi2 - screen.saturated).max(0.0);
     Test {
-        name: "lack of fit",
+        name: REPEATS[0],
         p_value: tail(excess / LEVEL, freedom),
         left: (excess - freedom).max(0.0),
     }
@@ -94,12 +97,16 @@ fn line(residual: &[f64]) -> Test {
 /// Shares of the record that the windows of a scan span.
 const SPANS: [f64; 4] = [0.01, 0.03, 0.08, 0.2];
 
+/// A whitened reading counts at most so much in a scan: one wild reading alone is no structure.
+const WILDEST: f64 = 5.0;
+
 /// Scan of an ordered white sequence at several widths: windows whose mean, or whose energy, is too
 /// large.
 fn scan(name: &'static str, sequence: &[f64]) -> Test {
     let n = sequence.len();
-    let sums = running(sequence, |v| v);
-    let squares = running(sequence, |v| v * v);
+    let held = |v: f64| v.clamp(-WILDEST, WILDEST);
+    let sums = running(sequence, held);
+    let squares = running(sequence, |v| held(v).powi(2));
     let mut best = Test {
         name,
         p_value: 1.0,

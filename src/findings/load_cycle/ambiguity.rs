@@ -8,7 +8,7 @@ pub const PRIOR: f64 = 0.08;
 
 /// A law that misses the truth by this share of its own size still counts as right: nature does not
 /// follow our formulas exactly (coarsened likelihood, Miller and Dunson 2019).
-const FORMULA_ERROR: f64 = 0.07;
+pub const FORMULA_ERROR: f64 = 0.07;
 
 /// Nats that such a misfit is worth at most.
 const TOLERATED_NATS: f64 = 5.0;

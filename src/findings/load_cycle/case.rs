@@ -6,6 +6,7 @@ use super::diagnosis::Settings;
 use super::lattice;
 use super::present::Present;
 use super::refine::{Refined, refine_from};
+use super::tints::Tints;
 use super::unseen::{Split, gain, held_out};
 use crate::effects::{Composite, shapes};
 use crate::findings::gain::Gain;
@@ -63,7 +64,7 @@ pub(super) fn compare<'a>(file: &'a LoadCycle, settings: &Settings) -> Case<'a> 
         step,
         screen: comparison
             .screen
-            .recoloured(comparison.suited(), &candidates),
+            .recoloured(comparison.suited(), &candidates.reading),
         data,
         refined: comparison.refined,
         posterior: comparison.posterior,
@@ -102,6 +103,24 @@ impl Case<'_> {
             }
         }
         self.plain.clone()
+    }
+
+    /// The chosen set under the colour of noise that suits it, which the rest of the case then takes
+    /// too: the colour at hand suits the most probable set, and that may have lost causes since.
+    pub(super) fn suited(&mut self, chosen: Refined) -> Refined {
+        let (own, all) = (&self.screen.colour, &self.screen.tints);
+        let colour = Tints::new(own, all, &self.plain.optimum)
+            .best(&chosen.optimum)
+            .clone();
+        if colour == self.screen.colour {
+            return chosen;
+        }
+        let mut reading = self.data.reading.clone();
+        self.data.cosine.transform(&mut reading);
+        self.screen = self.screen.recoloured(colour, &reading);
+        self.plain = self.again(&self.plain);
+        self.base = self.plain.optimum.chi2;
+        self.again(&chosen)
     }
 
     /// A gain that chance and a coarse lattice of readings do not explain.

@@ -1,6 +1,6 @@
 //! From named causes to the verdict: what is left, and how far the present simulation is off.
 
-use super::adequacy::{self, Adequacy};
+use super::adequacy::{self, Adequacy, REPEATS};
 use super::case::Case;
 use super::diagnosis::Diagnosis;
 use super::naming::Named;
@@ -10,10 +10,11 @@ use crate::effects::Composite;
 use crate::findings::answer::{Answer, Candidate, Verdict};
 use crate::fit::least_squares::Problem;
 
-/// Structure counts as left when a test is below this p-value ...
-const SIGNIFICANT: f64 = 5e-5;
-/// ... and the unexplained share exceeds this.
-const MATTERS: f64 = 0.1;
+/// Structure counts as left when a test is below the first p-value and the unexplained share is above
+/// the second number: what is seen beyond all doubt need be less to matter.
+const LEFT: [(f64, f64); 2] = [(5e-5, 0.1), (1e-20, 0.05)];
+/// Causes that leave so much of what they should explain need less proof that they are wrong.
+const LITTLE_EXPLAINED: (f64, f64) = (5e-4, 0.25);
 /// With more than this share unexplained the causes found are not the story.
 const NOT_THE_STORY: f64 = 0.13;
 
@@ -37,9 +38,7 @@ impl Case<'_> {
             &self.screen,
             &self.data,
         );
-        let left = adequacy.p_value < SIGNIFICANT
-            && adequacy.unexplained > MATTERS
-            && !self.within_step(&chosen);
+        let left = is_left(&adequacy, &chosen) && !self.within_step(&chosen);
         named.causes.sort_by(|a, b| {
             b.gain
                 .reduction_percent
@@ -148,11 +147,22 @@ fn rms(values: &[f64]) -> f64 {
     (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
 }
 
+fn is_left(adequacy: &Adequacy, chosen: &Refined) -> bool {
+    let beyond = |(p, share): (f64, f64)| adequacy.p_value < p && adequacy.unexplained > share;
+    LEFT.into_iter().any(beyond) || (!chosen.causes.is_empty() && beyond(LITTLE_EXPLAINED))
+}
+
+/// Whether the causes found are not the story: too much is left, or it repeats with the load as they
+/// do, so that their law is not the joint's.
+fn is_another_story(adequacy: &Adequacy) -> bool {
+    adequacy.unexplained > NOT_THE_STORY || REPEATS.contains(&adequacy.test)
+}
+
 fn verdict(named: &Named, left: bool, adequacy: &Adequacy) -> Verdict {
     match (named.causes.is_empty() && named.groups.is_empty(), left) {
         (true, true) => Verdict::UnknownCause,
         (true, false) => Verdict::Sufficient,
-        (false, true) if adequacy.unexplained > NOT_THE_STORY => Verdict::UnknownCause,
+        (false, true) if is_another_story(adequacy) => Verdict::UnknownCause,
         (false, true) => Verdict::PartlyExplained,
         (false, false) if named.causes.is_empty() => Verdict::CannotTell,
         (false, false) => Verdict::Explained,

@@ -64,8 +64,9 @@ pub fn diagnose(file: &LoadCycle, settings: &Settings) -> Diagnosis {
     if is_imposed(file) {
         return diagnose_imposed(file);
     }
-    let case = compare(file, settings);
+    let mut case = compare(file, settings);
     let chosen = case.choose();
+    let chosen = case.suited(chosen);
     let mut named = case.name(&chosen);
     let scales = case.scales(&chosen);
     if let Some(present) = &case.present {

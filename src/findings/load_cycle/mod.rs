@@ -6,6 +6,7 @@
 
 pub mod adequacy;
 pub mod ambiguity;
+mod beyond;
 mod case;
 mod comparison;
 mod conclusion;

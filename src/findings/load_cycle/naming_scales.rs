@@ -1,7 +1,8 @@
 //! Scale errors by their names: lever, inclined laser or stiffness.
 
+use super::ambiguity::FORMULA_ERROR;
 use super::case::Case;
-use super::naming::{Named, summary};
+use super::naming::{AMBIGUOUS, Named, summary};
 use super::refine::Refined;
 use super::scales::{self, ScaleFinding};
 use super::unseen::{Split, gain, held_out};
@@ -11,6 +12,28 @@ use crate::findings::gain::Gain;
 
 impl Case<'_> {
     pub(super) fn scales(&self, chosen: &Refined) -> Vec<ScaleFinding> {
+        let mut excess = self.excess(chosen);
+        for set in self.as_plausible_as(chosen) {
+            // what another explanation of the shape explains is no error of scale
+            excess = match (excess, self.excess(set)) {
+                (Some(a), Some(b)) if a * b <= 0.0 => Some(0.0),
+                (Some(a), Some(b)) if b.abs() < a.abs() => Some(b),
+                (first, _) => first,
+            };
+        }
+        scales::judge(self.file, excess, self.relative_error(chosen)).findings
+    }
+
+    /// The sets that cannot be ruled out beside the chosen one.
+    fn as_plausible_as(&self, chosen: &Refined) -> impl Iterator<Item = &Refined> {
+        let least = AMBIGUOUS * self.posterior.of(&chosen.causes);
+        let sets = self.posterior.sets.iter();
+        let sets = sets.filter(move |set| !chosen.causes.is_empty() && set.1 >= least);
+        sets.filter_map(|set| set.2.map(|index| &self.refined[index]))
+    }
+
+    /// How far a set's stiffness is from the nominal one.
+    fn excess(&self, chosen: &Refined) -> Option<f64> {
         let (low, high) = self
             .data
             .scene
@@ -25,12 +48,22 @@ impl Case<'_> {
             high,
         );
         let settled = settle(&load, &deflection);
-        let excess = scales::nominal_excess(self.file, chosen.optimum.p[0], &settled);
-        scales::judge(self.file, excess, self.relative_error(chosen)).findings
+        scales::nominal_excess(self.file, chosen.optimum.p[0], &settled)
     }
 
-    /// Relative standard error of the spring.
+    /// Relative standard error of the spring, with what an error of the laws beside it may take over.
     fn relative_error(&self, chosen: &Refined) -> f64 {
+        let largest = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let spring = chosen.optimum.p[0];
+        let elastic: Vec<f64> = self.data.scene.load.iter().map(|m| m / spring).collect();
+        let whole = chosen.model.predict(&chosen.optimum.p, &self.data.scene);
+        let beside: Vec<f64> = whole.iter().zip(&elastic).map(|(a, b)| a - b).collect();
+        let taken = FORMULA_ERROR * largest(&beside) / largest(&elastic).max(f64::MIN_POSITIVE);
+        self.spring_error(chosen).hypot(taken)
+    }
+
+    /// Relative standard error of the spring by the noise.
+    fn spring_error(&self, chosen: &Refined) -> f64 {
         let normal = chosen.optimum.jacobian.tr_mul(&chosen.optimum.jacobian);
         let inverse = normal
             .try_inverse()
