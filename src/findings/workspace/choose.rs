@@ -9,8 +9,8 @@ use crate::findings::gain::Gain;
 use crate::ground::spatial::M3;
 use nalgebra::DMatrix;
 
-/// Probability of a set against the same set less one cause, below which that cause is not named.
-const NEEDED: f64 = 0.9;
+/// Probability of a cause (it or any other in its stead) against none, below which it is not named.
+const NEEDED: f64 = 0.82;
 /// Sets looked through for one whose causes all gain.
 const SETS: usize = 80;
 /// A set with less than this share of the best one's probability is no explanation.
@@ -59,7 +59,13 @@ impl Case<'_> {
 
     fn is_needed(&self, set: &Set, seat: usize) -> bool {
         let rest: Vec<usize> = set.seats.iter().copied().filter(|s| *s != seat).collect();
-        let (with, without) = (self.posterior.of(&set.seats), self.posterior.of(&rest));
+        let without = self.posterior.of(&rest);
+        let others = self.posterior.stand_ins(&set.seats, seat);
+        let others: f64 = others
+            .iter()
+            .map(|(_, s, _)| self.posterior.of(&s.seats))
+            .sum();
+        let with = self.posterior.of(&set.seats) + others;
         with > NEEDED * (with + without)
     }
 
@@ -104,16 +110,23 @@ impl Case<'_> {
     }
 
     /// Which rows are left out together: those of one point. Beyond the slopes the levels are rows
-    /// where the set bends the curve, and left out where the seat does.
+    /// where the set bends the curve. A seat that bends it may show at one point only, where no weight
+    /// preloads it: then a set-up is left out at a time, slopes and levels.
     fn folds(&self, set: &Set, seat: &Seat) -> Vec<Option<usize>> {
         let bends = |column: usize| !self.seats.columns[column].pattern.left.is_empty();
+        let bent = bends(seat.first);
+        let fold = |point: usize, direction: usize| match bent {
+            true => 3 * point + direction,
+            false => point,
+        };
         let places = self.weighing.places();
-        let slopes = places.iter().map(|place| Some(place.0));
+        let slopes = places.iter().map(|place| Some(fold(place.0, place.1)));
         let levels = match self.columns_of(set).into_iter().any(bends) {
             true => self.shapes.levels(),
             false => Vec::new(),
         };
-        let levels = levels.iter().map(|l| bends(seat.first).then_some(l.point));
+        let levels = levels.iter();
+        let levels = levels.map(|l| bent.then_some(fold(l.point, l.direction)));
         slopes.chain(levels).collect()
     }
 
