@@ -75,6 +75,7 @@ impl Shapes {
             };
         }
         self.wander = self.wandering();
+        (0..3).for_each(|k| self.wander[k] = self.wander[k].max(self.growth(k)));
         for (rest, left) in self.rests.iter().zip(&left) {
             let own = rest.slope_scatter(left, self.noise[rest.component]);
             (0..2).for_each(|k| slopes[k] += own[k]);
@@ -145,16 +146,30 @@ impl Shapes {
     /// Noise of a component whose levels are not repeated: the scatter about the lines, unless
     /// neighbours agree so much better, and the data sheet with them, that the rest is shape.
     fn without_repeats(&self, scatter: f64, component: usize) -> f64 {
+        let short = self.short(component).max(self.stated.unwrap_or(scatter));
+        match scatter > SHAPE * short {
+            true => short,
+            false => scatter,
+        }
+    }
+
+    /// Noise of a component by the change from one reading to the next, m.
+    fn short(&self, component: usize) -> f64 {
         let own = self.rests.iter().filter(|rest| rest.component == component);
         let (squares, count) = own.fold((0.0, 0.0), |(s, n), rest| {
             let (own, rows) = rest.steps();
             (s + own, n + rows)
         });
-        let short = (0.5 * squares / f64::max(count, 1.0)).sqrt();
-        let short = short.max(self.stated.unwrap_or(scatter));
-        match scatter > SHAPE * short {
-            true => short,
-            false => scatter,
+        (0.5 * squares / f64::max(count, 1.0)).sqrt()
+    }
+
+    /// How far repeated levels of one component drift apart within a cycle, in the units of
+    /// [`Shapes::wander`]: readings that repeat far worse than their neighbours agree grow with time.
+    fn growth(&self, component: usize) -> f64 {
+        let short = self.short(component).max(self.stated.unwrap_or(0.0));
+        match short > 0.0 {
+            true => self.noise[component] / (2.0 * short),
+            false => 0.0,
         }
     }
 

@@ -101,7 +101,12 @@ impl<'a> Case<'a> {
         };
         let prior = seats.columns.iter().map(|c| c.prior).collect();
         let low = seats.columns.iter().map(|c| c.low).collect();
-        let field = Field::new(&readings, &columns, &springs, (prior, low));
+        let field = Field::new(
+            (&readings, readings.len() - levels),
+            &columns,
+            &springs,
+            (prior, low),
+        );
         let posterior = Posterior::new(search(&seats, &field));
         Self {
             test,

@@ -6,7 +6,7 @@ use super::search::Set;
 use crate::findings::answer::{Candidate, Cause, Group};
 
 /// Candidates that cannot be told apart hold the cause with this probability.
-const SURE: f64 = 0.89;
+const SURE: f64 = 0.86;
 
 impl Case<'_> {
     pub(super) fn name(&self, chosen: &Set) -> (Vec<Cause>, Vec<Group>) {

@@ -212,8 +212,8 @@ fn faulty(seat: &Seat, others: &[usize], all: &[Seat]) -> bool {
 fn odds(blame: Blame, stranger: bool) -> f64 {
     match (stranger, blame) {
         (true, _) => -4.6,
-        (_, Blame::Instrument) => -2.6,
-        (_, Blame::Parameter) => -2.8,
-        (_, Blame::Structure) => -3.4,
+        (_, Blame::Instrument) => -2.4,
+        (_, Blame::Parameter) => -2.4,
+        (_, Blame::Structure) => -3.0,
     }
 }
