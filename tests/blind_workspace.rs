@@ -13,10 +13,11 @@ use robot_blind::suite::{Floors, conclude, judged, kinds, per_kind, seeds};
 use robot_blind::{Case, WORKSPACE_EFFECTS, WORKSPACE_OUTSIDE, robot_text, workspace_case};
 use std::path::Path;
 
-/// To be set from a run over many seeds once the diagnosis of this kind stands.
+/// What four cases of a kind reach whatever the seed: 44 singles and 12 pairs scatter by 3 and 10 %
+/// about the rates of many seeds in ARCHITECTURE.md.
 const FLOORS: Floors = Floors {
-    single: 0.80,
-    pair: 0.60,
+    single: 0.88,
+    pair: 0.66,
     wrong: 0.05,
     alarms: 0.07,
     unknown: 0.70,

@@ -3,6 +3,7 @@
 use super::contract::{Amount, Blame, Card, Cause, Sight};
 use super::places::Said;
 use crate::effects::Family;
+use crate::experiments::drive_law::Law;
 use crate::robot::Robot;
 
 /// See the card.
@@ -19,13 +20,29 @@ const CARD: Card = Card {
         "a jump where the torque on that axis changes its sign; none while weight preloads it",
     )],
     amounts: &[
-        gap("gap", "lost motion from stop to stop"),
+        gap("gap", "lost motion from stop to stop, crossed within 1 N·m"),
+        gap("gap_stiff", "the same, crossed within 3 N·m"),
         gap(
             "gap_held",
-            "the same where friction holds the axis at the stop that it left last",
+            "the same where friction of 2.5 N·m holds the axis where it was left last",
         ),
+        gap("gap_held_5", "the same with friction of 5 N·m"),
+        gap("gap_held_8", "the same with friction of 8 N·m"),
+        gap("gap_held_12", "the same with friction of 12 N·m"),
+        gap("gap_held_18", "the same with friction of 18 N·m"),
     ],
 };
+
+/// How the gap of each amount is crossed.
+const LAWS: [Law; 7] = [
+    Law::Free(1.0),
+    Law::Free(3.0),
+    Law::Held(2.5),
+    Law::Held(5.0),
+    Law::Held(8.0),
+    Law::Held(12.0),
+    Law::Held(18.0),
+];
 
 const fn gap(name: &'static str, meaning: &'static str) -> Amount {
     Amount {
@@ -52,11 +69,12 @@ impl Cause for Backlash {
     }
 
     fn forms(&self) -> Vec<Vec<usize>> {
-        vec![vec![0], vec![1]]
+        (0..LAWS.len()).map(|k| vec![k]).collect()
     }
 
-    fn remembers(&self, amounts: &[f64]) -> bool {
-        amounts[1] > 0.0
+    fn law(&self, amounts: &[f64]) -> Law {
+        let own = amounts.iter().zip(LAWS).find(|(gap, _)| **gap > 0.0);
+        own.map_or(LAWS[0], |(_, law)| law)
     }
 
     fn said(&self, _robot: &Robot, _site: &str, amounts: &[f64]) -> Said {

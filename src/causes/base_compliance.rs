@@ -79,6 +79,11 @@ impl Cause for BaseCompliance {
         turns.into_iter().chain([vec![3, 4, 5], all]).collect()
     }
 
+    /// Foot bolts stretch: a foundation rocks or heaves rather than that it turns about the vertical.
+    fn shares(&self) -> Vec<f64> {
+        vec![1.0, 1.0, 0.3, 1.0, 1.0, 0.5, 1.0]
+    }
+
     fn alter(&self, robot: &mut Robot, site: &str, amounts: &[f64]) {
         add_axes(robot, site, 0, [0.0; 3], amounts);
         for (k, amount) in amounts.iter().enumerate().skip(3).take(3) {

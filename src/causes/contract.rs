@@ -6,6 +6,7 @@
 //! the simulation alike; an instrument changes what one experiment reads.
 
 use crate::effects::Family;
+use crate::experiments::drive_law::{Law, STOP};
 use crate::ground::spatial::{M3, V3};
 use crate::robot::Robot;
 use nalgebra::Complex;
@@ -122,9 +123,19 @@ pub trait Cause: Sync {
         self.card().amounts.len()
     }
 
-    /// Whether without load it stays where the load before has left it.
-    fn remembers(&self, _amounts: &[f64]) -> bool {
-        false
+    /// How the gaps that it opens are crossed.
+    fn law(&self, _amounts: &[f64]) -> Law {
+        Law::Free(STOP)
+    }
+
+    /// How much sooner than at its other sites it is blamed at this one.
+    fn readiness(&self, _robot: &Robot, _site: &str) -> f64 {
+        1.0
+    }
+
+    /// How much sooner than its other forms each is likely.
+    fn shares(&self) -> Vec<f64> {
+        vec![1.0; self.forms().len()]
     }
 
     /// Physics: changes the robot.

@@ -3,6 +3,7 @@
 use super::contract::{Amount, Blame, Card, Cause, Sight};
 use super::places::{Said, add_axes, added, drive_compliance, number_in, said_axes};
 use crate::effects::Family;
+use crate::ground::spatial::{dot, sub};
 use crate::robot::Robot;
 
 /// See the card.
@@ -71,6 +72,21 @@ const fn flat(triples: [[Amount; 3]; ALONG.len()]) -> [Amount; 3 * ALONG.len()] 
 /// Where along the link the triples of amounts act, as a share of its length.
 const ALONG: [f64; 9] = [0.5, 0.0, 1.0, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875];
 
+/// How likely each is: a beam under end loads turns as if hinged between a third and the middle of its
+/// length; at its ends sit bearings that have causes of their own.
+const LIKELY: [f64; 9] = [1.0, 0.05, 0.05, 0.6, 0.6, 0.2, 1.0, 1.0, 0.2];
+/// The shortest of links is still blamed with this share of the readiness of the longest.
+const SHORT: f64 = 0.1;
+
+/// From the bearing of joint `i` (from 1) to the next one, m.
+fn length(robot: &Robot, i: usize) -> f64 {
+    let (Some(own), Some(next)) = (robot.joints.get(i.wrapping_sub(1)), robot.joints.get(i)) else {
+        return 0.0;
+    };
+    let along = sub(next.point, own.point);
+    dot(along, along).sqrt()
+}
+
 impl Cause for LinkCompliance {
     fn card(&self) -> &'static Card {
         &CARD
@@ -101,6 +117,19 @@ impl Cause for LinkCompliance {
         let two = (0..count).map(|k| vec![k, 3 * (k / 3) + (k + 1) % 3]);
         let all = (0..ALONG.len()).map(|at| (3 * at..3 * at + 3).collect());
         one.chain(two).chain(all).collect()
+    }
+
+    /// Bending grows with length (Euler and Bernoulli): a long link is blamed before a short one.
+    fn readiness(&self, robot: &Robot, site: &str) -> f64 {
+        let all = (1..robot.dof()).map(|i| length(robot, i));
+        let longest = all.fold(1e-9, f64::max);
+        let own = length(robot, number_in(site, "link").unwrap_or(1));
+        (own / longest).max(SHORT)
+    }
+
+    fn shares(&self) -> Vec<f64> {
+        let of = |form: &Vec<usize>| LIKELY[form[0] / 3];
+        self.forms().iter().map(of).collect()
     }
 
     fn alter(&self, robot: &mut Robot, site: &str, amounts: &[f64]) {

@@ -1,11 +1,12 @@
 //! The workspace test as the model predicts it: how far the tool moves per newton at every point,
 //! site by site. Deflection is linear in the compliances: C = Σ Jᵥ Jᵥᵀ / k (Abele et al. 2008).
 
+use super::drive_law::{Law, Press};
 use crate::ground::spatial::{M3, V3, add, rotate, sub};
 use crate::motion::kinematics::{column, hinge_point, hinge_rotation, place, tcp};
 use crate::motion::statics::{compliance, springs};
 use crate::motion::{Chain, Work, elastic, gravity_torque};
-use crate::robot::Robot;
+use crate::robot::{Robot, Spring};
 
 /// One place whose compliance acts as one number: a drive, a bearing (two equal axes), a virtual axis.
 #[derive(Debug, Clone, PartialEq)]
@@ -93,6 +94,8 @@ impl Response {
 struct Gap {
     /// From stop to stop, rad.
     size: f64,
+    /// Compliance of the drive, rad/(N·m).
+    soft: f64,
     /// Translation of the tool at every point, m/rad, base frame.
     levers: Vec<V3>,
     /// Torque of the weight on the axis at every point, N·m.
@@ -114,13 +117,13 @@ impl Deflection {
         let mut work = Work::new(&chain);
         let mut slopes = Vec::with_capacity(points.len());
         let loose = springs(&chain).filter(|(_, spring)| spring.gap() > 0.0);
-        let loose: Vec<(usize, f64)> = loose.map(|(i, spring)| (i, spring.gap())).collect();
-        let mut gaps: Vec<Gap> = loose.iter().map(|(_, size)| Gap::new(*size)).collect();
+        let own = |(i, spring): (usize, &Spring)| (i, Gap::new(spring.gap(), spring.stiffness));
+        let (loose, mut gaps): (Vec<usize>, Vec<Gap>) = loose.map(own).unzip();
         for angles in points {
             let q = chain.spread(angles);
             place(&chain, &mut work, &q);
             slopes.push(compliance(&chain, &work));
-            for ((hinge, _), gap) in loose.iter().zip(&mut gaps) {
+            for (hinge, gap) in loose.iter().zip(&mut gaps) {
                 gap.meet(&chain, &mut work, *hinge, &q);
             }
         }
@@ -168,32 +171,38 @@ impl Deflection {
         self.gaps.is_empty()
     }
 
-    /// Displacement of the tool beyond that in proportion to the force, m, base frame: every gap
-    /// stands at the stop that force (N, along `direction`) and weight press it to; with too little
-    /// to press it, between the stops, or at the one where the force `before` has left it.
-    pub fn jump(&self, point: usize, direction: usize, force: f64, before: Option<f64>) -> V3 {
-        let mut sum = [0.0; 3];
+    /// Displacement of the tool beyond that in proportion to the force, m, base frame, step by step:
+    /// every loose drive turns as forces (N, along `direction`, in their order) and weight press it,
+    /// after its `law`; the weight is larger by `more` N·m than the model says.
+    pub fn jumps(
+        &self,
+        (point, direction): (usize, usize),
+        forces: &[f64],
+        (law, more): (Law, f64),
+    ) -> Vec<V3> {
+        let mut all = vec![[0.0; 3]; forces.len()];
         for gap in &self.gaps {
             let lever = gap.levers[point];
-            let torque = |force: f64| lever[direction] * force + gap.weights[point];
-            let side = match before {
-                Some(before) if torque(force).abs() < STOP => torque(before) / STOP,
-                _ => torque(force) / STOP,
+            let press = |force: f64| Press {
+                load: lever[direction] * force,
+                weight: gap.weights[point] + more,
+                soft: gap.soft,
             };
-            let side = side.clamp(-1.0, 1.0);
-            (0..3).for_each(|k| sum[k] += 0.5 * gap.size * side * lever[k]);
+            let mut angle = law.angle(press(0.0), 0.0);
+            for (sum, force) in all.iter_mut().zip(forces) {
+                angle = law.angle(press(*force), angle);
+                (0..3).for_each(|k| sum[k] += gap.size * angle * lever[k]);
+            }
         }
-        sum
+        all
     }
 }
 
-/// A gap is crossed within this torque to either side, N·m: no drive moves without any.
-const STOP: f64 = 5.0;
-
 impl Gap {
-    fn new(size: f64) -> Self {
+    fn new(size: f64, stiffness: f64) -> Self {
         Self {
             size,
+            soft: 1.0 / stiffness,
             levers: Vec::new(),
             weights: Vec::new(),
         }

@@ -137,14 +137,6 @@ impl Rest {
         line.map_or_else(|| vec![0.0; self.readings.len()], |line| line.1)
     }
 
-    /// The force before a reading in its cycle.
-    pub fn before(&self, i: usize) -> Option<f64> {
-        let before = i.checked_sub(1).map(|j| self.readings[j]);
-        before
-            .filter(|b| b.cycle == self.readings[i].cycle)
-            .map(|b| b.force)
-    }
-
     /// Squares of the zeros of the cycles about their mean, m², and how many are free.
     pub fn zeros(&self, slope: f64) -> [f64; 2] {
         let mut sums = vec![[0.0; 2]; self.cycles];

@@ -24,6 +24,8 @@ pub struct Shapes {
 
 /// Scatter this many times that of neighbours is shape.
 const SHAPE: f64 = 2.0;
+/// Degrees of freedom that the data sheet's noise is worth.
+const LIKELY: f64 = 30.0;
 /// Degrees of freedom below which the scatter between cycles is not trusted.
 const FREEDOM: f64 = 12.0;
 
@@ -68,11 +70,12 @@ impl Shapes {
             let own: f64 = lines(k).map(|l| l.rows as f64 * l.scatter.powi(2)).sum();
             let rows: f64 = lines(k).map(|l| l.rows as f64).sum();
             self.noise[k] = match sum[1] >= FREEDOM {
-                true => (sum[0] / sum[1]).sqrt(),
+                true => self.no_less(*sum, k, &sums),
                 false => self.without_repeats((own / rows.max(1.0)).sqrt(), k),
             };
         }
         self.wander = self.wandering();
+        (0..3).for_each(|k| self.wander[k] = self.wander[k].max(self.growth(k)));
         for (rest, left) in self.rests.iter().zip(&left) {
             let own = rest.slope_scatter(left, self.noise[rest.component]);
             (0..2).for_each(|k| slopes[k] += own[k]);
@@ -127,19 +130,46 @@ impl Shapes {
         }
     }
 
+    /// Noise of a component whose levels are repeated; where few are, no less than the data sheet or
+    /// the other components make likely: few repetitions agree by chance.
+    fn no_less(&self, [squares, freedom]: [f64; 2], component: usize, all: &[[f64; 2]; 3]) -> f64 {
+        let others = (0..3).filter(|k| *k != component && all[*k][1] >= FREEDOM);
+        let others = others.map(|k| all[k][0] / all[k][1]);
+        let others = others.fold(f64::INFINITY, f64::min);
+        let stated = self.stated.unwrap_or(0.0).powi(2);
+        let likely = stated.max(if others.is_finite() { others } else { 0.0 });
+        let own = squares / freedom;
+        let drawn = (squares + LIKELY * likely) / (freedom + LIKELY);
+        own.max(drawn).sqrt()
+    }
+
     /// Noise of a component whose levels are not repeated: the scatter about the lines, unless
     /// neighbours agree so much better, and the data sheet with them, that the rest is shape.
     fn without_repeats(&self, scatter: f64, component: usize) -> f64 {
+        let short = self.short(component).max(self.stated.unwrap_or(scatter));
+        match scatter > SHAPE * short {
+            true => short,
+            false => scatter,
+        }
+    }
+
+    /// Noise of a component by the change from one reading to the next, m.
+    fn short(&self, component: usize) -> f64 {
         let own = self.rests.iter().filter(|rest| rest.component == component);
         let (squares, count) = own.fold((0.0, 0.0), |(s, n), rest| {
             let (own, rows) = rest.steps();
             (s + own, n + rows)
         });
-        let short = (0.5 * squares / f64::max(count, 1.0)).sqrt();
-        let short = short.max(self.stated.unwrap_or(scatter));
-        match scatter > SHAPE * short {
-            true => short,
-            false => scatter,
+        (0.5 * squares / f64::max(count, 1.0)).sqrt()
+    }
+
+    /// How far repeated levels of one component drift apart within a cycle, in the units of
+    /// [`Shapes::wander`]: readings that repeat far worse than their neighbours agree grow with time.
+    fn growth(&self, component: usize) -> f64 {
+        let short = self.short(component).max(self.stated.unwrap_or(0.0));
+        match short > 0.0 {
+            true => self.noise[component] / (2.0 * short),
+            false => 0.0,
         }
     }
 
@@ -153,6 +183,15 @@ impl Shapes {
             at += rest.count.len();
         }
         (sums, self.rests.len() as f64)
+    }
+
+    /// Whether what the lines leave (in the units of [`Shapes::left`]) is hardly noise.
+    pub fn is_bent(&self, left: &[f64]) -> bool {
+        let (sums, count) = self.bends(left);
+        let most = |freedom: f64| freedom + 4.0 * (2.0 * freedom).sqrt();
+        let squares: f64 = left.iter().map(|l| l * l).sum();
+        let freedom = self.freedom();
+        squares > most(freedom) || sums.iter().any(|sum| *sum > most(count))
     }
 
     fn wandering(&self) -> [f64; 3] {
@@ -181,21 +220,23 @@ impl Shapes {
         self.rests.iter().flat_map(own).collect()
     }
 
-    /// A displacement over force (m, by point, direction, force in N and the force before it in the
-    /// same cycle) seen in the same way: the slopes that its lines would have, m/N, and what they would leave, in the units of [`Shapes::left`].
+    /// A displacement over force (m, by point, direction and the forces in N in their order) seen in the
+    /// same way: the slopes that its lines would have, m/N, and what they would leave, in the units of
+    /// [`Shapes::left`].
     pub fn seen(
         &self,
-        of: impl Fn(usize, usize, f64, Option<f64>) -> V3,
+        of: impl Fn(usize, usize, &[f64]) -> Vec<V3>,
     ) -> (Vec<[Option<f64>; 3]>, Vec<f64>) {
         let mut slopes = vec![[None; 3]; self.setups.len()];
         let mut left = Vec::new();
         for rest in &self.rests {
-            let moved = |(i, r): (usize, &Reading)| Reading {
-                displacement: of(rest.point, rest.direction, r.force, rest.before(i))
-                    [rest.component],
+            let forces: Vec<f64> = rest.readings.iter().map(|r| r.force).collect();
+            let moved = of(rest.point, rest.direction, &forces);
+            let moved = moved.iter().zip(&rest.readings).map(|(m, r)| Reading {
+                displacement: m[rest.component],
                 ..*r
-            };
-            let readings: Vec<Reading> = rest.readings.iter().enumerate().map(moved).collect();
+            });
+            let readings: Vec<Reading> = moved.collect();
             let (slope, own) = rest.project(&readings, self.noise[rest.component]);
             let here = |s: &Setup| s.point == rest.point && s.direction == rest.direction;
             if let Some(i) = self.setups.iter().position(here) {

@@ -6,6 +6,8 @@ use super::posterior::Posterior;
 use super::search::{Set, search};
 use super::seats::{Column, Seats};
 use super::smooth::{norm, smooth};
+use super::weights::weigh;
+use crate::experiments::drive_law::{Law, STOP};
 use crate::experiments::workspace::Response;
 use crate::fit::force_shapes::Shapes;
 use crate::fit::validation::DEFAULT_SPREAD;
@@ -79,9 +81,14 @@ impl<'a> Case<'a> {
             seats.read_again(&scene, &shapes);
         }
         let left = shapes.left();
-        let jumps = shapes.seen(|p, d, f, _| scene.base.jump(p, d, f, None)).1;
+        let own =
+            |p: usize, d: usize, f: &[f64]| scene.base.jumps((p, d), f, (Law::Free(STOP), 0.0));
+        let jumps = shapes.seen(own).1;
+        let bends: Vec<f64> = left.iter().zip(&jumps).map(|(l, j)| l - j).collect();
+        if shapes.is_bent(&bends) {
+            weigh(&mut seats, &scene, &shapes, &bends);
+        }
         let slopes = weighing.measured() - weighing.whiten(|p, d| scene.base.slopes[p][d]);
-        let bends = left.iter().zip(&jumps).map(|(l, j)| l - j);
         let readings: Vec<f64> = slopes.iter().copied().chain(bends).collect();
         let readings = DVector::from_vec(readings);
         let levels = left.len();
@@ -94,7 +101,12 @@ impl<'a> Case<'a> {
         };
         let prior = seats.columns.iter().map(|c| c.prior).collect();
         let low = seats.columns.iter().map(|c| c.low).collect();
-        let field = Field::new(&readings, &columns, &springs, (prior, low));
+        let field = Field::new(
+            (&readings, readings.len() - levels),
+            &columns,
+            &springs,
+            (prior, low),
+        );
         let posterior = Posterior::new(search(&seats, &field));
         Self {
             test,

@@ -6,15 +6,30 @@ use super::search::Set;
 use super::seats::Seat;
 use super::unseen::{Rows, fitted, gain, held_out};
 use crate::findings::gain::Gain;
+use crate::fit::force_shapes::Level;
 use crate::ground::spatial::M3;
 use nalgebra::DMatrix;
 
-/// Probability of a set against the same set less one cause, below which that cause is not named.
-const NEEDED: f64 = 0.9;
+/// Probability of a cause (it or any other in its stead) against none, below which it is not named.
+const NEEDED: f64 = 0.72;
 /// Sets looked through for one whose causes all gain.
 const SETS: usize = 80;
 /// A set with less than this share of the best one's probability is no explanation.
 const UNLIKELY: f64 = 1e-3;
+
+/// What is left out at a time.
+#[derive(Clone, Copy)]
+enum Parts {
+    /// Whole points.
+    Points,
+    /// One direction of the force at one point.
+    Setups,
+    /// Every so many levels, where the curve bends.
+    Levels,
+}
+
+/// Levels are left out in as many turns.
+const PARTS: usize = 7;
 
 impl Case<'_> {
     /// The most probable set whose causes all gain on unseen points; if there is none, the most
@@ -59,29 +74,42 @@ impl Case<'_> {
 
     fn is_needed(&self, set: &Set, seat: usize) -> bool {
         let rest: Vec<usize> = set.seats.iter().copied().filter(|s| *s != seat).collect();
-        let (with, without) = (self.posterior.of(&set.seats), self.posterior.of(&rest));
+        let without = self.posterior.of(&rest);
+        let others = self.posterior.stand_ins(&set.seats, seat);
+        let others: f64 = others
+            .iter()
+            .map(|(_, s, _)| self.posterior.of(&s.seats))
+            .sum();
+        let with = self.posterior.of(&set.seats) + others;
         with > NEEDED * (with + without)
     }
 
-    /// Gain of one seat: the set without it against the set, on points left out.
+    /// Gain of one seat: the set without it against the set, on data left out. What shows at one point
+    /// or in one set-up alone cannot be predicted from the others: then less is left out at a time.
     pub(super) fn gain_of(&self, set: &Set, seat: usize) -> Gain {
         let own = &self.seats.seats[seat];
-        let (without, with) = (self.without(set, seat), set);
-        let (before, after) = match self.point_of(own) {
-            Some(point) => (self.seen_at(point, &without), self.seen_at(point, with)),
-            None => {
-                let folds = self.folds(set, own);
-                let springs = self.springs.columns.ncols();
-                let of = |set: &Set| held_out(&self.rows(set, folds.len()), &folds, springs);
-                let (before, after) = (of(&without), of(with));
-                let carried = gain(&before.carried, &after.carried, self.unit());
-                if carried.is_real() {
-                    return carried;
-                }
-                (before.refitted, after.refitted)
+        let without = self.without(set, seat);
+        if let Some(point) = self.point_of(own) {
+            let (before, after) = (self.seen_at(point, &without), self.seen_at(point, set));
+            return gain(&before, &after, self.unit());
+        }
+        let springs = self.springs.columns.ncols();
+        let mut first = None;
+        for parts in [Parts::Points, Parts::Setups, Parts::Levels] {
+            let folds = self.folds(set, own, parts);
+            if folds.iter().all(Option::is_none) {
+                continue;
             }
-        };
-        gain(&before, &after, self.unit())
+            let of = |set: &Set| held_out(&self.rows(set, folds.len()), &folds, springs);
+            let (before, after) = (of(&without), of(set));
+            let carried = gain(&before.carried, &after.carried, self.unit());
+            let refitted = gain(&before.refitted, &after.refitted, self.unit());
+            if let Some(real) = [carried, refitted].into_iter().find(Gain::is_real) {
+                return real;
+            }
+            first.get_or_insert(refitted);
+        }
+        first.unwrap_or_else(|| gain(&[], &[], self.unit()))
     }
 
     /// The point that a seat is about, if it is about one.
@@ -103,18 +131,36 @@ impl Case<'_> {
         left
     }
 
-    /// Which rows are left out together: those of one point. Beyond the slopes the levels are rows
-    /// where the set bends the curve, and left out where the seat does.
-    fn folds(&self, set: &Set, seat: &Seat) -> Vec<Option<usize>> {
+    /// Which rows are left out together. Beyond the slopes the levels are rows where the set bends the
+    /// curve, and left out where the seat does. A point that is blamed itself is no witness.
+    fn folds(&self, set: &Set, seat: &Seat, parts: Parts) -> Vec<Option<usize>> {
         let bends = |column: usize| !self.seats.columns[column].pattern.left.is_empty();
+        let bent = bends(seat.first);
+        let blamed = set.seats.iter();
+        let blamed: Vec<usize> = blamed
+            .filter_map(|s| self.point_of(&self.seats.seats[*s]))
+            .collect();
+        let fold = |point: usize, direction: usize, row: usize| match parts {
+            _ if blamed.contains(&point) => None,
+            Parts::Points => Some(point),
+            Parts::Setups => Some(3 * point + direction),
+            Parts::Levels => bent.then_some(row % PARTS),
+        };
+        let slope = |place: &(usize, usize, usize)| match parts {
+            Parts::Levels => None,
+            _ => fold(place.0, place.1, 0),
+        };
         let places = self.weighing.places();
-        let slopes = places.iter().map(|place| Some(place.0));
+        let slopes = places.iter().map(slope);
         let levels = match self.columns_of(set).into_iter().any(bends) {
             true => self.shapes.levels(),
             false => Vec::new(),
         };
-        let levels = levels.iter().map(|l| bends(seat.first).then_some(l.point));
-        slopes.chain(levels).collect()
+        let level = |(row, l): (usize, &Level)| match bent {
+            true => fold(l.point, l.direction, row),
+            false => None,
+        };
+        slopes.chain(levels.iter().enumerate().map(level)).collect()
     }
 
     /// The first `count` rows with what the springs and a set explain of them.

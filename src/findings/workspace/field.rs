@@ -53,21 +53,23 @@ impl Springs {
 
 impl Field {
     /// Of `readings` less the simulation and the columns with their priors, all in standard
-    /// deviations of the readings.
+    /// deviations of the readings. Beyond the first rows, the `slopes`, most columns are zero.
     pub fn new(
-        readings: &DVector<f64>,
+        (readings, slopes): (&DVector<f64>, usize),
         columns: &DMatrix<f64>,
         springs: &Springs,
         (prior, low): (Vec<f64>, Vec<f64>),
     ) -> Self {
-        let mut gram = columns.tr_mul(columns);
+        let mut gram = gram_of(columns, slopes);
         let mut gradient = columns.tr_mul(readings);
         let mut base = readings.norm_squared();
         let b = &springs.columns;
-        let mut inner = b.tr_mul(b);
+        let head = b.rows(0, slopes);
+        let mut inner = head.tr_mul(&head);
         (0..inner.nrows()).for_each(|i| inner[(i, i)] += springs.spread.powi(-2));
         if let Some(root) = inner.cholesky() {
-            let (cross, right) = (b.tr_mul(columns), b.tr_mul(readings));
+            let (upper, lower) = (columns.rows(0, slopes), b.rows(0, slopes));
+            let (cross, right) = (lower.tr_mul(&upper), b.tr_mul(readings));
             let solved = root.solve(&cross);
             gram -= cross.tr_mul(&solved);
             gradient -= solved.tr_mul(&right);
@@ -152,6 +154,29 @@ impl Field {
     pub fn prior(&self, column: usize) -> f64 {
         self.prior[column]
     }
+}
+
+/// Products of all columns, of which beyond the first `slopes` rows most are zero.
+fn gram_of(columns: &DMatrix<f64>, slopes: usize) -> DMatrix<f64> {
+    let head = columns.rows(0, slopes);
+    let mut gram = head.tr_mul(&head);
+    let rest = columns.nrows() - slopes;
+    let bent = |j: &usize| {
+        columns
+            .column(*j)
+            .rows(slopes, rest)
+            .iter()
+            .any(|x| *x != 0.0)
+    };
+    let bent: Vec<usize> = (0..columns.ncols()).filter(bent).collect();
+    let tail = columns.rows(slopes, rest).select_columns(&bent);
+    let products = tail.tr_mul(&tail);
+    for (a, i) in bent.iter().enumerate() {
+        for (b, j) in bent.iter().enumerate() {
+            gram[(*i, *j)] += products[(a, b)];
+        }
+    }
+    gram
 }
 
 /// Probability above x standard deviations.

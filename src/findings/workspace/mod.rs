@@ -17,6 +17,7 @@ mod seats;
 mod smooth;
 mod strangers;
 mod unseen;
+mod weights;
 
 pub use diagnosis::{WorkspaceDiagnosis, diagnose};
 pub use limits::Limit;

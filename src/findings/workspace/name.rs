@@ -6,7 +6,7 @@ use super::search::Set;
 use crate::findings::answer::{Candidate, Cause, Group};
 
 /// Candidates that cannot be told apart hold the cause with this probability.
-const SURE: f64 = 0.93;
+const SURE: f64 = 0.86;
 
 impl Case<'_> {
     pub(super) fn name(&self, chosen: &Set) -> (Vec<Cause>, Vec<Group>) {
@@ -16,8 +16,8 @@ impl Case<'_> {
             .iter()
             .filter(|s| !self.seats.seats[**s].stranger)
         {
-            let mut rivals = self.posterior.rivals(&chosen.seats, *seat, SURE);
-            rivals.retain(|rival| !self.seats.seats[rival.0].stranger);
+            let known = |s: usize| !self.seats.seats[s].stranger;
+            let rivals = self.posterior.rivals(&chosen.seats, *seat, (SURE, known));
             let gain = self.gain_of(chosen, *seat);
             let own = &self.seats.seats[*seat];
             causes.push(Cause {

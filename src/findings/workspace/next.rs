@@ -247,7 +247,7 @@ fn imitated(signal: &DVector<f64>, rival: &[DVector<f64>], springs: &Springs) ->
     let rival = DMatrix::from_columns(rival);
     let n = rival.ncols();
     let wide = (vec![1e6; n], vec![f64::MIN; n]);
-    let field = Field::new(signal, &rival, springs, wide);
+    let field = Field::new((signal, signal.len()), &rival, springs, wide);
     let all: Vec<usize> = (0..n).collect();
     (0.5 * field.base - field.amounts(&all, |_| 1.0).nats).max(0.0)
 }

@@ -2,6 +2,7 @@
 
 use crate::causes::contract::{Cause, StepSeen};
 use crate::effects::Family;
+use crate::experiments::drive_law::{Law, STOP};
 use crate::experiments::workspace::Deflection;
 use crate::fit::force_shapes::Shapes;
 use crate::fit::weighing::Weighing;
@@ -86,23 +87,54 @@ impl<'a> Scene<'a> {
         cause.alter(&mut robot, site, amounts);
         let moved = deflection(&robot, self.points, self.sensor);
         let pairs = moved.slopes.iter().zip(&self.base.slopes);
-        let mut slopes: Vec<M3> = pairs.map(|(a, b)| difference(a, b, step)).collect();
-        if moved.is_linear() {
-            let left = Vec::new();
-            return Pattern { slopes, left };
+        let slopes: Vec<M3> = pairs.map(|(a, b)| difference(a, b, step)).collect();
+        let left = Vec::new();
+        match moved.is_linear() {
+            true => Pattern { slopes, left },
+            false => self.bent(&moved, (cause.law(amounts), &[]), slopes, step, shapes),
         }
-        let remembers = cause.remembers(amounts);
-        let jump = |p: usize, d: usize, f: f64, before: Option<f64>| {
-            let before = before.filter(|_| remembers);
-            let (a, b) = (moved.jump(p, d, f, before), self.base.jump(p, d, f, None));
-            std::array::from_fn(|k| (a[k] - b[k]) / step)
-        };
-        let (lines, left) = shapes.seen(jump);
+    }
+
+    /// The pattern of a drive that `moved` follows after a law, its weight larger by `more` N·m at
+    /// every point (none: as the model says), on top of slopes.
+    fn bent(
+        &self,
+        moved: &Deflection,
+        (law, more): (Law, &[f64]),
+        mut slopes: Vec<M3>,
+        step: f64,
+        shapes: &Shapes,
+    ) -> Pattern {
+        let (lines, left) = shapes.seen(|p, d, forces| {
+            let more = more.get(p).copied().unwrap_or(0.0);
+            let moved = moved.jumps((p, d), forces, (law, more));
+            let base = self.base.jumps((p, d), forces, (Law::Free(STOP), 0.0));
+            let change = |(a, b): (V3, V3)| std::array::from_fn(|k| (a[k] - b[k]) / step);
+            moved.into_iter().zip(base).map(change).collect()
+        });
         for (setup, line) in shapes.setups.iter().zip(&lines) {
             let own = &mut slopes[setup.point][setup.direction];
             (0..3).for_each(|k| own[k] += line[k].unwrap_or(0.0));
         }
         Pattern { slopes, left }
+    }
+
+    /// The pattern of a gap where the weight is larger by `more` N·m at every point than the model says.
+    pub fn heavier(
+        &self,
+        cause: &dyn Cause,
+        site: &str,
+        (index, step): (usize, f64),
+        more: &[f64],
+        shapes: &Shapes,
+    ) -> Pattern {
+        let mut amounts = vec![0.0; cause.card().amounts.len()];
+        amounts[index] = step;
+        let mut robot = self.robot.clone();
+        cause.alter(&mut robot, site, &amounts);
+        let moved = deflection(&robot, self.points, self.sensor);
+        let slopes = vec![[[0.0; 3]; 3]; self.points.len()];
+        self.bent(&moved, (cause.law(&amounts), more), slopes, step, shapes)
     }
 
     /// Instruments act in proportion: one newton shows everything.
@@ -139,6 +171,13 @@ fn difference(a: &M3, b: &M3, step: f64) -> M3 {
 }
 
 impl Pattern {
+    /// Multiplies what it does at every point.
+    pub fn scale_points(&mut self, factor: impl Fn(usize) -> f64) {
+        for (p, slopes) in self.slopes.iter_mut().enumerate() {
+            slopes.iter_mut().flatten().for_each(|s| *s *= factor(p));
+        }
+    }
+
     /// All numbers in standard deviations: the slopes, then `levels` numbers of what the lines leave.
     pub fn weighed(&self, weighing: &Weighing, levels: usize) -> DVector<f64> {
         let slopes = weighing.whiten(|p, d| self.slopes[p][d]);

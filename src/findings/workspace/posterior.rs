@@ -57,10 +57,16 @@ impl Posterior {
         found
     }
 
-    /// The stand-ins that together with the chosen one are the cause with probability `sure`, given
-    /// that it is one of them all.
-    pub fn rivals(&self, chosen: &[usize], seat: usize, sure: f64) -> Vec<(usize, &Set)> {
-        let all = self.stand_ins(chosen, seat);
+    /// The stand-ins, of those that are `known`, that together with the chosen one are the cause with
+    /// probability `sure`, given that it is one of them all.
+    pub fn rivals(
+        &self,
+        chosen: &[usize],
+        seat: usize,
+        (sure, known): (f64, impl Fn(usize) -> bool),
+    ) -> Vec<(usize, &Set)> {
+        let mut all = self.stand_ins(chosen, seat);
+        all.retain(|other| known(other.0));
         let own = self.of(chosen);
         let total: f64 = own + all.iter().map(|s| self.of(&s.1.seats)).sum::<f64>();
         let mut held = own;

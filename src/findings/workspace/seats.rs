@@ -1,7 +1,7 @@
 //! Who may be blamed, where, and how readily.
 
 use super::patterns::{Pattern, Scene};
-use super::strangers::{STRANGERS, is_stranger};
+use super::strangers::{STRANGERS, is_stranger, modes};
 use crate::causes::contract::{Blame, Cause, Sight};
 use crate::causes::seen_by;
 use crate::findings::belief::Place;
@@ -18,6 +18,8 @@ pub struct Seat {
     pub stranger: bool,
     /// Column of its first amount; the others follow.
     pub first: usize,
+    /// Logarithm of its share among the seats of its cause.
+    pub share: f64,
 }
 
 impl Seat {
@@ -84,33 +86,49 @@ impl Seats {
         };
         let library = seen_by(Sight::Workspace);
         for cause in library.chain(STRANGERS.iter().copied()) {
-            for site in cause.sites_at(scene.robot, scene.points.len()) {
-                all.seat(cause, site, scene, shapes);
+            let sites = cause.sites_at(scene.robot, scene.points.len());
+            let ready = |site: &String| cause.readiness(scene.robot, site);
+            let total: f64 = sites.iter().map(ready).sum();
+            for site in sites {
+                let share = (ready(&site) / total).ln();
+                all.seat(cause, (site, share), scene, shapes);
             }
         }
         all
     }
 
-    fn seat(&mut self, cause: &'static dyn Cause, site: String, scene: &Scene, shapes: &Shapes) {
+    fn seat(
+        &mut self,
+        cause: &'static dyn Cause,
+        (site, share): (String, f64),
+        scene: &Scene,
+        shapes: &Shapes,
+    ) {
         let (seat, first) = (self.seats.len(), self.columns.len());
         let scales = cause.scale(scene.robot, &site);
+        let modes = modes(cause, scene.robot, &site, scene.points);
         for (index, amount) in cause.card().amounts.iter().enumerate() {
             let scale = scales[index].abs().max(1e-12);
+            let mut pattern = scene.pattern(cause, &site, (index, scale), shapes);
+            if let Some(modes) = &modes {
+                pattern.scale_points(|p| modes[(p, index)]);
+            }
             self.columns.push(Column {
-                pattern: scene.pattern(cause, &site, (index, scale), shapes),
+                pattern,
                 prior: SPREAD * scale,
                 low: amount.bounds[0],
                 instrument: cause.blame() == Blame::Instrument,
                 stranger: is_stranger(cause),
             });
         }
-        let forms = cause.forms();
-        let weight = -((forms.len() * WIDTHS.len()) as f64).ln();
+        let (forms, shares) = (cause.forms(), cause.shares());
+        let total = WIDTHS.len() as f64 * shares.iter().sum::<f64>();
         for width in WIDTHS {
-            self.forms.extend(forms.iter().map(|form| Form {
+            let each = forms.iter().zip(&shares);
+            self.forms.extend(each.map(|(form, share)| Form {
                 seat,
                 columns: form.iter().map(|k| first + k).collect(),
-                weight,
+                weight: (share / total).ln(),
                 width,
             }));
         }
@@ -119,6 +137,7 @@ impl Seats {
             cause,
             site,
             first,
+            share,
         });
     }
 
@@ -136,6 +155,28 @@ impl Seats {
         }
     }
 
+    /// Takes the patterns of the gaps anew, with the weights that `tuned` finds for a column.
+    pub fn weigh_again(&mut self, tuned: impl Fn(&Seat, (usize, f64)) -> Option<(Pattern, f64)>) {
+        for at in 0..self.seats.len() {
+            let own = self.seats[at].clone();
+            for index in 0..own.cause.card().amounts.len() {
+                let column = own.first + index;
+                if self.columns[column].pattern.left.is_empty() {
+                    continue;
+                }
+                let step = (index, self.columns[column].prior / SPREAD);
+                if let Some((pattern, price)) = tuned(&own, step) {
+                    self.columns[column].pattern = pattern;
+                    let bent = |f: &&mut Form| f.columns.contains(&column);
+                    self.forms
+                        .iter_mut()
+                        .filter(bent)
+                        .for_each(|f| f.weight -= price);
+                }
+            }
+        }
+    }
+
     /// Logarithm of the odds of these seats before the data: instruments before parameters before
     /// structure, and one part forgotten makes another of its kind likely.
     pub fn odds(&self, seats: &[usize]) -> f64 {
@@ -146,8 +187,7 @@ impl Seats {
             let name = own.cause.card().name;
             let again = |s: &usize| self.seats[*s].cause.card().name == name;
             let again = own.cause.blame() == Blame::Structure && seats[..at].iter().any(again);
-            let places = self.seats.iter().filter(|s| s.cause.card().name == name);
-            let first = odds(own.cause.blame(), own.stranger) - (places.count() as f64).ln();
+            let first = odds(own.cause.blame(), own.stranger) + own.share;
             total += match (bare && name == "missing_tilt", again) {
                 (true, false) => SUSPECT - 6.0_f64.ln(),
                 (true, true) => LIKELY,
@@ -180,8 +220,8 @@ fn faulty(seat: &Seat, others: &[usize], all: &[Seat]) -> bool {
 fn odds(blame: Blame, stranger: bool) -> f64 {
     match (stranger, blame) {
         (true, _) => -4.6,
-        (_, Blame::Instrument) => -2.6,
-        (_, Blame::Parameter) => -2.8,
-        (_, Blame::Structure) => -3.4,
+        (_, Blame::Instrument) => -2.4,
+        (_, Blame::Parameter) => -2.4,
+        (_, Blame::Structure) => -3.0,
     }
 }

@@ -1,15 +1,17 @@
 //! Patterns that no cause of the library has, kept beside it so that they take no neighbour's name:
 //! where one of them explains the error best, the cause is unknown, and this is what is seen.
 
-use crate::causes::contract::{Blame, Card, Cause, Sight};
-use crate::causes::places::{UNIT_COMPLIANCE, added, number_in};
+use crate::causes::contract::{Amount, Blame, Card, Cause, Sight};
+use crate::causes::places::{UNIT_COMPLIANCE, added, number_in, soften};
 use crate::effects::Family;
+use crate::experiments::drive_law::Law;
 use crate::ground::spatial::V3;
 use crate::robot::model::ElasticAxis;
 use crate::robot::{Robot, Spring};
+use nalgebra::DMatrix;
 
 /// All of them.
-pub const STRANGERS: &[&dyn Cause] = &[&Shift];
+pub const STRANGERS: &[&dyn Cause] = &[&Shift, &Uneven, &Wave];
 
 /// Whether a cause is none of the library.
 pub fn is_stranger(cause: &dyn Cause) -> bool {
@@ -70,4 +72,154 @@ impl Cause for Shift {
             });
         }
     }
+}
+
+/// A drive whose compliance depends on sign or size of its torque.
+struct Uneven;
+
+const UNEVEN: Card = Card {
+    name: "uneven",
+    family: Family::Physics,
+    summary: "gives way more under some loads than under others",
+    equation: "δ = τ/k·(1 + x·[τ > 0]), or δ = τ/k·(1 + x·(τ/τ₁)²)",
+    source: "hardening and softening springs: Worden and Tomlinson 2001",
+    shows: &[(
+        Sight::Workspace,
+        "curves of displacement over force that bend",
+    )],
+    amounts: &[
+        share("forwards", "excess under load in the positive sense"),
+        share("backwards", "excess under load in the negative sense"),
+        share(
+            "softening",
+            "excess at 1 kN·m, growing with the square of the torque",
+        ),
+    ],
+};
+
+const fn share(name: &'static str, meaning: &'static str) -> Amount {
+    Amount {
+        name,
+        unit: "1",
+        meaning,
+        bounds: [0.0, 100.0],
+        starts: &[0.5],
+    }
+}
+
+const LAWS: [Law; 3] = [
+    Law::OneSided(1.0),
+    Law::OneSided(-1.0),
+    Law::Softening(1000.0),
+];
+
+impl Cause for Uneven {
+    fn card(&self) -> &'static Card {
+        &UNEVEN
+    }
+
+    fn sites(&self, robot: &Robot) -> Vec<String> {
+        drives(robot)
+    }
+
+    fn blame(&self) -> Blame {
+        Blame::Structure
+    }
+
+    fn forms(&self) -> Vec<Vec<usize>> {
+        vec![vec![0], vec![1], vec![2]]
+    }
+
+    fn law(&self, amounts: &[f64]) -> Law {
+        let own = amounts.iter().zip(LAWS).find(|(a, _)| **a > 0.0);
+        own.map_or(LAWS[0], |(_, law)| law)
+    }
+
+    fn alter(&self, robot: &mut Robot, site: &str, amounts: &[f64]) {
+        if let Some((_, spring)) = robot.springs_mut().find(|(name, _)| name == site) {
+            spring.backlash.push(amounts.iter().sum());
+        }
+    }
+}
+
+fn drives(robot: &Robot) -> Vec<String> {
+    let elastic = robot.joints.iter().filter(|joint| joint.drive.is_some());
+    elastic.map(|joint| joint.name.clone()).collect()
+}
+
+/// A drive whose compliance waves with its angle.
+pub struct Wave;
+
+const WAVE: Card = Card {
+    name: "wave",
+    family: Family::Physics,
+    summary: "is softer at some angles than at others",
+    equation: "1/k = (1 + x(q))/k₀, x a smooth function of the angle of that axis",
+    source: "teeth in mesh: Tuttle and Seering 1996; Gaussian process: Rasmussen and Williams 2006",
+    shows: &[(
+        Sight::Workspace,
+        "error of one drive that differs from point to point",
+    )],
+    amounts: &[
+        mode("mode_1"),
+        mode("mode_2"),
+        mode("mode_3"),
+        mode("mode_4"),
+        mode("mode_5"),
+        mode("mode_6"),
+    ],
+};
+
+const fn mode(name: &'static str) -> Amount {
+    Amount {
+        name,
+        unit: "1",
+        meaning: "excess of compliance that goes with one shape over the angle",
+        bounds: [-100.0, 100.0],
+        starts: &[0.3],
+    }
+}
+
+impl Cause for Wave {
+    fn card(&self) -> &'static Card {
+        &WAVE
+    }
+
+    fn sites(&self, robot: &Robot) -> Vec<String> {
+        drives(robot)
+    }
+
+    fn blame(&self) -> Blame {
+        Blame::Structure
+    }
+
+    fn alter(&self, robot: &mut Robot, site: &str, amounts: &[f64]) {
+        soften(robot, site, amounts.iter().sum());
+    }
+}
+
+/// Within this angle a wave keeps its value, rad.
+const ALIKE: f64 = 0.2;
+
+/// How a cause acts at every point, amount by amount, if not everywhere alike.
+pub fn modes(
+    cause: &dyn Cause,
+    robot: &Robot,
+    site: &str,
+    points: &[Vec<f64>],
+) -> Option<DMatrix<f64>> {
+    (cause.card().name == WAVE.name).then_some(())?;
+    let joint = robot.joints.iter().position(|j| j.name == site)?;
+    let n = points.len();
+    let kernel = DMatrix::from_fn(n, n, |i, j| {
+        (-0.5 * ((points[i][joint] - points[j][joint]) / ALIKE).powi(2)).exp()
+    });
+    let eigen = kernel.symmetric_eigen();
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+    let count = WAVE.amounts.len();
+    Some(DMatrix::from_fn(n, count, |i, k| match order.get(k) {
+        Some(at) => eigen.eigenvectors[(i, *at)] * eigen.eigenvalues[*at].max(0.0).sqrt(),
+        None => 0.0,
+    }))
 }
