@@ -156,9 +156,13 @@ fn amount(value: f64, unit: &str) -> String {
 
 /// A site as words: the axes have names, the rest are things.
 pub fn place(site: &str) -> String {
-    match site.starts_with(char::is_lowercase) {
-        true => format!("the {site}"),
-        false => site.to_string(),
+    match (
+        site.strip_prefix("link"),
+        site.starts_with(char::is_lowercase),
+    ) {
+        (Some(number), _) => format!("link {number}"),
+        (None, true) => format!("the {site}"),
+        (None, false) => site.to_string(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! A page as one HTML file that needs nothing else: no network, no scripts.
 
 use super::escape::escape;
-use super::prose::{bound, is_word, prose};
+use super::prose::{bound, is_long, is_word, prose};
 use super::svg;
 use crate::ground::problem::Outcome;
 use crate::sheet::chart::Chart;
@@ -214,6 +214,9 @@ impl Writer {
             let text = bound(row.get(k).map_or("", String::as_str));
             let class = flush(table, k);
             let _ = match k {
+                0 if class.is_empty() && is_long(&text) => {
+                    write!(self.out, "<th scope=\"row\" class=\"long\">{text}</th>")
+                }
                 0 => write!(self.out, "<th scope=\"row\"{class}>{text}</th>"),
                 _ if class.is_empty() && is_word(&text) => {
                     write!(self.out, "<td class=\"word\">{text}</td>")

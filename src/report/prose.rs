@@ -11,7 +11,7 @@ pub fn bound(text: &str) -> String {
 pub fn prose(text: &str) -> String {
     let text = bound(text);
     let pieces: Vec<&str> = text.split('`').collect();
-    if pieces.len() % 2 == 0 {
+    if pieces.len().is_multiple_of(2) {
         return text;
     }
     let typed = |(i, piece): (usize, &&str)| match i % 2 {
@@ -24,6 +24,11 @@ pub fn prose(text: &str) -> String {
 /// Whether a cell is one short word, as `A1-tilt`, that must not be broken.
 pub fn is_word(text: &str) -> bool {
     (1..=12).contains(&text.len()) && !text.contains(' ')
+}
+
+/// Whether the first cell of a row is too long to stand on one line.
+pub fn is_long(text: &str) -> bool {
+    text.len() > 40
 }
 
 #[cfg(test)]
