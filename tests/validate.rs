@@ -3,6 +3,7 @@
 
 use ident::experiments::workspace::Response;
 use ident::fit::axis_tests::AxisTest;
+use ident::fit::identified_robot::{text, with_axis_tests};
 use ident::fit::parameter::Status;
 use ident::fit::separability::{Kind, groups, with_foundation};
 use ident::fit::validation::{Validation, validate};
@@ -11,6 +12,8 @@ use ident::laboratory::truth::Truth;
 use ident::laboratory::workspace::WorkspaceTruth;
 use ident::measurement::table::Table;
 use ident::measurement::workspace_test::WorkspaceTest;
+use ident::robot::file;
+use ident::robot::joint_effect::JointEffect;
 use ident::robot::{Robot, builtin};
 use rayon::prelude::*;
 use serde_json::Value;
@@ -307,18 +310,42 @@ fn without_tilt_the_finding_of_the_thesis_shows() {
     );
 }
 
-/// What the axis tests measured is the prior; where the points add nothing it stands unchanged.
+/// What an axis test found of a joint's loop goes along into the identified robot and loads back; a spring
+/// that gives less than its contacts hold back goes without.
 #[test]
-fn axis_tests_are_the_prior() {
-    let test = AxisTest {
+fn the_identified_robot_carries_the_loop_of_its_axis_test() {
+    let effect = JointEffect::new("hysteresis", vec![9.7e-5, 348.0, 1.1, -0.4]).unwrap();
+    let carried = |stiffness: f64| {
+        let test = AxisTest {
+            effects: vec![effect.clone()],
+            ..axis_test(stiffness)
+        };
+        let robot = with_axis_tests(&kr210(), &[test]);
+        let back = file::read(&text(&robot, "builtin:kr210", true)).unwrap();
+        let (_, spring) = back.springs().find(|(site, _)| site == "A6").unwrap();
+        spring.effects.clone()
+    };
+    assert_eq!(carried(3.0e5), vec![effect.clone()]);
+    assert_eq!(carried(3.0e9), vec![]);
+}
+
+fn axis_test(stiffness: f64) -> AxisTest {
+    AxisTest {
         site: "A6".into(),
         path: "axis6.toml".into(),
         sha256: String::new(),
         input: ("axis6.csv".into(), "0123".into()),
-        stiffness: (3.0e5, 3.0e3),
-        ci95: [2.9e5, 3.1e5],
+        stiffness: (stiffness, 0.01 * stiffness),
+        ci95: [0.98 * stiffness, 1.02 * stiffness],
         backlash: None,
-    };
+        effects: Vec::new(),
+    }
+}
+
+/// What the axis tests measured is the prior; where the points add nothing it stands unchanged.
+#[test]
+fn axis_tests_are_the_prior() {
+    let test = axis_test(3.0e5);
     let found = validate(&record(&recipe(), &kr210(), 6), &kr210(), &[test]).unwrap();
     let a6 = found
         .refit
@@ -462,4 +489,28 @@ fn the_campaign_is_found_or_asked_for() {
     );
     let nowhere = tempfile::tempdir().unwrap();
     assert_eq!(ident(nowhere.path(), &["validate"]).status.code(), Some(2));
+}
+
+/// One cycle of two levels fits every line exactly; the stated noise stands in for the scatter.
+#[test]
+fn two_levels_of_one_cycle_give_stiffness_by_the_stated_noise() {
+    let mut seen = std::collections::BTreeSet::new();
+    let mut kept = |line: &&str| {
+        let cells: Vec<&str> = line.split(',').collect();
+        let level = cells.get(3).copied().unwrap_or_default();
+        let row = line.starts_with(|c: char| c.is_ascii_digit());
+        let first = ["0.0", "750.0"].contains(&level) && cells[2] == "1";
+        !row || (first && seen.insert(cells[..4].join(",")))
+    };
+    let text = example();
+    let text: Vec<&str> = text.lines().filter(|line| kept(line)).collect();
+    let bench = bench(&(text.join("\n") + "\n"));
+    let output = ident(bench.path(), &["validate", "--json", "--dry-run"]);
+    let said: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let points = said["points"].as_array().unwrap();
+    assert_eq!(points.len(), 27);
+    for point in points {
+        assert_eq!(point["rows"], 2);
+        assert_eq!(point["status"], "identified", "{point}");
+    }
 }

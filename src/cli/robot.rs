@@ -1,6 +1,6 @@
 //! `ident robot show | check | convert`: look at a robot file, doubt it, rewrite it.
 
-use super::output::{print, print_result};
+use super::output::{print, print_result, tell};
 use super::{Ending, Verb, arguments};
 use crate::ground::files::replace;
 use crate::ground::problem::Outcome;
@@ -195,8 +195,12 @@ fn show_text(robot: &Robot) -> String {
 
 fn check_file(file: &File) -> Outcome<Ending> {
     let loaded = load(&file.robot, None)?;
-    check::dynamics(&loaded.robot).map_err(|problem| problem.in_file(Path::new(&loaded.path)))?;
     let remarks = check::remarks(&loaded.robot);
+    if let Err(problem) = check::dynamics(&loaded.robot) {
+        let told = |remark: &Remark| tell(&format!("{}: {}", remark.site, remark.text));
+        remarks.iter().for_each(told);
+        return Err(problem.in_file(Path::new(&loaded.path)));
+    }
     match file.json {
         true => print_result("robot check", &[loaded.input()], check_json(&remarks))?,
         false => print(&check_text(&loaded.robot, &remarks))?,

@@ -1,7 +1,8 @@
 //! All experiments on one robot together: a cause must explain every experiment in which it would
 //! show, and what one experiment found is held against the others.
 
-use super::answer::{Answer, Verdict};
+use super::answer::{Answer, Group, Verdict};
+use super::joint::Joint;
 
 /// What a robot extended by one experiment means for another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -79,8 +80,19 @@ pub fn named(answer: &Answer) -> Vec<String> {
 
 /// The verdict on a whole campaign: one unknown cause anywhere leaves the robot at best partly
 /// explained; one that is contradicted elsewhere leaves it open.
-pub fn verdict<'a>(answers: impl Iterator<Item = &'a Answer>, checks: &[Check]) -> Verdict {
-    let all: Vec<Verdict> = answers.map(|answer| answer.verdict).collect();
+///
+/// A group that one experiment cannot separate is explained once all together tell its members apart.
+pub fn verdict<'a>(
+    answers: impl Iterator<Item = &'a Answer>,
+    checks: &[Check],
+    joint: Option<&Joint>,
+) -> Verdict {
+    let told = |group: &Group| joint.is_some_and(|joint| joint.told(group).is_some());
+    let settled = |answer: &Answer| match answer.verdict {
+        Verdict::CannotTell if answer.groups.iter().all(told) => Verdict::Explained,
+        verdict => verdict,
+    };
+    let all: Vec<Verdict> = answers.map(settled).collect();
     let any = |wanted: Verdict| all.contains(&wanted);
     let explained = any(Verdict::Explained) || any(Verdict::PartlyExplained);
     let contradicted = checks

@@ -2,9 +2,11 @@
 //! all of them answer in the same form.
 
 pub mod answer;
+pub mod belief;
 pub mod campaign;
 pub mod gain;
 pub mod hammer;
+pub mod joint;
 pub mod joint_motion;
 pub mod load_cycle;
 pub mod next_setups;

@@ -156,13 +156,11 @@ fn amount(value: f64, unit: &str) -> String {
 
 /// A site as words: the axes have names, the rest are things.
 pub fn place(site: &str) -> String {
-    match (
-        site.strip_prefix("link"),
-        site.starts_with(char::is_lowercase),
-    ) {
-        (Some(number), _) => format!("link {number}"),
-        (None, true) => format!("the {site}"),
-        (None, false) => site.to_string(),
+    let name = site.trim_end_matches(|c: char| c.is_ascii_digit());
+    match (site.starts_with(char::is_lowercase), &site[name.len()..]) {
+        (true, "") => format!("the {site}"),
+        (true, number) => format!("{name} {number}"),
+        (false, _) => site.to_string(),
     }
 }
 

@@ -6,6 +6,7 @@ use crate::ground::files;
 use crate::ground::problem::Outcome;
 use crate::measurement::leading::front_of;
 use crate::measurement::load_cycle::{LEVER_REL_STD, lever_spread};
+use crate::robot::joint_effect::JointEffect;
 use std::path::{Path, PathBuf};
 
 /// One axis test with its stiffness.
@@ -25,6 +26,8 @@ pub struct AxisTest {
     pub ci95: [f64; 2],
     /// Backlash, rad, if the test fixed it.
     pub backlash: Option<(f64, [f64; 2])>,
+    /// What the test found that a joint carries through time: hysteresis, friction.
+    pub effects: Vec<JointEffect>,
 }
 
 impl AxisTest {
@@ -98,7 +101,16 @@ fn one(path: &Path, measurements: &Path) -> Outcome<Option<AxisTest>> {
         stiffness: (value, stderr),
         ci95,
         backlash: backlash.map(|(value, _, ci95)| (value, ci95)),
+        effects: carried(&fit),
     }))
+}
+
+/// The effects of a fit that a joint can carry. Their loop is what the test fixed, even where it leaves
+/// open which of their parameters shapes it.
+fn carried(fit: &StoredFit) -> Vec<JointEffect> {
+    let own = fit.model.iter();
+    let own = own.filter_map(|e| JointEffect::new(&e.effect, e.p.clone()).ok());
+    own.collect()
 }
 
 /// Relative standard deviation by the levers of a measurement; the usual one if it is not there.

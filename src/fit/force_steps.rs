@@ -148,11 +148,11 @@ pub(super) fn straight(
     for _ in 0..30 {
         let (_, residuals) = weighted(readings, &weights, cycles)?;
         scale = spread(&residuals);
-        let huber = |r: &f64| (1.345 * scale / r.abs().max(1e-300)).min(1.0);
-        weights = residuals.iter().map(huber).collect();
         if scale == 0.0 {
             break;
         }
+        let huber = |r: &f64| (1.345 * scale / r.abs().max(1e-300)).min(1.0);
+        weights = residuals.iter().map(huber).collect();
     }
     let (_, residuals) = weighted(readings, &weights, cycles)?;
     let limit = WILD * scale.max(0.2 * noise.unwrap_or(0.0)).max(f64::MIN_POSITIVE);

@@ -3,10 +3,11 @@
 
 use super::axis_tests::AxisTest;
 use super::parameter::{Identified, Status};
+use crate::robot::joint_effect::held_back;
 use crate::robot::spring::Spring;
 use crate::robot::{Robot, write};
 
-/// The robot with the stiffness and backlash of every axis test.
+/// The robot with the stiffness, backlash, hysteresis and friction of every axis test.
 #[must_use]
 pub fn with_axis_tests(robot: &Robot, tests: &[AxisTest]) -> Robot {
     let mut robot = robot.clone();
@@ -25,16 +26,29 @@ fn take_axis_test(spring: &mut Spring, test: &AxisTest) {
         .unwrap_or_else(|| "the robot file".into());
     spring.stiffness = test.stiffness.0;
     spring.ci95.stiffness = Some(test.ci95);
-    let mut found = "stiffness";
+    let mut found = vec!["stiffness"];
     if let Some((gap, ci95)) = test.backlash {
         spring.backlash = vec![gap.max(0.0)];
         spring.ci95.backlash = Some(ci95);
-        found = "stiffness and backlash";
+        found.push("backlash");
     }
+    if !test.effects.is_empty() {
+        spring.effects = test.effects.clone();
+        found.extend(test.effects.iter().map(|effect| effect.name.as_str()));
+    }
+    drop_impossible(spring);
+    let found = found.join(", ");
     spring.source = Some(format!(
         "{found}: ident stiffness, {}; other numbers: {before}",
         test.provenance()
     ));
+}
+
+/// A spring that is stiffer than its sticking contacts cannot carry them: no robot file holds it.
+fn drop_impossible(spring: &mut Spring) {
+    if held_back(&spring.effects) * spring.stiffness >= 1.0 {
+        spring.effects.clear();
+    }
 }
 
 /// The robot with every stiffness that the points of a workspace test identified. `provenance`: the
@@ -52,6 +66,7 @@ pub fn with_points(robot: &Robot, parameters: &[Identified], provenance: &str) -
                 .unwrap_or_else(|| "the robot file".into());
             spring.stiffness = value;
             spring.ci95.stiffness = Some(ci95);
+            drop_impossible(spring);
             spring.source = Some(format!(
                 "stiffness: ident validate, {provenance}, starting from what follows; {before}"
             ));

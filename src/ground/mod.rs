@@ -9,3 +9,4 @@ pub mod random;
 pub mod spatial;
 pub mod trig;
 pub mod units;
+pub mod vector;

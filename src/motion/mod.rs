@@ -15,6 +15,7 @@ pub mod numeric;
 pub mod receptance;
 pub mod statics;
 pub mod swing;
+pub mod swing_state;
 pub mod work;
 
 pub use build::{elastic, rigid};

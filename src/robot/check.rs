@@ -23,11 +23,11 @@ pub fn dynamics(robot: &Robot) -> Outcome<()> {
     }
     refuse(
         &faults,
-        "give every link mass, centre and inertia about its centre; without masses only kinematics and statics are defined (`simulate deflection`)",
+        "give every link mass, centre and inertia about its centre; without masses only kinematics and the deflection under a force are defined (`simulate deflection`)",
     )
 }
 
-/// Refuses a robot with a body that cannot exist. A link without any body is allowed: kinematics and
+/// Refuses a robot with a body that cannot exist. A link without body or mass is allowed: kinematics and
 /// statics need none.
 ///
 /// # Errors
@@ -53,9 +53,8 @@ fn impossible(robot: &Robot) -> Vec<String> {
         .iter()
         .filter_map(|joint| Some((joint_label(joint), joint.link?)));
     let tool = robot.tool.body.map(|body| ("tool".to_string(), body));
-    let bodies = links
-        .chain(tool)
-        .filter(|(_, body)| body.mass != 0.0 || body.inertia != [0.0; 6]);
+    let bodies = links.chain(tool);
+    let bodies = bodies.filter(|(_, body)| body.mass != 0.0);
     bodies
         .filter_map(|(name, body)| Some(format!("{name} {}", body.fault()?)))
         .collect()

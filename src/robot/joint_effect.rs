@@ -82,8 +82,7 @@ pub fn read(site: &str, tables: Vec<toml::Table>, stiffness: f64) -> Outcome<Vec
         .map(of_table)
         .collect::<Outcome<Vec<_>>>();
     let effects = effects.map_err(|problem| problem.in_column(site))?;
-    let contacts = effects.iter().flat_map(JointEffect::contacts);
-    let held: f64 = contacts.map(|contact| contact.compliance).sum();
+    let held = held_back(&effects);
     if held * stiffness >= 1.0 {
         return Err(Problem::new(
             format!("the contacts of {site} hold back {held:.3e} rad/(N·m), more than its spring gives ({:.3e})", 1.0 / stiffness),
@@ -92,6 +91,12 @@ pub fn read(site: &str, tables: Vec<toml::Table>, stiffness: f64) -> Outcome<Vec
         .in_column(site));
     }
     Ok(effects)
+}
+
+/// What the contacts hold back while they stick, rad/(N·m); a spring that gives less cannot carry them.
+pub fn held_back(effects: &[JointEffect]) -> f64 {
+    let contacts = effects.iter().flat_map(JointEffect::contacts);
+    contacts.map(|contact| contact.compliance).sum()
 }
 
 fn of_table(mut table: toml::Table) -> Outcome<JointEffect> {

@@ -59,7 +59,8 @@ fn verdict(damped: &Damped) -> (Tone, String) {
     let (frac, db) = worst.fold((1.0_f64, 0.0_f64), |(f, d), m| {
         (f.min(m.frac), d.max(m.log_error_db))
     });
-    let numbers = format!("FRAC at least {frac:.4}, amplitude within {db:.2} dB in the mean");
+    let floor = (frac * 1e4).floor() / 1e4;
+    let numbers = format!("FRAC at least {floor:.4}, amplitude within {db:.2} dB in the mean");
     match damped.met() {
         true => (
             Tone::Good,

@@ -2,8 +2,9 @@
 
 use super::hammer_figures;
 use super::kind::{Diagnosed, Source};
-use crate::findings::Answer;
+use crate::findings::belief::Belief;
 use crate::findings::hammer::{Diagnosis, diagnose};
+use crate::findings::{Answer, Verdict};
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::hammer::HammerRecord;
 use crate::measurement::hammer_uff::read_any;
@@ -107,6 +108,11 @@ impl Diagnosed for HammerDiagnosis {
             said.push(format!("Hits left out: {}.", left_out.join("; ")));
         }
         said
+    }
+
+    fn belief(&self) -> Option<&Belief> {
+        let known = self.answer().verdict != Verdict::UnknownCause;
+        known.then_some(&self.found.belief)
     }
 
     fn model(&self) -> Outcome<Option<String>> {

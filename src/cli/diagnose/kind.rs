@@ -2,6 +2,7 @@
 
 use super::{hammer, joint_motion, load_cycle, workspace};
 use crate::findings::Answer;
+use crate::findings::belief::Belief;
 use crate::ground::problem::Outcome;
 use crate::measurement::leading::front_of;
 use crate::robot::Robot;
@@ -48,6 +49,11 @@ pub trait Diagnosed: Send + Sync {
     }
     /// The same measurement diagnosed with another robot.
     fn under(&self, _robot: &Robot) -> Option<Box<dyn Diagnosed>> {
+        None
+    }
+    /// What it believes about the robot as a whole; `None` for what says nothing about it, or what no known
+    /// cause explains.
+    fn belief(&self) -> Option<&Belief> {
         None
     }
     /// What a reader should know beside the causes, one sentence each.

@@ -2,9 +2,10 @@
 
 use super::kind::{Diagnosed, Source};
 use super::workspace_figures as figures;
-use crate::findings::Answer;
+use crate::findings::belief::Belief;
 use crate::findings::sentence::spoken;
 use crate::findings::workspace::{Limit, WorkspaceDiagnosis, diagnose};
+use crate::findings::{Answer, Verdict};
 use crate::fit::force_steps::Setup;
 use crate::fit::validation::mean_and_max;
 use crate::ground::problem::{Outcome, Problem};
@@ -104,6 +105,11 @@ impl Diagnosed for Workspace {
         };
         let test = self.test.clone();
         Some(Box::new(Workspace { test, robot, found }))
+    }
+
+    fn belief(&self) -> Option<&Belief> {
+        let known = self.answer().verdict != Verdict::UnknownCause;
+        known.then_some(&self.found.belief)
     }
 
     fn model(&self) -> Outcome<Option<String>> {

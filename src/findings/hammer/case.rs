@@ -14,6 +14,7 @@ use super::unseen::{folds, gain, without};
 use super::{discrepancy, doubled, extended};
 use crate::experiments::hammer_frf::{HammerFrf, Settings};
 use crate::findings::answer::{Answer, Cause, Discrepancy, Group, Structure, Verdict};
+use crate::findings::belief::Belief;
 use crate::findings::gain::Gain;
 use crate::ground::problem::Outcome;
 use crate::measurement::hammer::HammerRecord;
@@ -31,6 +32,7 @@ const MEMBERS: usize = 6;
 /// Everything that the steps of a diagnosis share.
 pub(super) struct Case<'a> {
     pub(super) machine: Machine<'a>,
+    pub(super) suspects: Vec<Suspect>,
     pub(super) frf: HammerFrf,
     pub(super) sharp: Data,
     pub(super) grid: Grid,
@@ -64,6 +66,23 @@ impl Case<'_> {
         let adequacy = Adequacy::of(&self.sharp, &chosen.residual);
         let level = linearity(&self.frf, self.grid);
         self.answer(&posterior, &chosen, named, &adequacy, level)
+    }
+
+    /// The posterior with the instruments summed out.
+    fn belief(&self, posterior: &Posterior) -> Belief {
+        let sees = self.suspects.iter().filter(|s| s.is_physical());
+        let weighed = posterior.sets.iter().map(|(fit, _, p)| {
+            let mut robot = self.machine.robot.clone();
+            let each = fit.point.each().into_iter();
+            let physical = each.filter(|(suspect, _)| suspect.is_physical());
+            let causes = physical.map(|(suspect, amounts)| {
+                suspect.cause.alter(&mut robot, &suspect.site, &amounts);
+                suspect.place()
+            });
+            let causes = causes.collect();
+            (causes, *p, robot)
+        });
+        Belief::new(sees.map(Suspect::place).collect(), weighed)
     }
 
     fn nothing(&self, found: &Found) -> Outcome<Fit> {
@@ -220,6 +239,7 @@ impl Case<'_> {
             ),
         };
         Ok(Diagnosis {
+            belief: self.belief(posterior),
             answer,
             data: self.sharp,
             before,

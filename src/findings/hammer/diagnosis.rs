@@ -10,6 +10,7 @@ use super::search::search;
 use super::suspect::suspects;
 use crate::experiments::hammer_frf::{HammerFrf, Settings, estimate};
 use crate::findings::Answer;
+use crate::findings::belief::Belief;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::hammer::HammerRecord;
 use crate::robot::Robot;
@@ -42,6 +43,8 @@ pub struct Diagnosis {
     pub after: Curves,
     /// The robot with the physical causes in it; none without.
     pub extended: Option<Robot>,
+    /// What these hits believe about the robot.
+    pub belief: Belief,
     /// The FRFs, hits judged.
     pub frf: HammerFrf,
     /// How the FRF depends on the force; none where the hits cannot tell.
@@ -87,13 +90,13 @@ pub fn diagnose(record: &HammerRecord, robot: &Robot) -> Outcome<Diagnosis> {
     };
     let case = Case {
         machine: Machine::new(robot, &joints, known, &wide)?,
+        suspects: suspects(robot, &record.outputs),
         frf,
         sharp,
         grid: grid(STEPS_HZ[1]),
         settings,
     };
-    let suspects = suspects(robot, &record.outputs);
-    let found = search(&case.machine, &suspects, &wide, &case.sharp)?;
+    let found = search(&case.machine, &case.suspects, &wide, &case.sharp)?;
     case.conclude(&found, record)
 }
 

@@ -2,6 +2,7 @@
 
 use crate::causes::{self, Amount, Cause, Sight};
 use crate::effects::Family;
+use crate::findings::belief::Place;
 use crate::robot::Robot;
 
 /// Where an amount that cannot be negative starts to exist, in spreads.
@@ -56,6 +57,11 @@ impl Suspect {
                 .collect()
         };
         (0..count).map(at).collect()
+    }
+
+    /// Cause and site.
+    pub fn place(&self) -> Place {
+        (self.name(), self.site.clone())
     }
 
     /// Whether it changes the robot.

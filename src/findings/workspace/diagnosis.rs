@@ -4,7 +4,10 @@ use super::adequacy::Adequacy;
 use super::case::Case;
 use super::limits::{Limit, limits};
 use super::search::Set;
+use super::seats::Seat;
+use crate::causes::contract::Blame;
 use crate::findings::answer::{Answer, Cause, Group, Verdict};
+use crate::findings::belief::Belief;
 use crate::fit::force_shapes::Shapes;
 use crate::ground::spatial::M3;
 use crate::measurement::workspace_test::WorkspaceTest;
@@ -26,6 +29,8 @@ pub struct WorkspaceDiagnosis {
     pub unseen: Vec<M3>,
     /// What these points would not show.
     pub limits: Vec<Limit>,
+    /// What these points believe about the robot.
+    pub belief: Belief,
     /// Standard deviation of a measured slope about any model, m/N, by set-up and component.
     pub deviation: Vec<[f64; 3]>,
 }
@@ -89,10 +94,24 @@ impl Case<'_> {
             explained: self.explained(&chosen),
             unseen: self.unseen(&chosen),
             limits: limits(&self.seats, &self.field),
+            belief: self.belief(),
             deviation: self.weighing.deviations(),
             answer,
             shapes: self.shapes,
         }
+    }
+
+    /// The posterior with the instruments summed out.
+    fn belief(&self) -> Belief {
+        let seats = &self.seats.seats;
+        let physical = |s: &Seat| s.cause.blame() != Blame::Instrument && !s.stranger;
+        let sees = seats.iter().filter(|s| physical(s)).map(Seat::place);
+        let weighed = self.posterior.sets.iter().map(|(set, p)| {
+            let own = set.seats.iter().map(|s| &seats[*s]);
+            let causes = own.filter(|s| physical(s)).map(Seat::place).collect();
+            (causes, *p, self.extended(set))
+        });
+        Belief::new(sees.collect(), weighed)
     }
 
     fn extended(&self, set: &Set) -> Robot {

@@ -4,6 +4,7 @@ use super::patterns::{Pattern, Scene};
 use super::strangers::{STRANGERS, is_stranger};
 use crate::causes::contract::{Blame, Cause, Sight};
 use crate::causes::seen_by;
+use crate::findings::belief::Place;
 use crate::fit::force_shapes::Shapes;
 
 /// A cause at a site.
@@ -17,6 +18,13 @@ pub struct Seat {
     pub stranger: bool,
     /// Column of its first amount; the others follow.
     pub first: usize,
+}
+
+impl Seat {
+    /// Cause and site.
+    pub fn place(&self) -> Place {
+        (self.cause.card().name, self.site.clone())
+    }
 }
 
 /// One form in which a seat may act.

@@ -19,6 +19,11 @@ pub fn account(campaign: &Campaign) -> String {
     said.push_str(&text::indented(&campaign.sentence(), 2));
     said.push_str(&format!("\n{}", text::table(&tables::overview(campaign))));
     said.push_str(&format!("\n{}", text::table(&tables::causes(campaign))));
+    if let Some(joint) = campaign.joined() {
+        said.push_str(&format!("\n{}", text::table(&tables::together(joint))));
+        let settled = campaign.settled();
+        said.extend(settled.iter().map(|s| text::indented(s, 2)));
+    }
     if !campaign.checks.is_empty() {
         said.push_str(&format!("\n{}", text::table(&tables::checked(campaign))));
     }

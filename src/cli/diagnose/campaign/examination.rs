@@ -6,6 +6,7 @@ use crate::cli::diagnose::kind::{Diagnosed, KINDS, kind};
 use crate::cli::diagnose::next::Proposal;
 use crate::cli::progress::Progress;
 use crate::findings::campaign::{Check, verdict};
+use crate::findings::joint::Joint;
 use crate::fit::axis_tests::{self, AxisTest};
 use crate::fit::identified_robot::with_axis_tests;
 use crate::ground::problem::{Outcome, Problem};
@@ -53,11 +54,19 @@ pub fn examine(place: &Place, progress: bool) -> Outcome<Campaign> {
         Err(problem) => (None, Some(format!("No set-ups are planned: {problem}"))),
     };
     let closed = remarks::closed_gaps(&files, &tests);
+    let believed = files.iter();
+    let believed = believed.filter_map(|one| Some((one.stem(), one.found.belief()?)));
+    let joint = Joint::of(&believed.collect::<Vec<_>>());
     Ok(Campaign {
         next,
         remarks: closed.into_iter().chain(refused).collect(),
-        verdict: verdict(files.iter().map(|one| one.found.answer()), &checks),
-        robot: extended(&files),
+        verdict: verdict(
+            files.iter().map(|one| one.found.answer()),
+            &checks,
+            joint.as_ref(),
+        ),
+        robot: extended(&files, joint.as_ref()),
+        joint,
         place: place.clone(),
         checks,
         files,
@@ -115,17 +124,40 @@ fn checks(files: &[One]) -> Vec<Check> {
     pairs.into_par_iter().filter_map(check).collect()
 }
 
-/// The robot that all tests together extend, each starting from what those before it found.
-fn extended(files: &[One]) -> Option<Robot> {
+/// The robot that all tests together extend: the first with what it fits for the causes that all of them
+/// believe in, each other one starting from what those before it found.
+fn extended(files: &[One], joint: Option<&Joint>) -> Option<Robot> {
     let mut robot: Option<Robot> = None;
     let mut changed = false;
     for one in files {
         let again = robot.as_ref().and_then(|robot| one.found.under(robot));
         let found: &dyn Diagnosed = again.as_deref().unwrap_or(one.found.as_ref());
-        if let (Some(before), Some(after)) = (found.robot(), found.extended()) {
-            changed |= before != after;
-            robot = Some(after.clone());
+        let believed = joint.filter(|_| again.is_none());
+        let believed = believed.and_then(|joint| noted(one, joint));
+        let after = believed.or_else(|| found.extended().cloned());
+        if let (Some(before), Some(after)) = (found.robot(), after) {
+            changed |= *before != after;
+            robot = Some(after);
         }
     }
     robot.filter(|_| changed)
+}
+
+/// The robot of one experiment with what of the joint belief it shows, and a note of where that comes from.
+fn noted(one: &One, joint: &Joint) -> Option<Robot> {
+    let belief = one.found.belief()?;
+    let own = belief.visible(&joint.best);
+    let mut robot = belief.robot(&joint.best)?.clone();
+    let said: Vec<String> = own
+        .iter()
+        .map(|(e, site)| format!("{e} at {site}"))
+        .collect();
+    if !said.is_empty() {
+        let (tests, name) = (joint.tests.join(", "), one.name());
+        let said = said.join(", ");
+        robot.notes.push(format!(
+            "`ident diagnose`: {said}; named by {tests} together, amounts fitted to {name}"
+        ));
+    }
+    Some(robot)
 }

@@ -3,7 +3,9 @@
 use super::Campaign;
 use crate::cli::diagnose::One;
 use crate::cli::diagnose::next::setups;
+use crate::findings::belief::Place;
 use crate::findings::campaign::Check;
+use crate::findings::joint::{Joint, Together};
 use crate::ground::problem::Outcome;
 use serde_json::{Map, Value, json};
 
@@ -19,13 +21,23 @@ pub fn body(campaign: &Campaign, dry: bool) -> Outcome<Map<String, Value>> {
     let mut experiments = Vec::new();
     for one in &campaign.files {
         let body = one.body(dry)?;
-        for (list, key) in gathered.iter_mut().zip(["causes", "cannot_separate"]) {
-            let own = body.get(key).and_then(Value::as_array).cloned();
-            list.extend(own.into_iter().flatten().map(|value| with_file(value, one)));
+        let listed = |key: &str| body.get(key).and_then(Value::as_array).cloned();
+        let [causes, groups] = &mut gathered;
+        let own = listed("causes").into_iter().flatten();
+        causes.extend(own.map(|cause| with_file(cause, one)));
+        let own = listed("cannot_separate").into_iter().flatten();
+        for (value, group) in own.zip(&one.found.answer().groups) {
+            match campaign.told(group) {
+                Some(told) => causes.push(with_file(told_json(&told, &value), one)),
+                None => groups.push(with_file(value, one)),
+            }
         }
         experiments.push(with_file(Value::Object(body), one));
     }
     let [mut causes, groups] = gathered;
+    if let Some(joint) = &campaign.joint {
+        map.insert("joint".into(), joint_json(joint));
+    }
     causes.sort_by(|a, b| gain(b).total_cmp(&gain(a)));
     map.insert("causes".into(), Value::Array(causes));
     map.insert("cannot_separate".into(), Value::Array(groups));
@@ -58,6 +70,28 @@ fn with_file(mut value: Value, one: &One) -> Value {
         map.insert("file".into(), json!(one.path().display().to_string()));
     }
     value
+}
+
+/// A cause that one experiment cannot tell from others, and all together can.
+fn told_json(((effect, site), probability): &(Place, f64), group: &Value) -> Value {
+    json!({
+        "effect": effect,
+        "site": site,
+        "probability": probability,
+        "alternatives": [],
+        "parameters": [],
+        "gain": group["gain"],
+    })
+}
+
+fn joint_json(joint: &Joint) -> Value {
+    let cause = |cause: &Together| {
+        let alone = joint.tests.iter().zip(&cause.alone);
+        let alone: Map<String, Value> = alone.map(|(test, p)| (test.clone(), json!(p))).collect();
+        let (effect, site) = &cause.place;
+        json!({"effect": effect, "site": site, "probability": cause.probability, "alone": alone})
+    };
+    joint.causes.iter().map(cause).collect()
 }
 
 fn check_json(check: &Check) -> Value {

@@ -18,8 +18,11 @@ use super::One;
 use super::next::Proposal;
 use crate::cli::Ending;
 use crate::cli::chapter::Chapter;
-use crate::findings::Verdict;
+use crate::findings::belief;
 use crate::findings::campaign::Check;
+use crate::findings::joint::Joint;
+use crate::findings::sentence::{candidates, place, probability, spoken};
+use crate::findings::{Group, Verdict};
 use crate::ground::problem::Outcome;
 use crate::measurement::workspace::Place;
 use crate::robot::{Robot, write};
@@ -33,6 +36,8 @@ pub struct Campaign {
     pub files: Vec<One>,
     /// What one found, held against the others.
     pub checks: Vec<Check>,
+    /// What the tests of the whole robot believe together; `None` for fewer than two.
+    pub joint: Option<Joint>,
     /// The robot with everything that was found; `None` if nothing changed it.
     pub robot: Option<Robot>,
     /// The verdict on all.
@@ -61,6 +66,35 @@ impl Campaign {
         robot.into_iter().collect()
     }
 
+    /// What all tests believe together, if there is something to list.
+    fn joined(&self) -> Option<&Joint> {
+        self.joint.as_ref().filter(|joint| !joint.causes.is_empty())
+    }
+
+    /// Which member of a group all tests together tell from the others.
+    fn told(&self, group: &Group) -> Option<(belief::Place, f64)> {
+        self.joint.as_ref()?.told(group)
+    }
+
+    /// What one experiment cannot tell and all together can, one sentence each.
+    fn settled(&self) -> Vec<String> {
+        let groups = self.files.iter().flat_map(|one| {
+            let groups = one.found.answer().groups.iter();
+            groups.map(move |group| (one.stem(), group))
+        });
+        let said = groups.filter_map(|(stem, group)| {
+            let ((effect, site), p) = self.told(group)?;
+            Some(format!(
+                "{stem} alone cannot tell {}; all tests of the robot together say {} at {} ({}).",
+                candidates(group),
+                spoken(effect),
+                place(&site),
+                probability(p)
+            ))
+        });
+        said.collect()
+    }
+
     fn synthetic(&self) -> bool {
         self.files.iter().any(|one| one.found.source().synthetic)
     }
@@ -75,7 +109,7 @@ impl Campaign {
 
     /// The verdict in a sentence or three.
     pub fn sentence(&self) -> String {
-        sentence::sentence(&self.files, &self.checks)
+        sentence::sentence(self)
     }
 }
 

@@ -40,9 +40,12 @@ fn wrong(campaign: &Campaign) -> Vec<Block> {
 }
 
 fn why(campaign: &Campaign) -> Vec<Block> {
-    let tables = [tables::causes(campaign), tables::checked(campaign)];
-    let told = tables.into_iter().filter(|table| !table.rows.is_empty());
-    told.map(Block::Table).collect()
+    let together = campaign.joined().map(tables::together);
+    let tables = [tables::causes(campaign)].into_iter().chain(together);
+    let tables = tables.chain([tables::checked(campaign)]);
+    let told = tables.filter(|table| !table.rows.is_empty());
+    let settled = campaign.settled().into_iter().map(Block::text);
+    told.map(Block::Table).chain(settled).collect()
 }
 
 fn remains(campaign: &Campaign) -> Vec<Block> {
@@ -83,7 +86,8 @@ fn next(campaign: &Campaign) -> Vec<Block> {
 fn open_questions(campaign: &Campaign) -> impl Iterator<Item = String> {
     campaign.files.iter().flat_map(|one| {
         let groups = one.found.answer().groups.iter();
-        groups.map(|group| {
+        let open = groups.filter(|group| campaign.told(group).is_none());
+        open.map(|group| {
             let which = candidates(group);
             format!(
                 "{}: to tell apart {which}: {}.",

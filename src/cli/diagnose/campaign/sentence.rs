@@ -1,5 +1,6 @@
 //! The verdict on a campaign in a few sentences.
 
+use super::Campaign;
 use crate::cli::diagnose::One;
 use crate::findings::Verdict;
 use crate::findings::campaign::{Agreement, Check};
@@ -10,8 +11,13 @@ use std::collections::BTreeMap;
 const LISTED: usize = 3;
 
 /// How many experiments are missed, what was named, and what one says about another.
-pub fn sentence(files: &[One], checks: &[Check]) -> String {
-    let said = [Some(missed(files)), named(files), open(files), held(checks)];
+pub fn sentence(campaign: &Campaign) -> String {
+    let said = [
+        Some(missed(&campaign.files)),
+        named(campaign),
+        open(campaign),
+        held(&campaign.checks),
+    ];
     said.into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
 
@@ -42,12 +48,17 @@ fn missed(files: &[One]) -> String {
 }
 
 /// `Named: backlash at 12 places, joint damping at A4.`
-fn named(files: &[One]) -> Option<String> {
-    let mut found: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
-    for cause in files.iter().flat_map(|one| &one.found.answer().causes) {
-        let sites = found.entry(cause.effect).or_default();
-        if !sites.contains(&cause.site.as_str()) {
-            sites.push(&cause.site);
+fn named(campaign: &Campaign) -> Option<String> {
+    let answers = campaign.files.iter().map(|one| one.found.answer());
+    let causes = answers.clone().flat_map(|answer| &answer.causes);
+    let alone = causes.map(|cause| (cause.effect, cause.site.clone()));
+    let groups = answers.flat_map(|answer| &answer.groups);
+    let together = groups.filter_map(|group| Some(campaign.told(group)?.0));
+    let mut found: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    for (effect, site) in alone.chain(together) {
+        let sites = found.entry(effect).or_default();
+        if !sites.contains(&site) {
+            sites.push(site);
         }
     }
     let said = found.iter().map(|(effect, sites)| match sites.len() {
@@ -61,9 +72,13 @@ fn named(files: &[One]) -> Option<String> {
     (!said.is_empty()).then(|| format!("Named: {}.", said.join(", ")))
 }
 
-fn open(files: &[One]) -> Option<String> {
-    let groups = files.iter().map(|one| one.found.answer().groups.len());
-    match groups.sum::<usize>() {
+fn open(campaign: &Campaign) -> Option<String> {
+    let files = campaign.files.iter();
+    let groups = files.flat_map(|one| &one.found.answer().groups);
+    match groups
+        .filter(|group| campaign.told(group).is_none())
+        .count()
+    {
         0 => None,
         1 => Some("One question is open.".into()),
         n => Some(format!("{n} questions are open.")),

@@ -4,6 +4,7 @@ use super::{Campaign, errors};
 use crate::cli::diagnose::page;
 use crate::cli::diagnose::tables::{amounts, reduction};
 use crate::findings::Cause;
+use crate::findings::joint::Joint;
 use crate::findings::sentence::{candidates, place, probability, spoken};
 use crate::sheet::number::{engineering, significant};
 use crate::sheet::table::Table;
@@ -77,6 +78,24 @@ fn amount(cause: &Cause) -> String {
         ..cause.clone()
     };
     amounts(&leading)
+}
+
+/// Causes as the tests of the whole robot see them alone and together.
+pub fn together(joint: &Joint) -> Table {
+    let header = ["cause".to_string()].into_iter();
+    let header = header.chain(joint.tests.iter().cloned());
+    let header = header.chain(["together".to_string()]);
+    let mut table = Table::new("All tests of the whole robot together", header);
+    table = table.numeric(1..2 + joint.tests.len());
+    for cause in &joint.causes {
+        let (effect, site) = &cause.place;
+        let alone = cause.alone.iter();
+        let alone = alone.map(|p| p.map_or("not seen".into(), probability));
+        let named = format!("{} at {}", spoken(effect), place(site));
+        let line = [named].into_iter().chain(alone);
+        table.push(line.chain([probability(cause.probability)]));
+    }
+    table.noted("probability that the cause is present, by each test alone and with the evidence of all multiplied; not seen: the test would not show it")
 }
 
 /// What one experiment found, held against the others.

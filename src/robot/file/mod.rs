@@ -1,5 +1,8 @@
 //! Reading robot files (TOML, `formats.md` section 2). Unknown keys are refused with their line.
 
+mod syntax;
+mod text;
+
 use super::body::Body;
 use super::joint_effect;
 use super::model::{ElasticAxis, Joint, Robot, Tool};
@@ -7,113 +10,11 @@ use super::spring::{Intervals, Spring};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{IDENTITY, M3, V3, scale, unit};
 use crate::ground::units::DEGREE;
-use serde::Deserialize;
-use toml::Spanned;
+use syntax::{line_of, syntax};
+use text::{BodyText, ElasticText, JointText, OneOrMany, RobotText, SpringText, ToolText};
 
 /// How far from 1 the length of an axis may be before it counts as a mistake; then it is scaled.
 const UNIT_TOLERANCE: f64 = 1e-3;
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RobotText {
-    name: String,
-    #[serde(default)]
-    source: String,
-    #[serde(default)]
-    notes: Vec<String>,
-    joints: Vec<Spanned<JointText>>,
-    tool: Option<Spanned<ToolText>>,
-    #[serde(default)]
-    elastic: Vec<Spanned<ElasticText>>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct JointText {
-    name: String,
-    axis: V3,
-    point_m: V3,
-    limits_deg: Option<[f64; 2]>,
-    max_speed_deg_s: Option<f64>,
-    drive: Option<SpringText>,
-    tilt: Option<SpringText>,
-    link: Option<BodyText>,
-    source: Option<String>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SpringText {
-    #[serde(rename = "stiffness_Nm_rad")]
-    stiffness: f64,
-    #[serde(rename = "damping_Nms_rad", default)]
-    damping: f64,
-    #[serde(rename = "backlash_rad", default)]
-    backlash: OneOrMany,
-    #[serde(default)]
-    effects: Vec<toml::Table>,
-    source: Option<String>,
-    #[serde(rename = "stiffness_ci95_Nm_rad")]
-    stiffness_ci95: Option<[f64; 2]>,
-    #[serde(rename = "damping_ci95_Nms_rad")]
-    damping_ci95: Option<[f64; 2]>,
-    #[serde(rename = "backlash_ci95_rad")]
-    backlash_ci95: Option<[f64; 2]>,
-}
-
-/// One gap or a list of gaps in series.
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum OneOrMany {
-    One(f64),
-    Many(Vec<f64>),
-}
-
-impl Default for OneOrMany {
-    fn default() -> Self {
-        Self::One(0.0)
-    }
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct BodyText {
-    mass_kg: f64,
-    com_m: V3,
-    inertia_kgm2: [f64; 6],
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ToolText {
-    flange_m: Option<V3>,
-    tcp_m: V3,
-    rotation: Option<M3>,
-    body: Option<BodyText>,
-    source: Option<String>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ElasticText {
-    name: String,
-    after: usize,
-    axis: V3,
-    point_m: V3,
-    #[serde(rename = "stiffness_Nm_rad")]
-    stiffness: f64,
-    #[serde(rename = "damping_Nms_rad", default)]
-    damping: f64,
-    #[serde(rename = "backlash_rad", default)]
-    backlash: OneOrMany,
-    #[serde(default)]
-    effects: Vec<toml::Table>,
-    source: Option<String>,
-    #[serde(rename = "stiffness_ci95_Nm_rad")]
-    stiffness_ci95: Option<[f64; 2]>,
-    #[serde(rename = "damping_ci95_Nms_rad")]
-    damping_ci95: Option<[f64; 2]>,
-}
 
 /// Reads a robot from TOML text.
 ///
@@ -358,40 +259,4 @@ pub fn is_rotation(r: &M3) -> bool {
 
 fn refuse(name: &str, key: &str, what: String, remedy: &str) -> Problem {
     Problem::new(format!("{name}: `{key}` {what}"), remedy).in_column(key)
-}
-
-/// 1-based line of a byte offset.
-fn line_of(text: &str, offset: usize) -> usize {
-    1 + text
-        .as_bytes()
-        .iter()
-        .take(offset)
-        .filter(|byte| **byte == b'\n')
-        .count()
-}
-
-fn syntax(text: &str, error: &toml::de::Error) -> Problem {
-    let what = error.message().lines().collect::<Vec<_>>().join("; ");
-    let problem = Problem::new(
-        what,
-        "compare with `ident robot convert kr210`, a complete robot file; every key carries its unit",
-    );
-    let Some(span) = error.span() else {
-        return problem;
-    };
-    let problem = problem.at_line(line_of(text, span.start));
-    match key_before(text, span.start) {
-        Some(key) => problem.in_column(key),
-        None => problem,
-    }
-}
-
-/// The key whose value stands at a byte offset: the word before the last `=` on that line.
-fn key_before(text: &str, offset: usize) -> Option<&str> {
-    let line = text.get(..offset)?.rsplit('\n').next()?;
-    let key = line.rsplit_once('=')?.0.trim_end();
-    let word = key
-        .rsplit(|c: char| !(c.is_alphanumeric() || c == '_' || c == '-'))
-        .next()?;
-    (!word.is_empty()).then_some(word)
 }
