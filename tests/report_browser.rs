@@ -78,6 +78,7 @@ fn the_report_of_a_campaign_in_a_browser() {
     let dom = String::from_utf8(dom).unwrap();
     stands_alone(&dom);
     is_structured(&dom);
+    tells_the_story(&dom);
     is_drawn(&profile, &page);
     prints_everything(&profile, &page);
     keyboard_reaches_everything(&profile, &page, &dom);
@@ -128,6 +129,28 @@ fn is_structured(dom: &str) {
         parts
             .iter()
             .for_each(|part| assert!(table.contains(part), "{part}"));
+    }
+}
+
+/// What is wrong, why, how sure, what it gained, what remains, what to measure next with the planned set-ups.
+fn tells_the_story(dom: &str) {
+    let order = [
+        "What is wrong",
+        "What each experiment says",
+        "Why, how sure, and what naming it gained",
+        "backlash at A6",
+        "What remains",
+        "are left closed in the simulation of workspace, hammer",
+        "What to measure next",
+        "Set-ups to measure next",
+        "figure-next-setups",
+        "Experiment by experiment",
+    ];
+    let story = &dom[dom.find("<main").unwrap()..];
+    let places = order.map(|words| story.find(words).unwrap_or_else(|| panic!("no `{words}`")));
+    assert!(places.is_sorted(), "{places:?}");
+    for name in ["joint_damping", "tool-across", "--frf to use it"] {
+        assert!(!story.contains(name), "{name}");
     }
 }
 

@@ -103,14 +103,12 @@ fn page(place: &Place, chapters: Vec<(&str, Chapter)>) -> Page {
     let inputs = chapters.iter().flat_map(|c| &c.1.inputs);
     let files: BTreeSet<&PathBuf> = inputs.map(|(path, _)| path).collect();
     let title = format!("Campaign {}", place.campaign);
-    let mut page = Page::new(
-        title,
-        format!(
-            "{} measurement files, {} steps",
-            files.len(),
-            chapters.len()
-        ),
+    let subtitle = format!(
+        "{}, {}",
+        counted(files.len(), "measurement file"),
+        counted(chapters.len(), "step")
     );
+    let mut page = Page::new(title, subtitle);
     page.synthetic = chapters.iter().any(|c| c.1.page.synthetic);
     let (causes, rest): (Vec<_>, Vec<_>) = chapters.into_iter().partition(|c| c.0 == "diagnose");
     let blocks = causes.into_iter().flat_map(|c| c.1.page.blocks);
@@ -120,6 +118,14 @@ fn page(place: &Place, chapters: Vec<(&str, Chapter)>) -> Page {
     page
 }
 
+/// `1 step`, `4 steps`.
+fn counted(count: usize, what: &str) -> String {
+    match count {
+        1 => format!("1 {what}"),
+        n => format!("{n} {what}s"),
+    }
+}
+
 fn as_text(place: &Place, chapters: &[(&str, Chapter)]) -> String {
     let mut said = String::new();
     for (name, chapter) in chapters {
@@ -127,7 +133,8 @@ fn as_text(place: &Place, chapters: &[(&str, Chapter)]) -> String {
             Ending::Done => "done",
             Ending::Attention => "needs attention",
         };
-        said.push_str(&format!("{name}: {} files, {end}\n", chapter.inputs.len()));
+        let files = counted(chapter.inputs.len(), "file");
+        said.push_str(&format!("{name}: {files}, {end}\n"));
         for (tone, sentence) in verdicts(&chapter.page) {
             let word = tone.word();
             said.push_str(&crate::report::text::indented(

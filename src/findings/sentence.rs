@@ -118,23 +118,9 @@ fn of_cause(cause: &Cause, numbered: &str, unit: &str) -> String {
 }
 
 fn of_group(group: &Group, unit: &str) -> String {
-    let one_site = group.sites.windows(2).all(|pair| pair[0] == pair[1]);
-    let told: Vec<String> = group
-        .effects
-        .iter()
-        .zip(&group.sites)
-        .map(|(effect, site)| match one_site {
-            true => spoken(effect),
-            false => format!("{} at {}", spoken(effect), place(site)),
-        })
-        .collect();
-    let site = match (one_site, group.sites.first()) {
-        (true, Some(site)) => format!(" at {}", place(site)),
-        _ => String::new(),
-    };
     format!(
-        "These data cannot tell {}{site}; either {}. What would tell: {}.",
-        told.join(" from "),
+        "These data cannot tell which it is: {}; any of them {}. What would tell: {}.",
+        candidates(group),
         of_gain(&group.gain, unit),
         group.would_tell
     )

@@ -1,6 +1,7 @@
 //! A page as one HTML file that needs nothing else: no network, no scripts.
 
 use super::escape::escape;
+use super::prose::{bound, is_long, is_word, prose};
 use super::svg;
 use crate::ground::problem::Outcome;
 use crate::sheet::chart::Chart;
@@ -116,7 +117,7 @@ impl Writer {
         match block {
             Block::Heading(text) => self.line(&format!("<h3>{}</h3>", escape(text))),
             Block::Verdict { tone, sentence } => self.verdict(*tone, sentence),
-            Block::Text(text) => self.line(&format!("<p>{}</p>", escape(text))),
+            Block::Text(text) => self.line(&format!("<p>{}</p>", prose(text))),
             Block::Table(table) => self.table(table),
             Block::Chart(chart) => return self.figure(chart),
             Block::Details { summary, blocks } => {
@@ -143,7 +144,7 @@ impl Writer {
             Tone::Attention => "attention",
             Tone::Bad => "bad",
         };
-        let (word, sentence) = (tone.word(), escape(sentence));
+        let (word, sentence) = (tone.word(), prose(sentence));
         self.line(&format!(
             "<p class=\"verdict {class}\"><strong>{word}:</strong> {sentence}</p>"
         ));
@@ -210,11 +211,12 @@ impl Writer {
     fn row(&mut self, row: &[String], table: &Table) {
         self.out.push_str("<tr>");
         for k in 0..table.columns() {
-            // No line breaks between a number and its sign.
-            let text = row.get(k).map_or("", String::as_str);
-            let text = escape(&text.replace(" %", "\u{a0}%")).into_owned();
+            let text = bound(row.get(k).map_or("", String::as_str));
             let class = flush(table, k);
             let _ = match k {
+                0 if class.is_empty() && is_long(&text) => {
+                    write!(self.out, "<th scope=\"row\" class=\"long\">{text}</th>")
+                }
                 0 => write!(self.out, "<th scope=\"row\"{class}>{text}</th>"),
                 _ if class.is_empty() && is_word(&text) => {
                     write!(self.out, "<td class=\"word\">{text}</td>")
@@ -224,11 +226,6 @@ impl Writer {
         }
         self.line("</tr>");
     }
-}
-
-/// Whether a cell is one short word, as `A1-tilt`, that must not be broken.
-fn is_word(text: &str) -> bool {
-    (1..=12).contains(&text.len()) && !text.contains(' ')
 }
 
 /// A file name as a relative link: signs that mean something there are encoded.

@@ -4,6 +4,7 @@ mod escape;
 pub mod folder;
 pub mod html;
 pub mod json;
+mod prose;
 pub mod svg;
 pub mod text;
 mod wrap;

@@ -69,7 +69,7 @@ impl fmt::Display for Fault {
                     "double hit: second pulse of {percent:.0} % at {ms:+.1} ms"
                 )
             }
-            Self::ForceOverload { at } => write!(f, "overload: force cut off at {at:.4} N"),
+            Self::ForceOverload { at } => write!(f, "overload: force cut off at {at:.2} N"),
             Self::ResponseOverload { output } => {
                 write!(f, "overload: response {} cut off", output + 1)
             }

@@ -3,7 +3,7 @@
 
 use super::kind::Diagnosed;
 use super::tables::{candidates_table, causes_table};
-use crate::findings::sentence::{candidates, left, sentence};
+use crate::findings::sentence::{candidates, left, sentences};
 use crate::findings::{Answer, Verdict};
 use crate::sheet::page::{Block, Page, Tone};
 
@@ -14,8 +14,11 @@ pub fn page(result: &dyn Diagnosed, stem: &str) -> Page {
     let subtitle = format!("{}, from {}", result.about(), name.to_string_lossy());
     let mut page = Page::new(format!("Diagnosis of {stem}"), subtitle);
     page.synthetic = source.synthetic;
-    page = page.with(Block::verdict(tone(answer.verdict), sentence(answer)));
-    for said in result.present().into_iter().chain(result.remarks()) {
+    let mut said = sentences(answer).into_iter();
+    let opening = said.next().unwrap_or_default();
+    page = page.with(Block::verdict(tone(answer.verdict), opening));
+    let besides = result.present().into_iter().chain(result.remarks());
+    for said in said.chain(besides) {
         page = page.with(Block::text(said));
     }
     page = page.with(Block::heading(

@@ -18,8 +18,8 @@ pub fn causes_table(answer: &Answer) -> Table {
         "with it",
         "reduction [95 %]",
     ];
-    let mut table =
-        Table::new("Causes, with the error on data held out of the fit", header).numeric([2, 4, 5]);
+    let mut table = Table::new("Causes, with the error on data held out of the fit", header)
+        .numeric([2, 4, 5, 6]);
     let unit = answer.unit;
     for cause in &answer.causes {
         table.push([

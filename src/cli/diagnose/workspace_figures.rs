@@ -38,12 +38,26 @@ pub fn remaining(result: &Workspace) -> Chart {
     drawn(result, chart, panel)
 }
 
+/// Whether a cause or a group of them changes what is simulated.
+fn is_explained(result: &Workspace) -> bool {
+    !result.found.causes.is_empty() || !result.found.groups.is_empty()
+}
+
 fn stiffness(result: &Workspace) -> Chart {
-    let chart = Chart::new(
-        format!("{}-diagnosis", result.test.stem()),
-        "Stiffness at the points: measured, simulated, and with the causes in the model",
-        "Force over displacement along the same direction, with the 95 % interval of the measurement. The third bar is predicted: the causes were fitted to the other points alone.",
-    );
+    let about = "Force over displacement along the same direction, with the 95 % interval of the measurement.";
+    let (title, caption) = match is_explained(result) {
+        true => (
+            "Stiffness at the points: measured, simulated, and with the causes in the model",
+            format!(
+                "{about} The third bar is predicted: the causes were fitted to the other points alone."
+            ),
+        ),
+        false => (
+            "Stiffness at the points: measured and simulated",
+            about.into(),
+        ),
+    };
+    let chart = Chart::new(format!("{}-diagnosis", result.test.stem()), title, caption);
     let panel = |d: usize| {
         let own = result.along(d);
         let bars = |slopes: &[M3]| -> Vec<f64> {
@@ -56,14 +70,17 @@ fn stiffness(result: &Workspace) -> Chart {
             [1e-3 / (slope(s) + half), 1e-3 / (slope(s) - half)]
         };
         let y = Axis::new(format!("Stiffness in {}", DIRECTIONS[d]), "N/mm");
-        Panel::new(Axis::new("Point", ""), y)
+        let panel = Panel::new(Axis::new("Point", ""), y)
             .over(own.iter().map(|s| format!("P{}", s.point + 1)))
             .with(Series::bars("measured", &measured).between(own.iter().map(ends).collect()))
             .with(Series::bars(
                 "present simulation",
                 &bars(&result.found.simulated),
-            ))
-            .with(Series::bars("with the causes", &bars(&result.found.unseen)))
+            ));
+        match is_explained(result) {
+            true => panel.with(Series::bars("with the causes", &bars(&result.found.unseen))),
+            false => panel,
+        }
     };
     let panels = (0..3).filter(|d| !result.along(*d).is_empty()).map(panel);
     let synthetic = result.test.facts.synthetic;
@@ -81,12 +98,13 @@ fn components(result: &Workspace) -> Chart {
         let points = |slopes: &[M3]| -> Vec<[f64; 2]> {
             own.iter().map(|(i, s)| [*i, error(s, slopes, k)]).collect()
         };
-        part(result, &own, k)
-            .with(Series::points(
-                "present simulation",
-                points(&result.found.simulated),
-            ))
-            .with(Series::points("with the causes", points(&result.found.explained)).emphasised())
+        let present = points(&result.found.simulated);
+        let panel = part(result, &own, k).with(Series::points("present simulation", present));
+        let with = points(&result.found.explained);
+        match is_explained(result) {
+            true => panel.with(Series::points("with the causes", with).emphasised()),
+            false => panel,
+        }
     };
     drawn(result, chart, panel)
 }

@@ -20,7 +20,7 @@ pub fn figure(files: &[One], synthetic: bool) -> Option<Chart> {
     let after: Vec<f64> = answers()
         .map(|a| held_out(a).map_or(f64::NAN, |rms| ratio(a, rms)))
         .collect();
-    let noise = (0..known.len()).map(|i| [i as f64, 1.0]).collect();
+    let noise = vec![[-0.5, 1.0], [known.len() as f64 - 0.5, 1.0]];
     let mut axis = Axis::new("Error over noise", "");
     axis.log = before.iter().fold(0.0_f64, |m, v| m.max(*v)) > LINEAR;
     let panel = Panel::new(Axis::default(), axis)

@@ -63,7 +63,9 @@ fn remains(campaign: &Campaign) -> Vec<Block> {
         })
         .collect();
     if said.is_empty() {
-        said.push("No experiment shows more than its noise once the named causes are in.".into());
+        said.push(
+            "No experiment shows more than its noise once the causes are in the model.".into(),
+        );
     }
     said.extend(files.filter_map(|one| Some(format!("{}: {}", one.stem(), one.found.unseen()?))));
     said.extend(campaign.remarks.clone());

@@ -31,6 +31,9 @@ fn missed(files: &[One]) -> String {
             .join(", ")
     };
     let (n, all) = (wrong.len(), files.len());
+    if all == 1 && n == 1 {
+        return "The simulation misses the only experiment.".into();
+    }
     let which = match (n, right.len()) {
         (0, _) => {
             return format!(
