@@ -21,7 +21,8 @@ pub fn read_any(path: &Path) -> Outcome<HammerRecord> {
     }
 }
 
-/// Reads force and acceleration records; the k-th force belongs to the k-th record of each response.
+/// Reads force and acceleration records. Those of one load case belong together where the load cases name
+/// the hits; else the k-th force belongs to the k-th record of each response.
 pub fn read_hammer(path: &Path) -> Outcome<HammerRecord> {
     let file = uff::read(path)?;
     let record = from_functions(&file.functions_si()).map_err(|problem| problem.in_file(path))?;
@@ -41,10 +42,13 @@ fn from_functions(functions: &[Function]) -> Outcome<HammerRecord> {
     let first = forces.first().ok_or_else(no_force)?;
     let interval_s = interval(first)?;
     let outputs = outputs(&accelerations, forces.len())?;
+    let named = load_cases(&forces, &outputs);
     let runs = forces.iter().enumerate().map(|(k, force)| {
-        let responses = outputs
-            .iter()
-            .map(|(_, all)| signed(all[k], all[k].response.direction));
+        let responses = outputs.iter().map(|(_, all)| {
+            let same = |f: &&&Function| named && f.numbers[2] == force.numbers[2];
+            let own = all.iter().find(same).unwrap_or(&all[k]);
+            signed(own, own.response.direction)
+        });
         run(k, force, responses.collect())
     });
     let runs = runs.collect::<Outcome<Vec<_>>>()?;
@@ -63,6 +67,18 @@ fn from_functions(functions: &[Function]) -> Outcome<HammerRecord> {
         runs,
         ..HammerRecord::default()
     })
+}
+
+/// Whether every force has a load case of its own and every response has each of them once.
+fn load_cases(forces: &[&Function], outputs: &[(String, Vec<&Function>)]) -> bool {
+    let sorted = |all: &[&Function]| {
+        let mut cases: Vec<i64> = all.iter().map(|f| f.numbers[2]).collect();
+        cases.sort_unstable();
+        cases
+    };
+    let own = sorted(forces);
+    let distinct = own.windows(2).all(|pair| pair[0] != pair[1]);
+    distinct && outputs.iter().all(|(_, all)| sorted(all) == own)
 }
 
 fn no_force() -> Problem {

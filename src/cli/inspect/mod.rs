@@ -2,6 +2,7 @@
 
 mod hammer;
 mod load_cycle;
+mod universal;
 mod workspace;
 
 use super::output::{print, tell};
@@ -74,7 +75,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
 /// Who reads a file of this kind; a file that does not say its kind is taken for load cycles.
 fn reader(path: &Path) -> Outcome<Reader> {
     if is_universal(path) {
-        return Ok(hammer::account);
+        return Ok(universal::account);
     }
     let Some(kind) = kind_of(path).ok().flatten() else {
         return Ok(load_cycle::account);

@@ -1,0 +1,126 @@
+//! The account of a universal file: its hammer test, if it holds one, and every data set in it.
+
+use super::{Account, hammer, title};
+use crate::ground::files;
+use crate::ground::problem::Outcome;
+use crate::measurement::hammer_uff::read_hammer;
+use crate::measurement::uff::{
+    self, Abscissa, Dof, Function, Kind, Quantity, UniversalFile, Values,
+};
+use crate::report::json;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Functions that are listed one by one.
+const LISTED: usize = 30;
+
+/// Reads and tells.
+pub fn account(path: &Path) -> Outcome<Account> {
+    let file = uff::read(path)?;
+    let mut account = match read_hammer(path) {
+        Ok(_) => hammer::account(path)?,
+        Err(problem) => Account {
+            lines: title(path, "universal file", false),
+            json: json::head(
+                "inspect",
+                &[(path, &files::sha256(&files::read_bytes(path)?))],
+            ),
+            odd: vec![format!("no hammer test: {problem}")],
+        },
+    };
+    account.lines.extend(lines(&file));
+    let kind = json!("universal");
+    account.json.entry("kind").or_insert(kind);
+    let sets: Vec<Value> = file.functions.iter().map(set_json).collect();
+    account.json.insert("functions".into(), json!(sets));
+    account.json.insert("nodes".into(), json!(file.nodes.len()));
+    account.json.insert("skipped".into(), json!(file.skipped));
+    Ok(account)
+}
+
+fn lines(file: &UniversalFile) -> Vec<String> {
+    let mut said = Vec::new();
+    if let Some(header) = &file.header {
+        said.push(format!("written by {}", header.program.trim()));
+    }
+    said.push(match &file.units {
+        Some(units) => format!("units: {}", units.description.trim()),
+        None => "units: none stated (data set 164), taken as SI".into(),
+    });
+    if !file.nodes.is_empty() {
+        said.push(format!("{} nodes (data set 15)", file.nodes.len()));
+    }
+    said.extend(file.functions.iter().take(LISTED).map(set_line));
+    let more = file.functions.len().saturating_sub(LISTED);
+    if more > 0 {
+        said.push(format!("... and {more} more"));
+    }
+    let skipped = file.skipped.iter();
+    said.extend(
+        skipped.map(|(set, n)| format!("data set {set}: {n} skipped, not of this kind of work")),
+    );
+    said
+}
+
+/// `FRF, acceleration 1:+x over force 1:+x: 401 complex values from 0 by 0.125`.
+fn set_line(function: &Function) -> String {
+    let over = match function.kind {
+        Kind::Time => String::new(),
+        _ => format!(" over {}", place(&function.reference)),
+    };
+    let values = match function.values {
+        Values::Real(_) => "real",
+        Values::Complex(_) => "complex",
+    };
+    let at = match function.abscissa {
+        Abscissa::Even { start, step } => format!("from {start} by {step}"),
+        Abscissa::Uneven(_) => "unevenly spaced".into(),
+    };
+    let (kind, quantity) = (kind(function.kind), quantity(function.quantity()));
+    format!(
+        "{kind}, {quantity} at {}{over}: {} {values} values {at}",
+        place(&function.response),
+        function.values.len()
+    )
+}
+
+fn set_json(function: &Function) -> Value {
+    json!({
+        "kind": kind(function.kind),
+        "quantity": quantity(function.quantity()),
+        "response": place(&function.response),
+        "reference": place(&function.reference),
+        "values": function.values.len(),
+        "complex": matches!(function.values, Values::Complex(_)),
+        "id": function.id[0].trim(),
+    })
+}
+
+fn kind(kind: Kind) -> String {
+    match kind {
+        Kind::Time => "time record".into(),
+        Kind::FrequencyResponse => "FRF".into(),
+        Kind::Coherence => "coherence".into(),
+        Kind::Other(code) => format!("function of type {code}"),
+    }
+}
+
+fn quantity(quantity: Quantity) -> String {
+    match quantity {
+        Quantity::Acceleration => "acceleration".into(),
+        Quantity::ExcitationForce | Quantity::ReactionForce => "force".into(),
+        other => format!("quantity of type {}", other.code()),
+    }
+}
+
+/// `3:-y`: node and direction.
+fn place(dof: &Dof) -> String {
+    let axis = ["scalar", "x", "y", "z", "rx", "ry", "rz"];
+    let axis = axis.get(dof.direction.unsigned_abs() as usize).copied();
+    let sign = match dof.direction {
+        0 => "",
+        d if d < 0 => "-",
+        _ => "+",
+    };
+    format!("{}:{sign}{}", dof.node, axis.unwrap_or("unknown"))
+}
