@@ -256,8 +256,14 @@ pub fn damped(
         spring.source = Some([kept, vec![&known]].concat().join("; "));
     }
     robot.notes.retain(|note| !note.starts_with("Damping "));
-    robot.notes.push(format!(
-        "Damping identified by `ident damping` from {origin}."
-    ));
+    let any = said.iter().any(|one| one.status == Status::Identified);
+    let word = if any {
+        "identified"
+    } else {
+        "tuned, none identified,"
+    };
+    robot
+        .notes
+        .push(format!("Damping {word} by `ident damping` from {origin}."));
     robot
 }
