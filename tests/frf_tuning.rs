@@ -48,6 +48,7 @@ fn task(seed: u64, noise: f64, poses: usize, rate: f64) -> (Tuning, Vec<f64>) {
             stiffness: DMatrix::from_diagonal(&stiffness.clone().into()),
             jacobian,
             directions: (0..N).map(unit).collect(),
+            weight: None,
             measured: Vec::new(),
         };
         for (input, output) in (0..9).map(|c| (c / 3, c % 3)) {
@@ -79,6 +80,7 @@ fn task(seed: u64, noise: f64, poses: usize, rate: f64) -> (Tuning, Vec<f64>) {
         start: 0.02 * (stiffness[i] * 150.0).sqrt(),
         bounds: [1.0, 1e7],
         prior_ln_std: None,
+        nuisance: false,
     });
     let parameters = parameters.collect();
     (

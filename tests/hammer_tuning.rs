@@ -23,6 +23,7 @@ fn pose(modes: &[Mode]) -> Pose {
         directions: (0..n)
             .map(|p| diagonal(&|i| f64::from(u8::from(i == p))))
             .collect(),
+        weight: None,
         measured: Vec::new(),
     }
 }
@@ -49,6 +50,7 @@ fn tuned(modes: &[Mode], settings: &Settings) -> Tuned {
         start: 2.0 * 0.03 * TAU * m.hz,
         bounds: [1e-3, 1e3],
         prior_ln_std: None,
+        nuisance: false,
     };
     let parameters = modes.iter().map(parameter).collect();
     tune(&Tuning {

@@ -1,12 +1,13 @@
 //! From hammer tests and a robot to its dampings: hits judged, FRFs, one tuning over all poses.
 
-use super::frf_identifiability::Status as Found;
+use super::damping_statement::{reported, supported};
 use super::frf_match::{FrfMatch, frf_match};
 use super::frf_measured::measured;
 use super::frf_model::{Kind, Measured, Pose};
+use super::frf_nuisance::{Pull, along, widened};
 use super::frf_robot::{Released, parameters, pose, with_values};
 use super::frf_tuning::{Parameter, Residuals, Tuned, Tuning, tune};
-use super::parameter::{Identified, Status};
+use super::parameter::Identified;
 use crate::experiments::hammer_frf::{HammerFrf, Settings, estimate};
 use crate::experiments::hammer_modes::modes;
 use crate::ground::problem::{Outcome, Problem};
@@ -58,23 +59,31 @@ pub struct Pair {
     pub after: Vec<Complex64>,
     /// How well either meets the measured one.
     pub matches: [FrfMatch; 2],
+    /// How well the tuned dampings meet it with the robot's own stiffnesses.
+    pub unmoved: FrfMatch,
 }
 
 /// What came out.
 #[derive(Debug, Clone)]
 pub struct Account {
-    /// The tuned constants with bounds and priors.
+    /// The tuned constants with bounds and priors, without those that are only fitted along.
     pub constants: Vec<Parameter>,
     /// The tuning itself.
     pub tuned: Tuned,
     /// The constants as reported.
     pub parameters: Vec<Identified>,
+    /// Where the stiffnesses went that are fitted along, against what is stated of them.
+    pub pulls: Vec<Pull>,
+    /// Whether the model is right enough for its constants to be told.
+    pub supported: bool,
     /// Pairs per test.
     pub pairs: Vec<Vec<Pair>>,
     /// The robot with all values of the best fit.
     pub robot: Robot,
 }
 
+/// How often priors are widened at most.
+const WIDENINGS: usize = 4;
 /// Names of the rows of the Jacobian.
 pub const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -98,7 +107,7 @@ pub fn test(path: &Path, record: HammerRecord, settings: &Settings) -> Outcome<T
 /// A robot without bodies or springs, a test without pose or without a pair along the base axes.
 pub fn identify(tests: &[Test], robot: &Robot, request: &Request) -> Outcome<Account> {
     check::dynamics(robot)?;
-    let constants = parameters(robot, request.released);
+    let constants = parameters(robot, request.released, stated_spread(tests));
     let poses = tests
         .iter()
         .map(|test| at_pose(test, robot, &constants, request))
@@ -109,18 +118,51 @@ pub fn identify(tests: &[Test], robot: &Robot, request: &Request) -> Outcome<Acc
         residuals: request.residuals,
         starts: request.starts,
     };
-    let tuned = tune(&task)?;
+    let (tuned, pulls) = agreed(&task)?;
+    let of = |pose: &Pose| pairs(pose, &task, &tuned);
+    let pairs: Vec<Vec<Pair>> = task.poses.iter().map(of).collect();
+    let asked_for = task.parameters.iter().filter(|p| !p.nuisance);
+    let constants: Vec<Parameter> = asked_for.cloned().collect();
+    let supported = supported(tuned.reduced_chi_square, &pairs);
     Ok(Account {
-        parameters: reported(&task.parameters, &tuned),
-        pairs: task
-            .poses
-            .iter()
-            .map(|pose| pairs(pose, &task, &tuned))
-            .collect(),
+        parameters: reported(&constants, &tuned, supported),
         robot: with_values(robot, &task.parameters, &tuned.values),
-        constants: task.parameters,
+        pairs,
+        constants,
         tuned,
+        pulls,
+        supported,
     })
+}
+
+/// The relative standard deviation that the tests state of the robot's stiffnesses, the largest.
+fn stated_spread(tests: &[Test]) -> Option<f64> {
+    let stated = tests.iter().filter_map(|test| test.record.nominal_rel_std);
+    stated.max_by(f64::total_cmp)
+}
+
+/// The tuning, its priors widened until the stiffnesses that are fitted along agree with them, and
+/// where these went against what was stated of them.
+fn agreed(task: &Tuning) -> Outcome<(Tuned, Vec<Pull>)> {
+    let mut tuned = tune(task)?;
+    let mut parameters = task.parameters.clone();
+    for _ in 0..WIDENINGS {
+        let Some(wider) = widened(&parameters, &tuned.pulls) else {
+            break;
+        };
+        parameters = wider;
+        tuned = tune(&Tuning {
+            parameters: parameters.clone(),
+            ..task.clone()
+        })?;
+    }
+    let stated = task.parameters.iter().filter(|p| along(p));
+    let against = |(pull, stated): (&Pull, &Parameter)| Pull {
+        prior_ln_std: stated.prior_ln_std.unwrap_or(pull.prior_ln_std),
+        ..pull.clone()
+    };
+    let pulls = tuned.pulls.iter().zip(stated).map(against).collect();
+    Ok((tuned, pulls))
 }
 
 fn at_pose(
@@ -166,6 +208,8 @@ fn joints<'a>(test: &'a Test, robot: &Robot) -> Outcome<&'a [f64]> {
 fn pairs(pose: &Pose, task: &Tuning, tuned: &Tuned) -> Vec<Pair> {
     let kinds: Vec<Kind> = task.parameters.iter().map(|p| p.kind).collect();
     let starts: Vec<f64> = task.parameters.iter().map(|p| p.start).collect();
+    let asked_for = tuned.uncertainty.statements.len();
+    let unmoved = [&tuned.values[..asked_for], &starts[asked_for..]].concat();
     let pair = |measured: &Measured| {
         let simulated = |theta: &[f64]| {
             pose.accelerance(&kinds, theta, measured)
@@ -175,66 +219,11 @@ fn pairs(pose: &Pose, task: &Tuning, tuned: &Tuned) -> Vec<Pair> {
         Pair {
             name: format!("{}{}", AXES[measured.output], AXES[measured.input]),
             matches: [&before, &after].map(|h| frf_match(&measured.frf, h)),
+            unmoved: frf_match(&measured.frf, &simulated(&unmoved)),
             measured: measured.clone(),
             before,
             after,
         }
     };
     pose.measured.par_iter().map(pair).collect()
-}
-
-fn reported(constants: &[Parameter], tuned: &Tuned) -> Vec<Identified> {
-    let rows = constants
-        .iter()
-        .zip(&tuned.values)
-        .zip(&tuned.uncertainty.statements);
-    rows.map(|((constant, value), said)| {
-        let (name, unit, meaning) = words(constant.kind);
-        let prior = if said.by_prior {
-            "; fixed by its prior, not by the data"
-        } else {
-            ""
-        };
-        Identified {
-            name: name.into(),
-            site: constant.site.clone(),
-            value: said.ci95.map(|_| *value),
-            unit: unit.into(),
-            stderr: said.stderr,
-            ci95: said.ci95,
-            status: status(said.status),
-            meaning: format!("{meaning}{prior}"),
-            limit95: None,
-        }
-    })
-    .collect()
-}
-
-fn status(found: Found) -> Status {
-    match found {
-        Found::Identified => Status::Identified,
-        Found::AtBound => Status::AtBound,
-        Found::NotIdentifiable => Status::NotIdentifiable,
-    }
-}
-
-/// Name, unit and meaning of a constant.
-fn words(kind: Kind) -> (&'static str, &'static str, &'static str) {
-    match kind {
-        Kind::Damping => (
-            "damping",
-            "N·m·s/rad",
-            "viscous damping of this elastic axis",
-        ),
-        Kind::Stiffness => (
-            "stiffness",
-            "N·m/rad",
-            "stiffness of this elastic axis, released",
-        ),
-        Kind::Mass => (
-            "mass",
-            "kg",
-            "mass of the tool, released, its inertia in proportion",
-        ),
-    }
 }

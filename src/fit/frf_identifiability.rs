@@ -48,19 +48,34 @@ pub struct Combination {
     pub ln_std: f64,
 }
 
+impl Combination {
+    /// The same with a deviation that holds what `rivals` say of it.
+    fn holding(self, theta: &[f64], rivals: &[&[f64]]) -> Self {
+        let apart = |rival: &&[f64]| -> f64 {
+            let parts = self.weights.iter();
+            parts.map(|(i, w)| w * (rival[*i] - theta[*i])).sum()
+        };
+        let furthest = rivals.iter().map(|r| apart(r).abs()).fold(0.0, f64::max);
+        Self {
+            ln_std: self.ln_std + furthest / 1.96,
+            weights: self.weights,
+        }
+    }
+}
+
 /// What the data say about all parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Uncertainty {
     /// Per parameter.
     pub statements: Vec<Statement>,
-    /// Covariance of the logarithms (n × n).
+    /// Covariance of the logarithms (n × n), nuisances left out.
     pub ln_covariance: DMatrix<f64>,
     /// Combinations that the data fix, the best first.
     pub fixed: Vec<Combination>,
 }
 
-/// Reads the uncertainty off the normal matrix, scaled up where the fit is worse than the noise, and
-/// widened to `rivals`: other minima that explain the data as well.
+/// Reads the uncertainty off the normal matrix, nuisances marginalised, scaled up where the fit is
+/// worse than the noise, and widened to `rivals`: other minima that explain the data as well.
 pub(super) fn uncertainty(
     task: &Tuning,
     theta: &[f64],
@@ -69,13 +84,15 @@ pub(super) fn uncertainty(
     (reduced_chi_square, freedom): (f64, f64),
 ) -> Uncertainty {
     let scale = reduced_chi_square.max(1.0);
-    let mut data = at.normal.clone();
-    for (i, parameter) in task.parameters.iter().enumerate() {
+    let normal = marginal(task, &at.normal);
+    let asked_for = &task.parameters[..normal.nrows()];
+    let mut data = normal.clone();
+    for (i, parameter) in asked_for.iter().enumerate() {
         data[(i, i)] -= parameter
             .prior_ln_std
             .map_or(0.0, |deviation| deviation.powi(-2));
     }
-    let covariance = inverse(&at.normal) * scale;
+    let covariance = inverse(&normal) * scale;
     let data_only = inverse(&data) * scale;
     let statement = |i: usize| {
         let apart = rivals.iter().map(|rival| (rival[i] - theta[i]).abs());
@@ -85,10 +102,28 @@ pub(super) fn uncertainty(
         statement(task, theta, i, deviation, alone, freedom)
     };
     Uncertainty {
-        statements: (0..theta.len()).map(statement).collect(),
-        fixed: combinations(&data, scale, &data_only),
+        statements: (0..asked_for.len()).map(statement).collect(),
+        fixed: combinations(&data, scale, &data_only)
+            .into_iter()
+            .map(|one| one.holding(theta, rivals))
+            .filter(|one| one.ln_std < FIXED)
+            .collect(),
         ln_covariance: covariance,
     }
+}
+
+/// What the data say about all but the nuisances, whose priors they share: the Schur complement of the
+/// block of the nuisances.
+fn marginal(task: &Tuning, normal: &DMatrix<f64>) -> DMatrix<f64> {
+    let kept = task.parameters.iter().filter(|p| !p.nuisance).count();
+    let along = normal.nrows() - kept;
+    let mut rest = normal.view((0, 0), (kept, kept)).into_owned();
+    let shared = normal.view((kept, 0), (along, kept)).into_owned();
+    let block = normal.view((kept, kept), (along, along)).into_owned();
+    if let Some(block) = block.cholesky().filter(|_| along > 0) {
+        rest -= shared.tr_mul(&block.solve(&shared));
+    }
+    rest
 }
 
 /// Standard deviation from the variance of a logarithm, what calibrations leave included.

@@ -1,6 +1,7 @@
 //! A robot at a pose as the model of a tuning: which constants of it are tuned, and how they act.
 
-use super::frf_model::{Kind, Pose};
+use super::frf_model::{Kind, Pose, Weight};
+use super::frf_nuisance::{MODEL_FORM, stiffnesses, weight};
 use super::frf_tuning::Parameter;
 use super::parameter::{Identified, Status};
 use crate::ground::problem::Outcome;
@@ -32,8 +33,10 @@ pub struct Released {
     pub prior_ln_std: Option<f64>,
 }
 
-/// The tuned constants of a robot: damping per drive, tilt and elastic axis, then what is released.
-pub fn parameters(robot: &Robot, released: Released) -> Vec<Parameter> {
+/// The tuned constants of a robot: damping per drive, tilt and elastic axis, then what is released, last
+/// the stiffnesses that are fitted along unless they are. `stated`: relative standard deviation of those
+/// that have no interval.
+pub fn parameters(robot: &Robot, released: Released, stated: Option<f64>) -> Vec<Parameter> {
     let springs: Vec<(String, &Spring)> = robot.springs().collect();
     let mut all: Vec<Parameter> = springs
         .iter()
@@ -45,6 +48,10 @@ pub fn parameters(robot: &Robot, released: Released) -> Vec<Parameter> {
     if let Some(body) = robot.tool.body.as_ref().filter(|_| released.mass) {
         all.push(about(TOOL, Kind::Mass, body.mass, None));
     }
+    if !released.stiffness {
+        all.extend(stiffnesses(robot, stated));
+    }
+    all.push(weight());
     all
 }
 
@@ -59,6 +66,7 @@ fn damping(site: &str, spring: &Spring, prior_ln_std: Option<f64>) -> Parameter 
         start: start.clamp(bounds[0], bounds[1]),
         bounds,
         prior_ln_std,
+        nuisance: false,
     }
 }
 
@@ -71,22 +79,26 @@ fn stiffness(site: &str, spring: &Spring) -> Parameter {
     )
 }
 
-/// A released constant: within its interval where it has one, with that interval as its prior.
+/// A released constant: within its interval where it has one, with that interval as its prior, either
+/// wider by the model form.
 fn about(site: &str, kind: Kind, start: f64, ci95: Option<[f64; 2]>) -> Parameter {
     let sound = ci95.filter(|[low, high]| *low > 0.0 && low < high);
-    let bounds = sound.unwrap_or(RANGE.map(|r| r * start));
+    let margin = (1.96 * MODEL_FORM).exp();
+    let widened = sound.map(|[low, high]| [low / margin, high * margin]);
+    let bounds = widened.unwrap_or(RANGE.map(|r| r * start));
     let spread = sound.map_or(SPREAD, |[low, high]| (high / low).ln() / 3.92);
     Parameter {
         site: site.into(),
         kind,
         start: start.clamp(bounds[0], bounds[1]),
         bounds,
-        prior_ln_std: Some(spread),
+        prior_ln_std: Some(spread.hypot(MODEL_FORM)),
+        nuisance: false,
     }
 }
 
-/// The model at the joint angles `joints` (rad), bent by its own weight, with the stiffness that
-/// weight adds; nothing measured yet. A hit is small: play is closed on the side the weight presses.
+/// The model at the joint angles `joints` (rad), and what its own weight does to it; nothing measured
+/// yet. A hit is small: play is closed on the side the weight presses.
 ///
 /// # Errors
 /// No equilibrium, or nothing elastic.
@@ -94,8 +106,10 @@ pub fn pose(robot: &Robot, joints: &[f64], parameters: &[Parameter]) -> Outcome<
     let chain = motion::elastic(&without_play(robot));
     let rest = State::settled(&chain, joints)?.angles();
     let mut work = Work::new(&chain);
-    let linear = linearise(&chain, &mut work, &rest)?;
-    let weight = square(linear.n, &gravity_stiffness(&chain, &work));
+    let bent = linearise(&chain, &mut work, &rest)?;
+    let stiffened = square(bent.n, &gravity_stiffness(&chain, &work));
+    let straight = State::relaxed(&chain, joints).angles();
+    let linear = linearise(&chain, &mut work, &straight)?;
     let tool = tool_mass(robot, &chain, &rest)?;
     let directions: Vec<DMatrix<f64>> = parameters
         .iter()
@@ -111,8 +125,13 @@ pub fn pose(robot: &Robot, joints: &[f64], parameters: &[Parameter]) -> Outcome<
     Ok(Pose {
         mass: tuned(Kind::Mass, square(linear.n, &linear.mass)),
         damping: tuned(Kind::Damping, square(linear.n, &linear.damping)),
-        stiffness: tuned(Kind::Stiffness, square(linear.n, &linear.stiffness)) + weight,
-        jacobian: DMatrix::from_fn(3, linear.n, |row, i| linear.tool[i][row]),
+        stiffness: tuned(Kind::Stiffness, square(linear.n, &linear.stiffness)),
+        weight: Some(Weight {
+            mass: square(bent.n, &bent.mass) - square(linear.n, &linear.mass),
+            stiffness: stiffened,
+            jacobian: jacobian(&bent) - jacobian(&linear),
+        }),
+        jacobian: jacobian(&linear),
         directions,
         measured: Vec::new(),
     })
@@ -126,6 +145,11 @@ fn without_play(robot: &Robot) -> Robot {
     robot
 }
 
+/// Translation of the tool per coordinate (3 × n).
+fn jacobian(linear: &Linear) -> DMatrix<f64> {
+    DMatrix::from_fn(3, linear.n, |row, i| linear.tool[i][row])
+}
+
 fn square(n: usize, rows: &[f64]) -> DMatrix<f64> {
     DMatrix::from_row_slice(n, n, rows)
 }
@@ -137,6 +161,7 @@ fn value(robot: &Robot, parameter: &Parameter) -> f64 {
         Kind::Damping => spring.map_or(0.0, |(_, s)| s.damping),
         Kind::Stiffness => spring.map_or(0.0, |(_, s)| s.stiffness),
         Kind::Mass => robot.tool.body.as_ref().map_or(0.0, |body| body.mass),
+        Kind::Weight => 1.0,
     }
 }
 
@@ -156,8 +181,10 @@ fn tool_mass(robot: &Robot, chain: &Chain, rest: &[f64]) -> Outcome<DMatrix<f64>
 
 /// A spring's constant acts on every coordinate of its site: one for a drive, two for a tilt.
 fn direction(linear: &Linear, tool: &DMatrix<f64>, parameter: &Parameter) -> DMatrix<f64> {
-    if parameter.kind == Kind::Mass {
-        return tool.clone();
+    match parameter.kind {
+        Kind::Mass => return tool.clone(),
+        Kind::Weight => return DMatrix::zeros(0, 0),
+        Kind::Damping | Kind::Stiffness => {}
     }
     let own = |i: usize| f64::from(u8::from(linear.names[i] == parameter.site));
     DMatrix::from_fn(linear.n, linear.n, |i, j| if i == j { own(i) } else { 0.0 })
@@ -182,7 +209,8 @@ pub fn with_values(robot: &Robot, parameters: &[Parameter], values: &[f64]) -> R
         if let Some((_, spring)) = own {
             match parameter.kind {
                 Kind::Damping => spring.damping = *value,
-                _ => spring.stiffness = *value,
+                Kind::Stiffness => spring.stiffness = *value,
+                Kind::Mass | Kind::Weight => {}
             }
         }
     }
@@ -191,7 +219,7 @@ pub fn with_values(robot: &Robot, parameters: &[Parameter], values: &[f64]) -> R
 
 /// The robot with identified dampings, for simulation: each with its interval and where it comes
 /// from. A damping that the data do not fix alone takes the value of the joint fit, which meets the
-/// FRF together with the others, and says so.
+/// FRF together with the others, and says so. One that the fit drives to a bound stays as it was.
 #[must_use]
 pub fn damped(
     robot: &Robot,
@@ -200,6 +228,7 @@ pub fn damped(
     said: &[Identified],
     origin: &str,
 ) -> Robot {
+    let before = robot;
     let mut robot = with_values(robot, parameters, values);
     for (parameter, said) in parameters.iter().zip(said) {
         let own = robot
@@ -211,7 +240,13 @@ pub fn damped(
         spring.ci95.damping = said.ci95;
         let known = match said.status {
             Status::Identified => format!("damping identified from {origin}"),
-            _ => format!("damping not fixed alone by {origin}: value of the joint fit"),
+            Status::AtBound => {
+                spring.damping = value(before, parameter);
+                format!("damping not fixed by {origin}: as before")
+            }
+            Status::NotIdentifiable => {
+                format!("damping not fixed alone by {origin}: value of the joint fit")
+            }
         };
         let before = spring.source.as_deref().unwrap_or("");
         let kept: Vec<&str> = before
@@ -221,8 +256,14 @@ pub fn damped(
         spring.source = Some([kept, vec![&known]].concat().join("; "));
     }
     robot.notes.retain(|note| !note.starts_with("Damping "));
-    robot.notes.push(format!(
-        "Damping identified by `ident damping` from {origin}."
-    ));
+    let any = said.iter().any(|one| one.status == Status::Identified);
+    let word = if any {
+        "identified"
+    } else {
+        "tuned, none identified,"
+    };
+    robot
+        .notes
+        .push(format!("Damping {word} by `ident damping` from {origin}."));
     robot
 }

@@ -13,6 +13,9 @@ use rayon::prelude::*;
 
 /// Spread of the drawn logarithms: a factor of 10 either way.
 const SPREAD: f64 = 2.3;
+/// Spread of a nuisance, in standard deviations of its prior: stiffnesses in series about nearly the
+/// same axis have several solutions, and draws near the robot's values miss the best.
+const FAR: f64 = 3.0;
 /// Lines per pair that the simplex sees.
 const LINES: usize = 24;
 /// Iterations per parameter.
@@ -23,7 +26,11 @@ pub(super) fn starts(task: &Tuning, kinds: &[Kind]) -> Vec<Vec<f64>> {
     let mut random = Random::new(11);
     let first: Vec<f64> = task.parameters.iter().map(|p| p.start.ln()).collect();
     let mut draw = || -> Vec<f64> {
-        let near = first.iter().map(|x| x + random.uniform(-SPREAD, SPREAD));
+        let near = first.iter().zip(&task.parameters).map(|(x, p)| {
+            let own = p.prior_ln_std.filter(|_| p.nuisance);
+            let spread = own.map_or(SPREAD, |deviation| FAR * deviation);
+            x + random.uniform(-spread, spread)
+        });
         inside(task, &near.collect::<Vec<f64>>())
     };
     let others = task.starts.max(1) - 1;

@@ -5,6 +5,7 @@
 use super::frf_identifiability::{Uncertainty, uncertainty};
 use super::frf_match::{FrfMatch, frf_match};
 use super::frf_model::{Kind, Measured, Pose};
+use super::frf_nuisance::{Pull, pulls};
 pub use super::frf_residuals::Residuals;
 use super::frf_residuals::{residual_basis, with_residuals};
 use super::frf_starts::starts;
@@ -26,6 +27,9 @@ pub struct Parameter {
     pub bounds: [f64; 2],
     /// Standard deviation of the logarithm about `start`, where a prior is stated.
     pub prior_ln_std: Option<f64>,
+    /// Whether it is only fitted along, with its prior: what is said of the others holds its
+    /// uncertainty, of itself nothing is said. Such parameters stand last.
+    pub nuisance: bool,
 }
 
 /// Weighted sum of squares within which another minimum explains the data as well as the best: four
@@ -60,6 +64,8 @@ pub struct Tuned {
     pub matches: Vec<Vec<[FrfMatch; 2]>>,
     /// Share of the starts that reached the best cost (within 1 %).
     pub agreeing_starts: f64,
+    /// Where the nuisances went.
+    pub pulls: Vec<Pull>,
 }
 
 /// Residuals and Jacobian at one place.
@@ -97,6 +103,7 @@ pub fn tune(task: &Tuning) -> Outcome<Tuned> {
         reduced_chi_square: reduced,
         matches: matches(task, &kinds, &values),
         agreeing_starts: agreeing as f64 / runs.len() as f64,
+        pulls: pulls(task, theta, &at.normal),
         values,
     })
 }
@@ -110,10 +117,17 @@ fn check(task: &Tuning) -> Outcome<()> {
         )
         .in_column(parameter.site.clone()));
     }
-    if task.parameters.is_empty() || rows(task) == 0 {
+    if task.parameters.iter().all(|p| p.nuisance) || rows(task) == 0 {
         return Err(Problem::new(
             "nothing to tune",
             "give parameters and measured FRFs",
+        ));
+    }
+    let loose = |p: &Parameter| p.nuisance && p.prior_ln_std.is_none();
+    if !task.parameters.is_sorted_by_key(|p| p.nuisance) || task.parameters.iter().any(loose) {
+        return Err(Problem::new(
+            "a nuisance has no prior or stands before what is asked for",
+            "put nuisances last, each with its prior",
         ));
     }
     Ok(())
@@ -138,13 +152,15 @@ fn rows(task: &Tuning) -> usize {
 
 /// Independent real numbers measured, less what was fitted to them. Under an exponential window
 /// neighbouring lines repeat each other: the weights count each for its share only, and so does this.
+/// A nuisance costs none, as its prior is a measurement too.
 fn freedom(task: &Tuning) -> f64 {
     let of = |pair: &Measured| {
         2.0 * pair.frf.len() as f64 / pair.lines_per_independent_one()
             - task.residuals.terms() as f64
     };
     let measured: f64 = pairs(task).map(|(_, pair)| of(pair)).sum();
-    (measured - task.parameters.len() as f64).max(1.0)
+    let fitted = task.parameters.iter().filter(|p| !p.nuisance).count();
+    (measured - fitted as f64).max(1.0)
 }
 
 /// Levenberg-Marquardt, steps cut at the bounds.
@@ -209,8 +225,10 @@ pub(super) fn linearise(task: &Tuning, kinds: &[Kind], theta: &[f64]) -> Option<
         let entries = pose.entries();
         for pairs in pose.measured.chunk_by(Measured::on_lines_of) {
             let responses = pose.responses(kinds, &values, &pairs[0])?;
+            let weighed = pose.weighed(&responses, &pairs[0]);
             for pair in pairs {
-                let (frf, slopes) = pose.sensitivities_of(&responses, kinds, &entries, pair);
+                let (frf, slopes) =
+                    pose.sensitivities_of(&responses, &weighed, kinds, &entries, pair);
                 sum.add(&channel(pair, &frf, &slopes, &values, task.residuals));
             }
         }

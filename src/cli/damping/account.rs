@@ -118,8 +118,9 @@ pub fn fixed_combinations(damped: &Damped) -> Table {
     )
     .numeric(1..3);
     let parameters = &damped.account.parameters;
-    if parameters.iter().all(|p| p.status == Status::Identified) {
-        return Table::default(); // each constant is fixed alone
+    let alone = parameters.iter().all(|p| p.status == Status::Identified);
+    if alone || !damped.account.supported {
+        return Table::default(); // each constant is fixed alone, or none is told
     }
     let alone = |weights: &[(usize, f64)]| weights.len() == 1;
     let fixed_ones = damped

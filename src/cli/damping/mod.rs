@@ -4,6 +4,7 @@ mod account;
 mod figures;
 mod input;
 mod page;
+mod remarks;
 mod result;
 mod write;
 
@@ -53,7 +54,8 @@ struct Arguments {
     /// Print one JSON document instead of the account
     #[arg(long)]
     json: bool,
-    /// Tune every stiffness too, within its interval (else 0.7 to 1.4 times, prior 10 %)
+    /// Report and write every stiffness too, tuned within its interval (else 0.7 to 1.4 times, prior
+    /// 10 %); without this it is fitted along within what the robot or the test says of it
     #[arg(long)]
     release_stiffness: bool,
     /// Tune the mass of the tool too (0.7 to 1.4 times, prior 10 %)

@@ -4,18 +4,17 @@ use super::input::Input;
 use crate::cli::Ending;
 use crate::cli::frf::mode;
 use crate::experiments::hammer_frf::HammerFrf;
-use crate::fit::damping::{Account, Pair, Request, Test};
+use crate::fit::damping::{Account, Pair, Request};
+use crate::fit::damping_statement::good;
 use crate::fit::damping_store::StoredProduct;
 use crate::fit::frf_identifiability::Combination;
 use crate::fit::frf_match::FrfMatch;
 use crate::fit::frf_model::Kind;
+use crate::fit::frf_nuisance::Pull;
 use crate::report::json::{self, number, numbers};
 use crate::sheet::number::significant;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
-
-/// Match below which the simulation needs attention: FRAC, and mean amplitude error in dB.
-const GOOD: (f64, f64) = (0.99, 0.5);
 
 /// Everything that is reported.
 pub struct Damped {
@@ -28,19 +27,6 @@ pub struct Damped {
 }
 
 impl Damped {
-    /// Remarks on all tests, with their file where there are several.
-    pub fn remarks(&self) -> Vec<String> {
-        let tests = &self.input.tests;
-        let named = |test: &Test, remark: &String| match tests.len() {
-            1 => remark.clone(),
-            _ => format!("{}: {remark}", file_name(&test.path)),
-        };
-        tests
-            .iter()
-            .flat_map(|test| test.frf.remarks.iter().map(|r| named(test, r)))
-            .collect()
-    }
-
     /// Comparison tests of the campaign that were not taken.
     pub fn passed_over(&self) -> Vec<String> {
         let left = self.input.passed_over.iter().map(|path| path.display());
@@ -67,7 +53,7 @@ impl Damped {
         let mut tests = self.input.tests.iter();
         let left =
             tests.any(|t| !t.frf.remarks.is_empty() || t.frf.screened.iter().any(|h| !h.used()));
-        match left || !self.met() {
+        match left || !self.met() || !self.of_model().is_empty() {
             true => Ending::Attention,
             false => Ending::Done,
         }
@@ -75,10 +61,7 @@ impl Damped {
 
     /// Whether every pair is met in shape and scale.
     pub fn met(&self) -> bool {
-        let good = |pair: &Pair| {
-            let after = pair.matches[1];
-            after.frac > GOOD.0 && after.log_error_db < GOOD.1
-        };
+        let good = |pair: &Pair| good(&pair.matches[1]);
         self.account.pairs.iter().flatten().all(good)
     }
 
@@ -95,12 +78,20 @@ impl Damped {
                 Kind::Damping => "",
                 Kind::Stiffness => " stiffness",
                 Kind::Mass => " mass",
+                Kind::Weight => " weight",
             };
             format!("{}{kind}^{}", constants[*i].site, significant(*weight, 2))
         };
         let values = &self.account.tuned.values;
         let change = |(i, weight): &(usize, f64)| weight * (values[*i] / constants[*i].start).ln();
-        let fixed = self.account.tuned.uncertainty.fixed.iter();
+        let known = self.account.supported;
+        let fixed = self
+            .account
+            .tuned
+            .uncertainty
+            .fixed
+            .iter()
+            .filter(|_| known);
         let product = |one: &Combination| StoredProduct {
             product: one
                 .weights
@@ -138,6 +129,7 @@ impl Damped {
         map.insert("parameters".into(), json!(account.parameters));
         map.insert("fixed_combinations".into(), self.combinations_json());
         map.insert("priors".into(), self.priors());
+        map.insert("stiffnesses_fitted_along".into(), self.pulls());
         map.insert("match".into(), self.matches(1));
         map.insert("match_before".into(), self.matches(0));
         map.insert("poses".into(), self.poses());
@@ -204,6 +196,11 @@ impl Damped {
             Some(json!({"name": parameter.name, "site": constant.site, "value": constant.start, "relative_std": spread}))
         });
         stated.collect()
+    }
+
+    fn pulls(&self) -> Value {
+        let one = |pull: &Pull| json!({"site": pull.site, "robot": number(pull.stated), "times_robot": number(pull.times), "relative_std": number(pull.prior_ln_std), "deviations": number(pull.deviations())});
+        self.account.pulls.iter().map(one).collect()
     }
 
     /// Per direction pair; over several poses the worst of each measure.
