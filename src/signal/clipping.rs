@@ -19,14 +19,20 @@ pub fn clipped_above(record: &[f64]) -> bool {
     let height = highest - middle;
     let step = quantum(record, highest);
     let noise = spread(record, middle);
-    if height > 8.0 * noise && blunt(record, [highest, height, noise]) {
-        return true;
-    }
     // Nothing stands out: noise or an unused channel.
     if height <= 8.0 * noise.max(step) {
         return stands(record, highest, step) && height > 0.0 && many_levels(height, step);
     }
     stands(record, highest, step) || plateau(record, highest, step)
+}
+
+/// Whether a single pulse is cut off at its top, be it of a few samples only.
+pub fn pulse_clipped(record: &[f64]) -> bool {
+    let highest = record.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let middle = median(record);
+    let (height, noise) = (highest - middle, spread(record, middle));
+    let few = height > 8.0 * noise && blunt(record, [highest, height, noise]);
+    few || clipped_above(record)
 }
 
 fn negated(record: &[f64]) -> Vec<f64> {
@@ -182,8 +188,8 @@ mod tests {
         let phases = (0..20).map(|i| f64::from(i) / 20.0);
         for phase in phases.clone() {
             for samples in [4.0, 5.0, 6.5, 10.24] {
-                assert!(!clipped_above(&quantised(&shifted(samples, phase), 0.01)));
-                assert!(!clipped_above(&shifted(samples, phase)));
+                assert!(!pulse_clipped(&quantised(&shifted(samples, phase), 0.01)));
+                assert!(!pulse_clipped(&shifted(samples, phase)));
             }
         }
         let cut = |phase: f64, at: f64| -> Vec<f64> {
@@ -193,7 +199,7 @@ mod tests {
         let found = |at: f64| {
             phases
                 .clone()
-                .filter(|p| clipped_above(&cut(*p, at)))
+                .filter(|p| pulse_clipped(&cut(*p, at)))
                 .count()
         };
         assert_eq!(found(150.0), 20);

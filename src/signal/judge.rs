@@ -1,6 +1,6 @@
 //! Judges hits: each alone, then within its family of hits in one direction.
 
-use super::clipping::{clipped, clipped_above};
+use super::clipping::{clipped, pulse_clipped};
 use super::double_hit::second_pulse;
 use super::fault::Fault;
 use super::pulse::{Pulse, median};
@@ -55,7 +55,7 @@ fn force_overload(hit: &Hit, pulse: &Pulse) -> Option<Fault> {
     let towards: Vec<f64> = (0..hit.force.len())
         .map(|i| pulse.above(hit.force, i))
         .collect();
-    clipped_above(&towards).then_some(Fault::ForceOverload {
+    pulse_clipped(&towards).then_some(Fault::ForceOverload {
         at: hit.force[pulse.at],
     })
 }

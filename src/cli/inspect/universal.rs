@@ -20,12 +20,16 @@ pub fn account(path: &Path) -> Outcome<Account> {
     let mut account = match read_hammer(path) {
         Ok(_) => hammer::account(path)?,
         Err(problem) => Account {
-            lines: title(path, "universal file", false),
+            lines: title(
+                path,
+                &format!("universal file, no hammer test ({})", problem.what),
+                false,
+            ),
             json: json::head(
                 "inspect",
                 &[(path, &files::sha256(&files::read_bytes(path)?))],
             ),
-            odd: vec![format!("no hammer test: {problem}")],
+            odd: Vec::new(),
         },
     };
     account.lines.extend(lines(&file));
