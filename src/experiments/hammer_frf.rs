@@ -62,6 +62,8 @@ pub struct HammerFrf {
     pub impulse_s: f64,
     /// Total rate σ of the exponential windows, 1/s: the FRFs are `H(jω + σ)`.
     pub rate: f64,
+    /// The part of it that was in the records, 1/s.
+    pub recorded_rate: f64,
     /// Frequencies of the lines, Hz, from 0.
     pub frequency_hz: Vec<f64>,
     /// Names of the outputs.
@@ -70,6 +72,9 @@ pub struct HammerFrf {
     pub screened: Vec<ScreenedHit>,
     /// FRFs per direction of the force.
     pub inputs: Vec<InputFrf>,
+    /// The same without the window of [`Settings::exponential_end`], if there is one: a model that
+    /// knows the end of the record loses nothing there.
+    pub unwindowed: Option<Vec<InputFrf>>,
     /// What the user should know, each with its remedy.
     pub remarks: Vec<String>,
 }
@@ -90,33 +95,46 @@ pub fn estimate(record: &HammerRecord, settings: &Settings) -> Outcome<HammerFrf
             .map_or(0.0, |end| Exponential::with_end(end, length_s).rate),
     };
     let lines = lines_up_to(samples, record.interval_s, settings.to_hz);
-    let treat = |hit: &ScreenedHit| treated(hit, samples, record.interval_s, window, settings);
-    let spectra = |hit: &ScreenedHit| {
-        let (force, responses) = treat(hit);
-        HitSpectra::new(force, responses, lines)
+    let inputs = |window: Exponential| {
+        let treat = |hit: &ScreenedHit| treated(hit, samples, record.interval_s, window, settings);
+        inputs(&screened, lines, treat)
     };
-    let inputs = directions(&screened).into_iter().filter_map(|input| {
-        let hits: Vec<_> = used()
-            .filter(|h| h.direction == input)
-            .map(spectra)
-            .collect();
-        let sums = CrossSpectra::of(&hits);
-        (!hits.is_empty()).then_some(InputFrf { input, hits, sums })
-    });
+    let recorded_rate = record.exponential_window_s.map_or(0.0, f64::recip);
     let mut frf = HammerFrf {
         interval_s: record.interval_s,
         length_s,
         impulse_s: impulse(used(), record.interval_s),
-        rate: window.rate + record.exponential_window_s.map_or(0.0, f64::recip),
+        rate: window.rate + recorded_rate,
+        recorded_rate,
         frequency_hz: frequencies(samples, record.interval_s, lines),
         outputs: record.outputs.clone(),
-        inputs: inputs.collect(),
+        inputs: inputs(window),
+        unwindowed: (window.rate > 0.0).then(|| inputs(Exponential { rate: 0.0 })),
         screened: Vec::new(),
         remarks: Vec::new(),
     };
     frf.remarks = remarks(&frf, &screened, settings);
     frf.screened = screened;
     Ok(frf)
+}
+
+/// FRFs per direction from the used hits, each made ready by `treat`.
+fn inputs(
+    screened: &[ScreenedHit],
+    lines: usize,
+    treat: impl Fn(&ScreenedHit) -> (Vec<f64>, Vec<Vec<f64>>),
+) -> Vec<InputFrf> {
+    let spectra = |hit: &ScreenedHit| {
+        let (force, responses) = treat(hit);
+        HitSpectra::new(force, responses, lines)
+    };
+    let inputs = directions(screened).into_iter().filter_map(|input| {
+        let own = screened.iter().filter(|h| h.used() && h.direction == input);
+        let hits: Vec<_> = own.map(spectra).collect();
+        let sums = CrossSpectra::of(&hits);
+        (!hits.is_empty()).then_some(InputFrf { input, hits, sums })
+    });
+    inputs.collect()
 }
 
 /// Takes doubled hits back where a direction is left with fewer than two hits.

@@ -2,41 +2,64 @@
 
 use super::hammer_frf::{HammerFrf, InputFrf};
 use super::hammer_variance::variance;
-use crate::signal::frf::{CrossSpectra, Estimator};
+use crate::signal::frf::{CrossSpectra, Line};
 use crate::signal::jackknife::leave_one_out;
 use crate::signal::modal_model::Channels;
-use crate::signal::modes::{Mode, identify};
+use crate::signal::modes::{LeftOut, Mode, identify};
 use crate::signal::stabilisation::{Point, chart};
 use rustfft::num_complex::Complex64;
 
-/// The lines beyond the band that are fitted too, so that modes at its end are seen whole.
-const MARGIN: f64 = 1.3;
+/// End of the lines against that of the band: heavily damped modes above the band reach into it, and
+/// are told from those inside only where they are seen whole.
+const MARGIN: f64 = 2.5;
+/// Up to this share of the band every line counts, beyond it every other one.
+const DENSE: f64 = 1.3;
 /// Below this an accelerometer sees drift, Hz.
 const LOWEST_HZ: f64 = 1.0;
+/// Share of the sampling rate below which no filter against aliasing is seen.
+const UNFILTERED: f64 = 0.35;
+/// Highest weight, N/(m/s²): a dead channel has no scatter.
+const MOST: f64 = 1e60;
+/// Beyond the band, lines end where the power of the force falls below this share of its highest.
+const EXCITED: f64 = 0.003;
+
 /// The modes up to `to_hz`, with 95 % intervals by jackknife over hits.
 pub fn modes(frf: &HammerFrf, to_hz: f64) -> Vec<Mode> {
     let lines = lines(frf, to_hz);
-    let sums: Vec<&CrossSpectra> = frf.inputs.iter().map(|input| &input.sums).collect();
-    let weight = weights(frf, &lines);
-    let channels = channels(frf, &sums, &lines, &weight);
-    let left_out: Vec<Vec<CrossSpectra>> =
-        frf.inputs.iter().map(|i| leave_one_out(&i.hits)).collect();
-    let replicates = left_out.iter().map(Vec::len).min().unwrap_or(0);
-    let replicates = if replicates < 2 { 0 } else { replicates };
-    let left_out: Vec<Channels> = (0..replicates)
-        .map(|k| {
-            let sums: Vec<&CrossSpectra> = left_out.iter().map(|all| &all[k]).collect();
-            self::channels(frf, &sums, &lines, &weight)
-        })
-        .collect();
-    identify(&channels, &left_out, to_hz)
+    identify(&channels(frf, &lines), &left_out(frf, &lines), to_hz)
+}
+
+/// The records as they were, before any window of ours.
+fn inputs(frf: &HammerFrf) -> &[InputFrf] {
+    frf.unwindowed.as_deref().unwrap_or(&frf.inputs)
+}
+
+/// Rate of the window that is in the records, 1/s.
+fn rate(frf: &HammerFrf) -> f64 {
+    match frf.unwindowed {
+        Some(_) => frf.recorded_rate,
+        None => frf.rate,
+    }
+}
+
+fn left_out(frf: &HammerFrf, lines: &[usize]) -> LeftOut {
+    let of = |input: &InputFrf| {
+        let without = leave_one_out(&input.hits);
+        without.iter().map(|sums| all(sums, lines)).collect()
+    };
+    inputs(frf).iter().map(of).collect()
+}
+
+/// H1 per output at `lines`.
+fn all(sums: &CrossSpectra, lines: &[usize]) -> Vec<Vec<Complex64>> {
+    let h1 = |output: &Vec<Line>| lines.iter().map(|k| output[*k].h1()).collect();
+    sums.lines.iter().map(h1).collect()
 }
 
 /// The stabilisation chart from which the modes up to `to_hz` were chosen.
 pub fn stabilisation(frf: &HammerFrf, to_hz: f64) -> Vec<Point> {
     let lines = lines(frf, to_hz);
-    let sums: Vec<&CrossSpectra> = frf.inputs.iter().map(|input| &input.sums).collect();
-    let channels = channels(frf, &sums, &lines, &weights(frf, &lines));
+    let channels = channels(frf, &lines);
     match channels.lines() < 8 {
         true => Vec::new(),
         false => chart(&channels),
@@ -44,44 +67,86 @@ pub fn stabilisation(frf: &HammerFrf, to_hz: f64) -> Vec<Point> {
 }
 
 fn lines(frf: &HammerFrf, to_hz: f64) -> Vec<usize> {
+    let top = (MARGIN * to_hz).min(to_hz.max(UNFILTERED / frf.interval_s));
     let inside = |k: &usize| {
         let f = frf.frequency_hz[*k];
-        *k > 0 && f >= LOWEST_HZ && f <= MARGIN * to_hz
+        let kept = f <= DENSE * to_hz || k.is_multiple_of(2);
+        *k > 0 && f >= LOWEST_HZ && f <= top && kept
     };
-    (0..frf.frequency_hz.len()).filter(inside).collect()
+    let lines = (0..frf.frequency_hz.len()).filter(inside);
+    let forces: Vec<Vec<f64>> = inputs(frf).iter().map(force).collect();
+    let strongest = |force: &Vec<f64>| force.iter().skip(1).fold(0.0, |a: f64, b| a.max(*b));
+    let most: Vec<f64> = forces.iter().map(strongest).collect();
+    let excited = |k: &usize| {
+        let weak = |(force, most): (&Vec<f64>, &f64)| force[*k] < EXCITED * most;
+        frf.frequency_hz[*k] <= to_hz || !forces.iter().zip(&most).any(weak)
+    };
+    lines.take_while(excited).collect()
 }
 
-fn channels(
-    frf: &HammerFrf,
-    sums: &[&CrossSpectra],
-    lines: &[usize],
-    weight: &[Vec<f64>],
-) -> Channels {
-    let channel = |sums: &CrossSpectra, output: usize| -> Vec<Complex64> {
-        lines
-            .iter()
-            .map(|k| sums.lines[output][*k].estimate(Estimator::H1))
-            .collect()
-    };
-    let outputs = frf.outputs.len();
-    let pairs = sums
-        .iter()
-        .flat_map(|sums| (0..outputs).map(|o| channel(sums, o)));
+fn channels(frf: &HammerFrf, lines: &[usize]) -> Channels {
     Channels {
         frequency_hz: lines.iter().map(|k| frf.frequency_hz[*k]).collect(),
-        rate: frf.rate,
+        rate: rate(frf),
         decay_s: frf.length_s - frf.impulse_s,
         interval_s: frf.interval_s,
-        shape: (sums.len(), outputs),
-        frf: pairs.collect(),
-        weight: weight.to_vec(),
+        shape: (inputs(frf).len(), frf.outputs.len()),
+        driven: driven(frf),
+        pulse_s2: inputs(frf)
+            .iter()
+            .map(|input| pulse_s2(frf, input, lines))
+            .collect(),
+        frf: inputs(frf)
+            .iter()
+            .flat_map(|input| all(&input.sums, lines))
+            .collect(),
+        weight: weights(frf, lines),
+    }
+}
+
+/// Which output measures along each direction of the force, if each has its own.
+fn driven(frf: &HammerFrf) -> Option<Vec<usize>> {
+    let place = |input: &InputFrf| frf.outputs.iter().position(|o| *o == input.input);
+    let places: Vec<usize> = inputs(frf).iter().map(place).collect::<Option<_>>()?;
+    (places.len() == frf.outputs.len()).then_some(places)
+}
+
+/// Power of the force per line.
+fn force(input: &InputFrf) -> Vec<f64> {
+    let lines = input.sums.lines.first();
+    lines.map_or(Vec::new(), |lines| {
+        lines.iter().map(|line| line.ff).collect()
+    })
+}
+
+/// Mean square duration about the middle: `|F(ω)|² ≈ |F(0)|²·e^{−ω²·d}`, from the lines.
+fn pulse_s2(frf: &HammerFrf, input: &InputFrf, lines: &[usize]) -> f64 {
+    let Some(output) = input.sums.lines.first() else {
+        return 0.0;
+    };
+    let point = |k: &usize| {
+        let w = std::f64::consts::TAU * frf.frequency_hz[*k];
+        (w * w, output[*k].ff.ln())
+    };
+    let points: Vec<(f64, f64)> = lines.iter().map(point).collect();
+    let n = points.len().max(1) as f64;
+    let (x, y) = points
+        .iter()
+        .fold((0.0, 0.0), |s, p| (s.0 + p.0 / n, s.1 + p.1 / n));
+    let (up, over) = points.iter().fold((0.0, 0.0), |s, p| {
+        (s.0 + (p.0 - x) * (p.1 - y), s.1 + (p.0 - x).powi(2))
+    });
+    let duration = -up / over;
+    if duration.is_finite() {
+        duration.max(0.0)
+    } else {
+        0.0
     }
 }
 
 /// One over the standard deviation, from the scatter of the hits.
 fn weights(frf: &HammerFrf, lines: &[usize]) -> Vec<Vec<f64>> {
-    let pairs = frf
-        .inputs
+    let pairs = inputs(frf)
         .iter()
         .flat_map(|input| (0..frf.outputs.len()).map(move |o| (input, o)));
     pairs
@@ -91,5 +156,8 @@ fn weights(frf: &HammerFrf, lines: &[usize]) -> Vec<Vec<f64>> {
 
 fn weight(input: &InputFrf, output: usize, lines: &[usize]) -> Vec<f64> {
     let variance = variance(input, output, lines);
-    variance.iter().map(|v| v.sqrt().recip()).collect()
+    variance
+        .iter()
+        .map(|v| v.sqrt().recip().min(MOST))
+        .collect()
 }
