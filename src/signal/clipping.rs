@@ -101,6 +101,7 @@ fn blunt(record: &[f64], [highest, height, noise]: [f64; 3]) -> bool {
     let depths = record.iter().map(|v| highest - v);
     let upper: Vec<f64> = depths.filter(|depth| *depth < 0.5 * height).collect();
     let step = decimals(&upper, 1e-12 * highest.abs());
+    let step = step.unwrap_or_else(|| quantum(record, highest));
     let top = |v: &f64| highest - v < 0.5 * step;
     let Some(at) = record.iter().position(top) else {
         return false;
@@ -121,15 +122,15 @@ fn blunt(record: &[f64], [highest, height, noise]: [f64; 3]) -> bool {
     length >= 2 && steep && (length > 2 || uneven || blunt || tied)
 }
 
-/// The power of ten that all values are multiples of; `rounding` where there is none.
-fn decimals(values: &[f64], rounding: f64) -> f64 {
+/// The power of ten that all values are multiples of, if there is one well above `rounding`.
+fn decimals(values: &[f64], rounding: f64) -> Option<f64> {
     let fits = |step: &f64| {
         let off = |v: &f64| (v / step - (v / step).round()).abs() * step;
         values.iter().all(|v| off(v) <= rounding)
     };
     let steps = (0..12).map(|k| 10.0_f64.powi(-k));
-    let steps = steps.filter(|step| *step > 4.0 * rounding);
-    steps.into_iter().find(fits).unwrap_or(rounding)
+    let mut steps = steps.filter(|step| *step > 4.0 * rounding);
+    steps.find(fits)
 }
 
 /// Equal samples above a fall of fewer steps than these are chance.
