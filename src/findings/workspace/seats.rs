@@ -177,8 +177,8 @@ impl Seats {
         }
     }
 
-    /// Logarithm of the odds of these seats before the data: instruments before parameters before
-    /// structure, and one part forgotten makes another of its kind likely.
+    /// Logarithm of the odds of these seats before the data: instruments and parameters before structure,
+    /// kind by kind, and one part forgotten makes another of its kind likely.
     pub fn odds(&self, seats: &[usize]) -> f64 {
         let mut total = 0.0;
         let bare = self.rigid_bearings;
