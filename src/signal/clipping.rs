@@ -174,14 +174,12 @@ mod tests {
 
     /// A half sine of `samples` samples that starts `phase` samples after a sample.
     fn shifted(samples: f64, phase: f64) -> Vec<f64> {
-        let mut record = vec![0.0; 400];
-        for i in 100..150 {
-            let t = (i as f64 - 100.0 - phase) / samples;
-            if (0.0..=1.0).contains(&t) {
-                record[i] = 250.0 * (std::f64::consts::PI * t).sin();
-            }
-        }
-        record
+        let force = |i: u32| {
+            let t = (f64::from(i) - 100.0 - phase) / samples;
+            let inside = (0.0..=1.0).contains(&t);
+            f64::from(inside) * 250.0 * (std::f64::consts::PI * t).sin()
+        };
+        (0..400).map(force).collect()
     }
 
     #[test]
