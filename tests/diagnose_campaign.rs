@@ -68,8 +68,12 @@ fn points_alone_leave_a_group_and_hits_settle_it() {
     holds_what_all_say(&answer, both.path());
 }
 
-/// The extended robot.
+/// The extended robots: labelled as simulated, and the joint one near the truth.
 fn holds_what_all_say(answer: &Value, folder: &Path) {
+    for name in ["hammer-extended.toml", "extended-robot.toml"] {
+        let text = std::fs::read_to_string(folder.join("fits/mill").join(name)).unwrap();
+        assert!(text.starts_with("# synthetic: "), "{name}");
+    }
     let path = answer["model"].as_str().unwrap();
     let shown = ident(&["robot", "show", path, "--json"], folder);
     let shown: Value = serde_json::from_str(&shown).unwrap();

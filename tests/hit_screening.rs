@@ -256,6 +256,17 @@ fn a_sensor_upside_down_is_named() {
 }
 
 #[test]
+fn a_channel_of_zeros_is_named() {
+    let found = remarks(|record| {
+        for run in &mut record.runs {
+            run.responses[1].fill(0.0);
+        }
+    });
+    let named = |r: &String| r.starts_with("ay:") && r.contains("nothing but zeros");
+    assert!(found.iter().any(named), "{found:?}");
+}
+
+#[test]
 fn a_response_that_grows_less_than_the_force_is_named() {
     let found = remarks(|record| {
         for run in record.runs.iter_mut().filter(|run| run.direction == "y") {

@@ -149,3 +149,25 @@ fn other_kinds_are_refused_by_name() {
         "{told}"
     );
 }
+
+#[test]
+fn a_universal_file_tells_its_data_sets() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("frf.uff");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_ident"));
+    let made = command
+        .arg("frf")
+        .arg(example("hammer.csv"))
+        .arg("--uff")
+        .arg(&file)
+        .output()
+        .unwrap();
+    assert!(file.exists(), "{}", said(&made));
+    assert_eq!(inspect(&file, &[]).status.code(), Some(0));
+    let sets = document(&file);
+    assert_eq!(sets["kind"], "universal");
+    let sets = sets["functions"].as_array().unwrap();
+    let frfs = sets.iter().filter(|set| set["kind"] == "FRF");
+    assert_eq!(frfs.count(), 9);
+    assert!(sets.iter().all(|set| set["values"].as_u64() > Some(100)));
+}

@@ -1,7 +1,8 @@
 //! `fits/<campaign>/damping.toml`: what hammer tests say about the dampings, with provenance.
 
 use super::parameter::Identified;
-use crate::ground::problem::{Outcome, Problem};
+use super::stored_text::stored_text;
+use crate::ground::problem::Outcome;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -55,18 +56,6 @@ pub struct StoredProduct {
 impl StoredDamping {
     /// Its text.
     pub fn text(&self) -> Outcome<String> {
-        let body = toml::to_string(self).map_err(|e| {
-            Problem::new(
-                format!("fit cannot be written as TOML ({e})"),
-                "report this as a defect",
-            )
-        })?;
-        let label = match self.synthetic {
-            true => "# synthetic: fitted to simulated measurements\n",
-            false => "",
-        };
-        Ok(format!(
-            "{label}# SI units; value and interval are left out where the data do not fix them\n{body}"
-        ))
+        stored_text(self, self.synthetic)
     }
 }

@@ -1,6 +1,7 @@
 //! `fits/<campaign>/*-extended.toml` of a joint motion: what was found, with provenance, loaded back.
 
 use super::parameter::Identified;
+use super::stored_text::stored_text;
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use serde::{Deserialize, Serialize};
@@ -61,19 +62,7 @@ impl StoredMotion {
     /// # Errors
     /// It cannot be written as TOML.
     pub fn text(&self) -> Outcome<String> {
-        let body = toml::to_string(self).map_err(|e| {
-            Problem::new(
-                format!("fit cannot be written as TOML ({e})"),
-                "report this as a defect",
-            )
-        })?;
-        let label = match self.synthetic {
-            true => "# synthetic: fitted to simulated measurements\n",
-            false => "",
-        };
-        Ok(format!(
-            "{label}# SI units; value and interval are left out where the data do not fix them\n{body}"
-        ))
+        stored_text(self, self.synthetic)
     }
 
     /// Reads it back.

@@ -36,5 +36,6 @@ pub mod solution;
 pub mod starts;
 pub mod stiffness;
 pub mod store;
+pub mod stored_text;
 pub mod validation;
 pub mod weighing;

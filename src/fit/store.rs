@@ -2,6 +2,7 @@
 
 use super::parameter::{Identified, Status};
 use super::solution::Solution;
+use super::stored_text::stored_text;
 use crate::effects::Composite;
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
@@ -119,20 +120,7 @@ impl StoredFit {
 
     /// Its text.
     pub fn text(&self) -> Outcome<String> {
-        let body = toml::to_string(self).map_err(|e| {
-            Problem::new(
-                format!("fit cannot be written as TOML ({e})"),
-                "report this as a defect",
-            )
-        })?;
-        let label = if self.synthetic {
-            "# synthetic: fitted to simulated measurements\n"
-        } else {
-            ""
-        };
-        Ok(format!(
-            "{label}# SI units; value and interval are left out where the data do not fix them\n{body}"
-        ))
+        stored_text(self, self.synthetic)
     }
 
     /// Reads it back.

@@ -1,5 +1,6 @@
 //! A diagnosed hammer test: its figures and its extended robot.
 
+use super::extended;
 use super::hammer_figures;
 use super::kind::{Diagnosed, Source};
 use crate::findings::belief::Belief;
@@ -10,7 +11,6 @@ use crate::measurement::hammer::HammerRecord;
 use crate::measurement::hammer_uff::read_any;
 use crate::robot::Robot;
 use crate::robot::load::load;
-use crate::robot::write::write;
 use crate::sheet::chart::Chart;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
@@ -116,7 +116,8 @@ impl Diagnosed for HammerDiagnosis {
     }
 
     fn model(&self) -> Outcome<Option<String>> {
-        Ok(self.found.extended.as_ref().map(write))
+        let text = |robot: &Robot| extended::text(robot, self.record.synthetic);
+        Ok(self.found.extended.as_ref().map(text))
     }
 
     fn more(&self) -> Map<String, Value> {

@@ -2,6 +2,7 @@
 
 mod base;
 mod campaign;
+mod extended;
 mod hammer;
 mod hammer_figures;
 mod joint_motion;

@@ -1,18 +1,20 @@
 //! A diagnosed workspace test: its figures and its extended robot.
 
+use super::extended;
 use super::kind::{Diagnosed, Source};
 use super::workspace_figures as figures;
+use crate::cli::validate::fits;
 use crate::findings::belief::Belief;
 use crate::findings::sentence::spoken;
 use crate::findings::workspace::{Limit, WorkspaceDiagnosis, diagnose};
 use crate::findings::{Answer, Verdict};
 use crate::fit::force_steps::Setup;
 use crate::fit::validation::mean_and_max;
-use crate::ground::problem::{Outcome, Problem};
+use crate::ground::problem::Outcome;
 use crate::ground::spatial::M3;
 use crate::measurement::workspace_test::{DIRECTIONS, WorkspaceTest};
+use crate::robot::Robot;
 use crate::robot::load::{Loaded, load};
-use crate::robot::{Robot, check, write};
 use crate::sheet::chart::Chart;
 use crate::sheet::number::significant;
 use serde_json::{Map, Value, json};
@@ -32,32 +34,9 @@ pub(super) struct Workspace {
 pub fn diagnosed(path: &Path) -> Outcome<Box<dyn Diagnosed>> {
     let test = WorkspaceTest::read(path)?;
     let robot = load(&test.facts.robot, Some(path)).map_err(|p| p.in_file(path))?;
-    usable(&robot.robot, &test)?;
+    fits(&robot.robot, &test)?;
     let found = diagnose(&test, &robot.robot);
     Ok(Box::new(Workspace { test, robot, found }))
-}
-
-/// Refuses a robot that these points cannot be simulated with.
-fn usable(robot: &Robot, test: &WorkspaceTest) -> Outcome<()> {
-    let angles = test.facts.joint_angles.first().map_or(0, Vec::len);
-    let refuse = |what: String, remedy: &str| Err(Problem::new(what, remedy).in_file(&test.path));
-    if angles != robot.dof() {
-        return refuse(
-            format!(
-                "gives {angles} joint angles per point, the robot `{}` has {} joints",
-                robot.name,
-                robot.dof()
-            ),
-            "correct `joint_angles_deg`, or name the right robot",
-        );
-    }
-    if !robot.is_elastic() {
-        return refuse(
-            format!("nothing in the robot `{}` is elastic", robot.name),
-            "add `drive = { stiffness_Nm_rad = .. }` to its joints; `ident robot convert FILE` makes an editable copy",
-        );
-    }
-    check::bodies(robot).map_err(|problem| problem.in_file(&test.path))
 }
 
 impl Diagnosed for Workspace {
@@ -173,11 +152,7 @@ impl Workspace {
             name.to_string_lossy(),
             causes.join(", ")
         ));
-        let label = match self.test.facts.synthetic {
-            true => "# synthetic: extended from simulated measurements\n",
-            false => "",
-        };
-        format!("{label}{}", write::write(&robot))
+        extended::text(&robot, self.test.facts.synthetic)
     }
 
     /// The set-ups loaded in one direction.
