@@ -1,6 +1,7 @@
 //! Intervals of dampings on simulated campaigns: time integration of the robot, which shares no code
 //! with spectra, linearised model or tuning, at random poses with random dampings and real noise.
 
+use ident::experiments::hammer_force::ForceWindow;
 use ident::experiments::hammer_frf::Settings;
 use ident::fit::damping::{Request, identify, test};
 use ident::fit::frf_robot::Released;
@@ -29,7 +30,8 @@ fn truth(seed: u64) -> Truth {
     let hammer = truth.hammer.as_mut().unwrap();
     hammer.file.truncate(1);
     hammer.instrument.steps = 8;
-    hammer.instrument.accelerometer_noise = random.log_uniform(0.003, 0.02);
+    hammer.instrument.accelerometer_noise = random.log_uniform(0.003, 0.1);
+    hammer.instrument.force_noise = random.log_uniform(0.03, 1.0);
     let spread = |angle: &mut f64| *angle += random.uniform(-15.0, 15.0);
     hammer.joint_angles_deg.iter_mut().for_each(spread);
     hammer
@@ -45,6 +47,7 @@ fn intervals_of_dampings_cover_the_truth() {
     let request = Request {
         settings: Settings {
             exponential_end: Some(0.01),
+            force_window: ForceWindow::Quiet,
             ..Settings::default()
         },
         from_hz: 2.0,

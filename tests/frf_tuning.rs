@@ -1,7 +1,8 @@
 //! Dampings of a multibody-like system are recovered from its FRFs.
 
+use ident::fit::frf_data::{Errors, Measured};
 use ident::fit::frf_identifiability::Status;
-use ident::fit::frf_model::{Kind, Measured, Pose};
+use ident::fit::frf_model::{Kind, Pose};
 use ident::fit::frf_tuning::{Parameter, Residuals, Tuning, tune};
 use ident::ground::random::Random;
 use nalgebra::DMatrix;
@@ -61,6 +62,7 @@ fn task(seed: u64, noise: f64, poses: usize, rate: f64) -> (Tuning, Vec<f64>) {
                 variance: vec![1.0; frequency_hz.len()],
                 frf: vec![Complex64::new(0.0, 0.0); frequency_hz.len()],
                 frequency_hz,
+                errors: Errors::default(),
             };
             let exact = pose.accelerance(&kinds, &truth, &pair).unwrap();
             let rms = (exact.iter().map(|h| h.norm_sqr()).sum::<f64>() / exact.len() as f64).sqrt();

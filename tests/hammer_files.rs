@@ -3,6 +3,7 @@
 mod common;
 
 use common::{Blow, csv, record, robot};
+use ident::experiments::hammer_force::ForceWindow;
 use ident::experiments::hammer_frf::{Settings, estimate};
 use ident::experiments::hammer_modes::modes;
 use ident::measurement::hammer::{HammerRecord, read_hammer};
@@ -124,7 +125,7 @@ fn whole_way(text: &str) {
             Settings::default(),
             Settings {
                 exponential_end: Some(0.1),
-                force_window: true,
+                force_window: ForceWindow::Always,
                 ..Settings::default()
             },
         ] {

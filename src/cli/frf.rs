@@ -2,6 +2,7 @@
 
 use super::output::{print, tell};
 use super::{Ending, Verb, arguments};
+use crate::experiments::hammer_force::ForceWindow;
 use crate::experiments::hammer_frf::{self, HammerFrf, InputFrf, Settings};
 use crate::experiments::hammer_functions::universal_file;
 use crate::experiments::hammer_modes::modes;
@@ -57,7 +58,7 @@ pub struct FrfArgs {
     /// Identify the modes up to --band-Hz
     #[arg(long)]
     modes: bool,
-    /// Set the force to zero after its pulse
+    /// Set the force to zero outside its pulse
     #[arg(long)]
     force_window: bool,
 }
@@ -133,7 +134,10 @@ fn settings(args: &FrfArgs) -> Outcome<Settings> {
     Ok(Settings {
         band_hz: positive(args.band_hz, "--band-Hz")?,
         to_hz: args.to_hz.map(|hz| positive(hz, "--to-Hz")).transpose()?,
-        force_window: args.force_window,
+        force_window: match args.force_window {
+            true => ForceWindow::Always,
+            false => ForceWindow::Never,
+        },
         keep_double: false,
         exponential_end: args.exponential_end,
     })

@@ -1,5 +1,6 @@
 //! Hammer tests: from a record to frequency response functions with their scatter.
 
+use super::hammer_force::{ForceNoise, ForceWindow, force_noise};
 use super::hammer_screen::{ScreenedHit, directions, screen};
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::hammer::HammerRecord;
@@ -19,8 +20,8 @@ pub struct Settings {
     pub band_hz: f64,
     /// Highest line kept, Hz; none: up to Nyquist.
     pub to_hz: Option<f64>,
-    /// Whether the force is set to zero after its pulse.
-    pub force_window: bool,
+    /// Where the force is set to zero outside its pulse.
+    pub force_window: ForceWindow,
     /// Whether doubled hits are used where a direction has fewer than two others: their whole force
     /// was recorded.
     pub keep_double: bool,
@@ -33,7 +34,7 @@ impl Default for Settings {
         Self {
             band_hz: 50.0,
             to_hz: None,
-            force_window: false,
+            force_window: ForceWindow::Never,
             keep_double: false,
             exponential_end: None,
         }
@@ -49,6 +50,8 @@ pub struct InputFrf {
     pub hits: Vec<HitSpectra>,
     /// Their sums.
     pub sums: CrossSpectra,
+    /// What the noise of the force does where every hit has a force window.
+    pub force_noise: Option<ForceNoise>,
 }
 
 /// A hammer test as FRFs.
@@ -97,7 +100,7 @@ pub fn estimate(record: &HammerRecord, settings: &Settings) -> Outcome<HammerFrf
     let lines = lines_up_to(samples, record.interval_s, settings.to_hz);
     let inputs = |window: Exponential| {
         let treat = |hit: &ScreenedHit| treated(hit, samples, record.interval_s, window, settings);
-        inputs(&screened, lines, treat)
+        inputs(&screened, lines, settings.force_window, treat)
     };
     let recorded_rate = record.exponential_window_s.map_or(0.0, f64::recip);
     let mut frf = HammerFrf {
@@ -122,17 +125,23 @@ pub fn estimate(record: &HammerRecord, settings: &Settings) -> Outcome<HammerFrf
 fn inputs(
     screened: &[ScreenedHit],
     lines: usize,
+    window: ForceWindow,
     treat: impl Fn(&ScreenedHit) -> (Vec<f64>, Vec<Vec<f64>>),
 ) -> Vec<InputFrf> {
-    let spectra = |hit: &ScreenedHit| {
+    let spectra = |hit: &&ScreenedHit| {
         let (force, responses) = treat(hit);
         HitSpectra::new(force, responses, lines)
     };
     let inputs = directions(screened).into_iter().filter_map(|input| {
         let own = screened.iter().filter(|h| h.used() && h.direction == input);
-        let hits: Vec<_> = own.map(spectra).collect();
-        let sums = CrossSpectra::of(&hits);
-        (!hits.is_empty()).then_some(InputFrf { input, hits, sums })
+        let own: Vec<&ScreenedHit> = own.collect();
+        let hits: Vec<_> = own.iter().map(spectra).collect();
+        (!hits.is_empty()).then(|| InputFrf {
+            input,
+            sums: CrossSpectra::of(&hits),
+            hits,
+            force_noise: force_noise(&own, window),
+        })
     });
     inputs.collect()
 }
@@ -178,10 +187,8 @@ fn treated(
         record
     };
     let mut force = clean(&hit.force, found.map_or(0.0, |pulse| pulse.baseline));
-    if let (true, Some(pulse)) = (settings.force_window, found) {
-        let width = pulse.width();
-        let (end, flank) = (pulse.end + width / 2 + 2, width + 8);
-        Force { end, flank }.apply(&mut force);
+    if let Some(pulse) = found.filter(|p| settings.force_window.suits(&hit.force, p)) {
+        Force::around(&pulse).apply(&mut force);
     }
     let mean = |r: &[f64]| r.iter().sum::<f64>() / r.len() as f64;
     let responses = hit.responses.iter();

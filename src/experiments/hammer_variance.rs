@@ -3,9 +3,12 @@
 use super::hammer_frf::InputFrf;
 use crate::signal::frf::Estimator;
 use crate::signal::jackknife::frf_variance;
+use std::ops::Range;
 
-/// Half width, lines, over which variances are averaged: few hits give rough ones.
-const SMOOTHING: usize = 6;
+/// Half width, lines, over which variances are fitted: few hits give rough ones.
+const SMOOTHING: usize = 10;
+/// Passes of that fit, each weighing the lines by the last.
+const PASSES: usize = 3;
 /// Relative standard deviation taken for a single hit, which shows no scatter.
 const SINGLE: f64 = 0.01;
 /// Least relative standard deviation, of the value and of its root mean square in the band: no
@@ -24,7 +27,7 @@ pub fn variance(input: &InputFrf, output: usize, lines: &[usize]) -> Vec<f64> {
         size.iter().map(|s| SINGLE.powi(2) * s).collect()
     };
     let floor = |s: &f64| FLOOR.powi(2) * (s + mean) + f64::MIN_POSITIVE;
-    let smooth = smoothed(&scatter);
+    let smooth = smoothed(&scatter, &size);
     smooth
         .iter()
         .zip(&size)
@@ -32,10 +35,64 @@ pub fn variance(input: &InputFrf, output: usize, lines: &[usize]) -> Vec<f64> {
         .collect()
 }
 
-fn smoothed(values: &[f64]) -> Vec<f64> {
-    let mean = |i: usize| {
-        let range = i.saturating_sub(SMOOTHING)..(i + SMOOTHING + 1).min(values.len());
-        values[range.clone()].iter().sum::<f64>() / range.len() as f64
-    };
-    (0..values.len()).map(mean).collect()
+/// The scatter as noise of the response, alike on neighbouring lines, and noise of the force, which
+/// follows the power of the FRF: `a + b·|H|²` with `a` and `b` not negative, fitted around every line.
+fn smoothed(scatter: &[f64], size: &[f64]) -> Vec<f64> {
+    let mut model = vec![1.0; scatter.len()];
+    for _ in 0..PASSES {
+        let around = |i: usize| i.saturating_sub(SMOOTHING)..(i + SMOOTHING + 1).min(scatter.len());
+        let at = |i: usize| {
+            let [a, b] = share(scatter, size, &model, around(i));
+            a + b * size[i]
+        };
+        model = (0..scatter.len()).map(at).collect();
+    }
+    model
+}
+
+/// Least squares of `v ≈ a + b·s`, each line in units of its `model`.
+fn share(scatter: &[f64], size: &[f64], model: &[f64], range: Range<usize>) -> [f64; 2] {
+    let [mut ww, mut ws, mut ss, mut wv, mut sv] = [0.0; 5];
+    for i in range {
+        let unit = 1.0 / model[i].max(f64::MIN_POSITIVE);
+        let (w, s, v) = (unit, size[i] * unit, scatter[i] * unit);
+        ww += w * w;
+        ws += w * s;
+        ss += s * s;
+        wv += w * v;
+        sv += s * v;
+    }
+    let both = ww * ss - ws * ws;
+    let (a, b) = ((wv * ss - sv * ws) / both, (sv * ww - wv * ws) / both);
+    match (a >= 0.0, b >= 0.0) {
+        (true, true) => [a, b],
+        (false, _) => [0.0, sv / ss.max(f64::MIN_POSITIVE)],
+        _ => [wv / ww.max(f64::MIN_POSITIVE), 0.0],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn noise_of_the_force_stands_at_the_peak_only() {
+        let peak = |k: usize| 1.0 / (0.02 + (k as f64 - 20.0).powi(2));
+        let size: Vec<f64> = (0..41).map(peak).collect();
+        let response = vec![3.0; 41];
+        let force: Vec<f64> = size.iter().map(|s| 0.1 * s).collect();
+        let both: Vec<f64> = force.iter().map(|f| f + 3.0).collect();
+        for truth in [response, force, both] {
+            for (found, truth) in smoothed(&truth, &size).iter().zip(&truth) {
+                assert!((found / truth - 1.0).abs() < 1e-6, "{found} {truth}");
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_is_never_negative() {
+        let found = smoothed(&[0.0, 1.0, 0.0], &[5.0, 0.0, 1.0]);
+        assert!(found.iter().all(|v| v.is_finite() && *v >= 0.0));
+        assert!(smoothed(&[], &[]).is_empty());
+    }
 }

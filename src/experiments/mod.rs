@@ -2,6 +2,7 @@
 
 pub mod drive_law;
 pub mod hammer_checks;
+pub mod hammer_force;
 pub mod hammer_frf;
 pub mod hammer_functions;
 pub mod hammer_modes;

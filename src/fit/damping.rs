@@ -1,12 +1,13 @@
 //! From hammer tests and a robot to its dampings: hits judged, FRFs, one tuning over all poses.
 
 use super::damping_statement::{reported, supported};
+use super::frf_data::Measured;
 use super::frf_match::{FrfMatch, frf_match};
 use super::frf_measured::measured;
-use super::frf_model::{Kind, Measured, Pose};
+use super::frf_model::Pose;
 use super::frf_nuisance::{Pull, along, widened};
 use super::frf_robot::{Released, parameters, pose, with_values};
-use super::frf_tuning::{Parameter, Residuals, Tuned, Tuning, tune};
+use super::frf_tuning::{Parameter, Residuals, Tuned, Tuning, solve};
 use super::parameter::Identified;
 use crate::experiments::hammer_frf::{HammerFrf, Settings, estimate};
 use crate::experiments::hammer_modes::modes;
@@ -144,18 +145,16 @@ fn stated_spread(tests: &[Test]) -> Option<f64> {
 /// The tuning, its priors widened until the stiffnesses that are fitted along agree with them, and
 /// where these went against what was stated of them.
 fn agreed(task: &Tuning) -> Outcome<(Tuned, Vec<Pull>)> {
-    let mut tuned = tune(task)?;
-    let mut parameters = task.parameters.clone();
+    let mut wide = task.clone();
+    let mut solved = solve(&wide)?;
     for _ in 0..WIDENINGS {
-        let Some(wider) = widened(&parameters, &tuned.pulls) else {
+        let Some(wider) = widened(&wide.parameters, &solved.pulls(&wide)) else {
             break;
         };
-        parameters = wider;
-        tuned = tune(&Tuning {
-            parameters: parameters.clone(),
-            ..task.clone()
-        })?;
+        wide.parameters = wider;
+        solved = solve(&wide)?;
     }
+    let tuned = solved.told(&wide);
     let stated = task.parameters.iter().filter(|p| along(p));
     let against = |(pull, stated): (&Pull, &Parameter)| Pull {
         prior_ln_std: stated.prior_ln_std.unwrap_or(pull.prior_ln_std),
@@ -206,7 +205,7 @@ fn joints<'a>(test: &'a Test, robot: &Robot) -> Outcome<&'a [f64]> {
 }
 
 fn pairs(pose: &Pose, task: &Tuning, tuned: &Tuned) -> Vec<Pair> {
-    let kinds: Vec<Kind> = task.parameters.iter().map(|p| p.kind).collect();
+    let kinds = task.kinds();
     let starts: Vec<f64> = task.parameters.iter().map(|p| p.start).collect();
     let asked_for = tuned.uncertainty.statements.len();
     let unmoved = [&tuned.values[..asked_for], &starts[asked_for..]].concat();

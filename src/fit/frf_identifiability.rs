@@ -1,17 +1,26 @@
 //! What measured FRFs say about each constant, and which combinations they fix.
 
-use super::frf_tuning::{Linearised, Tuning};
+use super::frf_linear::Linearised;
+use super::frf_profile::widened;
+use super::frf_scatter::{Scatter, scatter};
+use super::frf_tuning::{Parameter, Tuning};
 use crate::signal::jackknife::t95;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use rayon::prelude::*;
 
-/// Standard deviation of a logarithm above which a constant is not identifiable: a factor of 2 either
-/// way at 95 %.
+/// Relative standard deviation above which a constant is not identifiable.
 const IDENTIFIABLE: f64 = 0.35;
 /// Standard deviation of the logarithm of a combination that the data fix.
 const FIXED: f64 = 0.1;
 /// Relative standard deviation that no calibration of hammer and sensors is better than. It is the same
 /// on all lines, so that no number of lines averages it out.
 const CALIBRATION: f64 = 0.001;
+/// Relative standard deviation by curvature up to which it is worth following the profile.
+const WORTH: f64 = 1.0;
+/// Share of its first guess at which the slope of a constant is taken at least.
+const LEAST: f64 = 0.03;
+/// Information that is none: a deviation of 1000.
+const NOTHING: f64 = 1e-6;
 /// Exponents below which a factor is left out of a combination, as long as it stays fixed without.
 const SMALL: [f64; 4] = [0.1, 0.03, 0.01, 0.0];
 
@@ -68,62 +77,120 @@ impl Combination {
 pub struct Uncertainty {
     /// Per parameter.
     pub statements: Vec<Statement>,
-    /// Covariance of the logarithms (n × n), nuisances left out.
-    pub ln_covariance: DMatrix<f64>,
+    /// Relative covariance (n × n), nuisances left out.
+    pub covariance: DMatrix<f64>,
     /// Combinations that the data fix, the best first.
     pub fixed: Vec<Combination>,
 }
 
-/// Reads the uncertainty off the normal matrix, nuisances marginalised, scaled up where the fit is
-/// worse than the noise, and widened to `rivals`: other minima that explain the data as well.
+/// A place in a task.
+#[derive(Clone, Copy)]
+pub(super) struct Place<'a> {
+    /// The task.
+    pub(super) task: &'a Tuning,
+    /// Logarithms of the parameters.
+    pub(super) theta: &'a [f64],
+    /// The normal equations there.
+    pub(super) at: &'a Linearised,
+}
+
+/// Reads the uncertainty off the best place, nuisances marginalised, scaled up where the fit is worse
+/// than the noise, and widened to `rivals`: other minima that explain the data as well.
 pub(super) fn uncertainty(
-    task: &Tuning,
-    theta: &[f64],
-    at: &Linearised,
+    best: Place,
     rivals: &[&[f64]],
     (reduced_chi_square, freedom): (f64, f64),
 ) -> Uncertainty {
-    let scale = reduced_chi_square.max(1.0);
-    let normal = marginal(task, &at.normal);
-    let asked_for = &task.parameters[..normal.nrows()];
-    let mut data = normal.clone();
-    for (i, parameter) in asked_for.iter().enumerate() {
-        data[(i, i)] -= parameter
-            .prior_ln_std
-            .map_or(0.0, |deviation| deviation.powi(-2));
-    }
-    let covariance = inverse(&normal) * scale;
-    let data_only = inverse(&data) * scale;
+    let (task, theta) = (best.task, best.theta);
+    let rest = reduced_chi_square.max(1.0);
+    let asked_for = task.parameters.iter().filter(|p| !p.nuisance).count();
+    let found = scatter(task, theta);
+    let spread = |priors_of: usize| spread(best, found.as_ref(), rest, priors_of);
+    let (all, data_only) = (spread(0), spread(asked_for));
+    let inverse = inverse(&best.at.normal);
     let statement = |i: usize| {
-        let apart = rivals.iter().map(|rival| (rival[i] - theta[i]).abs());
-        let apart = apart.fold(0.0, f64::max) / t95(freedom);
-        let deviation = calibrated(covariance[(i, i)]) + apart;
+        let apart = |rival: &&[f64]| (rival[i] - theta[i]).exp_m1().abs();
+        let apart = rivals.iter().map(apart).fold(0.0, f64::max) / t95(freedom);
+        let deviation = calibrated(all[(i, i)]) + apart;
+        let sides = match deviation < WORTH {
+            true => widened(best, &inverse, i, t95(freedom) * deviation),
+            false => [None; 2],
+        };
         let alone = calibrated(data_only[(i, i)]) + apart < IDENTIFIABLE;
-        statement(task, theta, i, deviation, alone, freedom)
+        statement(best, i, sides, alone, freedom)
     };
+    let data = marginal(&without_priors(best, asked_for), asked_for);
+    let fixed = combinations(&data, rest, &kept(&data_only, asked_for)).into_iter();
     Uncertainty {
-        statements: (0..asked_for.len()).map(statement).collect(),
-        fixed: combinations(&data, scale, &data_only)
-            .into_iter()
+        statements: (0..asked_for).into_par_iter().map(statement).collect(),
+        fixed: fixed
             .map(|one| one.holding(theta, rivals))
             .filter(|one| one.ln_std < FIXED)
             .collect(),
-        ln_covariance: covariance,
+        covariance: kept(&all, asked_for),
     }
 }
 
-/// What the data say about all but the nuisances, whose priors they share: the Schur complement of the
-/// block of the nuisances.
-fn marginal(task: &Tuning, normal: &DMatrix<f64>) -> DMatrix<f64> {
-    let kept = task.parameters.iter().filter(|p| !p.nuisance).count();
-    let along = normal.nrows() - kept;
-    let mut rest = normal.view((0, 0), (kept, kept)).into_owned();
-    let shared = normal.view((kept, 0), (along, kept)).into_owned();
-    let block = normal.view((kept, kept), (along, along)).into_owned();
-    if let Some(block) = block.cholesky().filter(|_| along > 0) {
-        rest -= shared.tr_mul(&block.solve(&shared));
+/// Relative covariance of all parameters, the priors of the first `ignored` left out.
+fn spread(best: Place, scatter: Option<&Scatter>, rest: f64, ignored: usize) -> DMatrix<f64> {
+    let raised = raised(&best.task.parameters, best.theta);
+    let inverse = inverse_of(&without_priors(best, ignored), &raised);
+    let prior = |(i, p): (usize, &Parameter)| {
+        let own = p.prior_ln_std.filter(|_| i >= ignored);
+        own.map_or(0.0, |deviation| deviation.powi(-2)) + NOTHING / raised[i].powi(2)
+    };
+    let priors = best.task.parameters.iter().enumerate().map(prior);
+    let priors = DVector::from_iterator(best.theta.len(), priors);
+    match scatter {
+        Some(found) => found.covariance(&inverse, rest, &DMatrix::from_diagonal(&priors)),
+        None => inverse * rest,
     }
-    rest
+}
+
+/// The normal matrix without the priors of the first `ignored` parameters.
+fn without_priors(best: Place, ignored: usize) -> DMatrix<f64> {
+    let mut normal = best.at.normal.clone();
+    for (i, parameter) in best.task.parameters[..ignored].iter().enumerate() {
+        normal[(i, i)] -= parameter.prior_ln_std.map_or(0.0, |d| d.powi(-2));
+    }
+    normal
+}
+
+/// The block of the first `count` parameters.
+fn kept(matrix: &DMatrix<f64>, count: usize) -> DMatrix<f64> {
+    matrix.view((0, 0), (count, count)).into_owned()
+}
+
+/// Per parameter the value at which its slope is taken for the uncertainty, over the fitted one. The
+/// FRFs depend on dampings nearly linearly, on their logarithms not: a damping that the fit drives to
+/// nothing moves the others all the same.
+fn raised(parameters: &[Parameter], theta: &[f64]) -> Vec<f64> {
+    let least = |parameter: &Parameter| LEAST * parameter.start;
+    let all = parameters.iter().zip(theta);
+    all.map(|(parameter, theta)| (least(parameter) / theta.exp()).max(1.0))
+        .collect()
+}
+
+/// The relative covariance from a normal matrix of logarithms.
+fn inverse_of(normal: &DMatrix<f64>, raised: &[f64]) -> DMatrix<f64> {
+    let by = |m: &DMatrix<f64>| {
+        let raise = |i: usize, j: usize| m[(i, j)] * raised[i] * raised[j];
+        DMatrix::from_fn(m.nrows(), m.ncols(), raise)
+    };
+    by(&inverse(&by(normal)))
+}
+
+/// What the data say about the first `count` parameters, whatever the others are: the Schur complement
+/// of the block of the others.
+fn marginal(normal: &DMatrix<f64>, count: usize) -> DMatrix<f64> {
+    let along = normal.nrows() - count;
+    let shared = normal.view((count, 0), (along, count)).into_owned();
+    let block = normal.view((count, count), (along, along)).into_owned();
+    let rest = kept(normal, count);
+    match block.cholesky().filter(|_| along > 0) {
+        Some(block) => rest - shared.tr_mul(&block.solve(&shared)),
+        None => rest,
+    }
 }
 
 /// Standard deviation from the variance of a logarithm, what calibrations leave included.
@@ -131,36 +198,39 @@ fn calibrated(variance: f64) -> f64 {
     variance.sqrt().hypot(CALIBRATION)
 }
 
-/// Inverse of a semidefinite matrix; directions without information get a deviation of 1000.
-fn inverse(normal: &DMatrix<f64>) -> DMatrix<f64> {
+/// Inverse of a semidefinite matrix; directions without information get that of [`NOTHING`].
+pub(super) fn inverse(normal: &DMatrix<f64>) -> DMatrix<f64> {
     let eigen = SymmetricEigen::new(normal.clone());
-    let inverted = eigen.eigenvalues.map(|value| 1.0 / value.max(1e-6));
+    let inverted = eigen.eigenvalues.map(|value| 1.0 / value.max(NOTHING));
     &eigen.eigenvectors * DMatrix::from_diagonal(&inverted) * eigen.eigenvectors.transpose()
 }
 
 fn statement(
-    task: &Tuning,
-    theta: &[f64],
+    best: Place,
     i: usize,
-    deviation: f64,
+    sides: [Option<f64>; 2],
     alone: bool,
     freedom: f64,
 ) -> Statement {
-    let at_bound = task.parameters[i]
-        .bounds
-        .iter()
-        .any(|b| (theta[i] - b.ln()).abs() < 1e-9);
+    let theta = best.theta[i];
+    let bounds = best.task.parameters[i].bounds;
+    let at_bound = bounds.iter().any(|b| (theta - b.ln()).abs() < 1e-9);
+    let deviation = match sides {
+        [Some(below), Some(above)] if below < 1.0 => (below + above) / (2.0 * t95(freedom)),
+        _ => f64::INFINITY,
+    };
     let status = match (at_bound, deviation < IDENTIFIABLE) {
         (true, _) => Status::AtBound,
         (false, true) => Status::Identified,
         (false, false) => Status::NotIdentifiable,
     };
     let known = status == Status::Identified;
-    let half = t95(freedom) * deviation;
+    let value = theta.exp();
+    let ends = || Some([(1.0 - sides[0]?) * value, (1.0 + sides[1]?) * value]);
     Statement {
         status,
-        stderr: known.then(|| theta[i].exp() * deviation),
-        ci95: known.then(|| [(theta[i] - half).exp(), (theta[i] + half).exp()]),
+        stderr: known.then_some(value * deviation),
+        ci95: ends().filter(|_| known),
         by_prior: known && !alone,
     }
 }

@@ -1,8 +1,10 @@
 //! The FRFs of a hammer test as data of a tuning.
 
-use super::frf_model::Measured;
+use super::frf_data::{Errors, Measured};
 use crate::experiments::hammer_frf::{HammerFrf, InputFrf};
 use crate::experiments::hammer_variance::variance;
+use crate::signal::frf::HitSpectra;
+use rustfft::num_complex::Complex64;
 
 /// The rows of the Jacobian by name.
 const ROWS: [&str; 3] = ["x", "y", "z"];
@@ -43,5 +45,53 @@ fn pair(
             .map(|k| input.sums.lines[channel][*k].h1())
             .collect(),
         variance: variance(input, channel, lines),
+        errors: Errors {
+            impulse_s: frf.impulse_s,
+            shared: shared(frf, input, lines),
+            left_out: left_out(input, channel, lines),
+        },
     }
+}
+
+/// H1 with each of the hits left out.
+fn left_out(input: &InputFrf, channel: usize, lines: &[usize]) -> Vec<Vec<Complex64>> {
+    if input.hits.len() < 2 {
+        return Vec::new();
+    }
+    let without = |hit: &HitSpectra| {
+        let (force, response) = (&hit.force, &hit.responses[channel]);
+        let h1 = |k: &usize| {
+            input.sums.lines[channel][*k]
+                .without(force[*k], response[*k])
+                .h1()
+        };
+        lines.iter().map(h1).collect()
+    };
+    input.hits.iter().map(without).collect()
+}
+
+/// Errors of the force by its noise within its window: one of every sample, one of the baseline.
+fn shared(frf: &HammerFrf, input: &InputFrf, lines: &[usize]) -> Vec<Vec<Complex64>> {
+    let (Some(noise), Some(output)) = (input.force_noise, input.sums.lines.first()) else {
+        return Vec::new();
+    };
+    let over_force = |k: usize| 1.0 / output[k].ff.sqrt();
+    let turn = |k: usize, sample: isize| {
+        let time = sample as f64 * frf.interval_s;
+        Complex64::cis(-std::f64::consts::TAU * frf.frequency_hz[k] * time)
+    };
+    let sample = |i: isize| -> Vec<Complex64> {
+        let error = |k: &usize| turn(*k, i) * noise.std * over_force(*k);
+        lines.iter().map(error).collect()
+    };
+    let all = |k: usize| {
+        (noise.from..noise.to)
+            .map(|i| turn(k, i))
+            .sum::<Complex64>()
+    };
+    let offset = |k: &usize| all(*k) * noise.offset_std * over_force(*k);
+    let samples = (noise.from..noise.to).map(sample);
+    samples
+        .chain(std::iter::once(lines.iter().map(offset).collect()))
+        .collect()
 }

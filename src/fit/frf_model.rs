@@ -1,5 +1,6 @@
 //! The accelerance of a linearised multibody model, with its derivatives by analysis.
 
+use super::frf_data::Measured;
 use nalgebra::DMatrix;
 use rustfft::num_complex::Complex64;
 
@@ -70,44 +71,6 @@ pub struct Pose {
 
 /// Row, column and value of a matrix.
 pub type Entry = (usize, usize, f64);
-
-/// One measured accelerance.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Measured {
-    /// Row of the Jacobian along which the force acts.
-    pub input: usize,
-    /// Row along which the acceleration is taken.
-    pub output: usize,
-    /// Frequencies, Hz.
-    pub frequency_hz: Vec<f64>,
-    /// Rate σ of the exponential window, 1/s: the model is evaluated at `jω + σ`.
-    pub rate: f64,
-    /// Length of the records, s (the window correlates neighbouring lines).
-    pub length_s: f64,
-    /// Accelerance, (m/s²)/N.
-    pub frf: Vec<Complex64>,
-    /// Variance of each value, `var(Re) + var(Im)`, the square of its unit.
-    pub variance: Vec<f64>,
-}
-
-impl Measured {
-    /// `s = jω + σ` at line `k`.
-    pub fn s(&self, k: usize) -> Complex64 {
-        Complex64::new(self.rate, std::f64::consts::TAU * self.frequency_hz[k])
-    }
-
-    /// Whether `other` stands on the same lines, so that the model is the same there.
-    pub fn on_lines_of(&self, other: &Self) -> bool {
-        self.rate == other.rate && self.frequency_hz == other.frequency_hz
-    }
-
-    /// How many lines carry the information of one: `x·coth x` with `x = σT`, the equivalent
-    /// noise bandwidth of the squared window.
-    pub fn lines_per_independent_one(&self) -> f64 {
-        let x = self.rate * self.length_s;
-        if x < 1e-6 { 1.0 } else { x / x.tanh() }
-    }
-}
 
 /// `y = Z⁻¹Jᵀ` per line: one solution serves every pair on the same lines.
 pub struct Responses {

@@ -1,6 +1,6 @@
 //! Terms for what a model leaves out of an FRF: modes above the band, motion below it.
 
-use super::frf_model::Measured;
+use super::frf_data::Measured;
 use crate::signal::modal_model::stacked;
 use nalgebra::{DMatrix, DVector};
 use rustfft::num_complex::Complex64;

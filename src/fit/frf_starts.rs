@@ -4,7 +4,8 @@
 //! FRF sees a narrow one beside every peak. Far from the truth that saves more iterations than it
 //! costs; where the first guesses are right already it costs a tenth of a second.
 
-use super::frf_model::{Kind, Measured, Pose};
+use super::frf_data::{Errors, Measured};
+use super::frf_model::{Kind, Pose};
 use super::frf_tuning::Tuning;
 use crate::ground::random::Random;
 use argmin::core::{CostFunction, Error, Executor, State};
@@ -22,7 +23,7 @@ const LINES: usize = 24;
 const ITERATIONS: u64 = 4;
 
 /// Logarithms from which to search, the first at the first guesses.
-pub(super) fn starts(task: &Tuning, kinds: &[Kind]) -> Vec<Vec<f64>> {
+pub(super) fn starts(task: &Tuning) -> Vec<Vec<f64>> {
     let mut random = Random::new(11);
     let first: Vec<f64> = task.parameters.iter().map(|p| p.start.ln()).collect();
     let mut draw = || -> Vec<f64> {
@@ -40,7 +41,7 @@ pub(super) fn starts(task: &Tuning, kinds: &[Kind]) -> Vec<Vec<f64>> {
         .collect();
     let thin = Thin {
         task,
-        kinds,
+        kinds: task.kinds(),
         poses: task.poses.iter().map(thinned).collect(),
     };
     let proposed = simplices
@@ -66,6 +67,7 @@ fn thinned(pose: &Pose) -> Pose {
             frequency_hz: pair.frequency_hz.iter().copied().step_by(step).collect(),
             frf: pair.frf.iter().copied().step_by(step).collect(),
             variance: pair.variance.iter().copied().step_by(step).collect(),
+            errors: Errors::default(),
             ..pair.clone()
         }
     });
@@ -77,7 +79,7 @@ fn thinned(pose: &Pose) -> Pose {
 
 struct Thin<'a> {
     task: &'a Tuning,
-    kinds: &'a [Kind],
+    kinds: Vec<Kind>,
     poses: Vec<Pose>,
 }
 
@@ -114,7 +116,7 @@ impl Thin<'_> {
     fn apart(&self, pose: &Pose, values: &[f64]) -> Option<f64> {
         let mut sum = 0.0;
         for pairs in pose.measured.chunk_by(Measured::on_lines_of) {
-            let responses = pose.responses(self.kinds, values, &pairs[0])?;
+            let responses = pose.responses(&self.kinds, values, &pairs[0])?;
             for pair in pairs {
                 let simulated = pose.accelerance_of(&responses, pair);
                 let ratios = simulated

@@ -2,17 +2,19 @@
 //! least squares on the complex accelerance weighted with its variance. Parameters are logarithms
 //! within bounds; residual terms of what the model leaves out are eliminated per channel.
 
-use super::frf_identifiability::{Uncertainty, uncertainty};
+use super::frf_data::Measured;
+use super::frf_identifiability::{Place, Uncertainty, inverse, uncertainty};
+use super::frf_linear::{Linearised, linearise};
 use super::frf_match::{FrfMatch, frf_match};
-use super::frf_model::{Kind, Measured, Pose};
+use super::frf_model::{Kind, Pose};
 use super::frf_nuisance::{Pull, pulls};
 pub use super::frf_residuals::Residuals;
-use super::frf_residuals::{residual_basis, with_residuals};
+use super::frf_residuals::with_residuals;
+use super::frf_rivals::rivals;
+use super::frf_search::{Run, Stop, descend};
 use super::frf_starts::starts;
 use crate::ground::problem::{Outcome, Problem};
-use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
-use rustfft::num_complex::Complex64;
 
 /// One parameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,6 +38,16 @@ pub struct Parameter {
 /// standard deviations. Springs in series about nearly the same axis have two solutions for their
 /// dampings, which only the third order in frequency tells apart.
 const RIVAL: f64 = 16.0;
+
+/// The search from each start.
+const SEARCH: Stop = Stop {
+    steps: 60,
+    gain: 1e-4,
+};
+/// How often a better solution found by exchanging dampings is exchanged in turn.
+const EXCHANGES: usize = 3;
+/// Gain in cost from which on a solution is a better one.
+const ENOUGH: f64 = 0.1;
 
 /// A tuning task: shared parameters, several poses.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,44 +80,106 @@ pub struct Tuned {
     pub pulls: Vec<Pull>,
 }
 
-/// Residuals and Jacobian at one place.
-pub(super) struct Linearised {
-    pub(super) normal: DMatrix<f64>,
-    pub(super) slope: DVector<f64>,
-    pub(super) cost: f64,
+/// A task solved: where its descents ended.
+pub(super) struct Solved {
+    runs: Vec<Run>,
+    agreeing_starts: f64,
+    /// The normal equations at the best place.
+    at: Linearised,
+}
+
+impl Tuning {
+    /// What each parameter multiplies.
+    pub fn kinds(&self) -> Vec<Kind> {
+        self.parameters.iter().map(|p| p.kind).collect()
+    }
 }
 
 /// Solves the task.
+///
+/// # Errors
+/// No parameters, no data, wrong bounds, a model without a finite FRF.
 pub fn tune(task: &Tuning) -> Outcome<Tuned> {
+    Ok(solve(task)?.told(task))
+}
+
+/// Descends from all starts, then from where dampings are exchanged.
+pub(super) fn solve(task: &Tuning) -> Outcome<Solved> {
     check(task)?;
-    let kinds: Vec<Kind> = task.parameters.iter().map(|p| p.kind).collect();
-    let descents = starts(task, &kinds)
-        .into_par_iter()
-        .map(|start| descend(task, &kinds, start));
-    let runs: Vec<(Vec<f64>, f64)> = descents.collect::<Vec<_>>().into_iter().flatten().collect();
-    let best = runs.iter().min_by(|a, b| a.1.total_cmp(&b.1));
-    let (theta, cost) = best.ok_or_else(singular)?;
-    let agreeing = runs
-        .iter()
-        .filter(|run| run.1 <= 1.01 * cost + 1e-12)
-        .count();
-    let at = linearise(task, &kinds, theta).ok_or_else(singular)?;
-    let freedom = freedom(task);
-    let values: Vec<f64> = theta.iter().map(|t| t.exp()).collect();
-    let reduced = at.cost / freedom;
-    let rivals: Vec<&[f64]> = runs
-        .iter()
-        .filter(|run| run.1 <= cost + RIVAL * reduced.max(1.0))
-        .map(|run| run.0.as_slice())
-        .collect();
-    Ok(Tuned {
-        uncertainty: uncertainty(task, theta, &at, &rivals, (reduced, freedom)),
-        reduced_chi_square: reduced,
-        matches: matches(task, &kinds, &values),
-        agreeing_starts: agreeing as f64 / runs.len() as f64,
-        pulls: pulls(task, theta, &at.normal),
-        values,
+    let mut runs = descents(task, starts(task));
+    let agreeing_starts = agreeing(&runs);
+    let mut at = at_best(task, &mut runs)?;
+    for _ in 0..EXCHANGES {
+        let cost = at.cost;
+        let near = rivals(task, &runs[0].0, &inverse(&at.normal));
+        runs.extend(descents(task, near));
+        at = at_best(task, &mut runs)?;
+        if at.cost > cost - ENOUGH {
+            break;
+        }
+    }
+    Ok(Solved {
+        runs,
+        agreeing_starts,
+        at,
     })
+}
+
+/// Where searches from `starts` end.
+fn descents(task: &Tuning, starts: Vec<Vec<f64>>) -> Vec<Run> {
+    let runs = starts
+        .into_par_iter()
+        .map(|start| descend(task, start, SEARCH));
+    runs.collect::<Vec<_>>().into_iter().flatten().collect()
+}
+
+/// Sorts the runs, the best first, and linearises there.
+fn at_best(task: &Tuning, runs: &mut [Run]) -> Outcome<Linearised> {
+    runs.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let best = runs.first();
+    best.and_then(|run| linearise(task, &run.0))
+        .ok_or_else(singular)
+}
+
+/// Share of the runs that reached the best cost (within 1 %).
+fn agreeing(runs: &[Run]) -> f64 {
+    let lowest = runs.iter().map(|run| run.1).fold(f64::INFINITY, f64::min);
+    let near = |run: &&Run| run.1 <= 1.01 * lowest + 1e-12;
+    runs.iter().filter(near).count() as f64 / runs.len().max(1) as f64
+}
+
+impl Solved {
+    /// Logarithms of the best solution.
+    fn theta(&self) -> &[f64] {
+        &self.runs[0].0
+    }
+
+    /// Where the nuisances went.
+    pub(super) fn pulls(&self, task: &Tuning) -> Vec<Pull> {
+        pulls(task, self.theta(), &self.at.normal)
+    }
+
+    /// What the solution says.
+    pub(super) fn told(&self, task: &Tuning) -> Tuned {
+        let freedom = freedom(task);
+        let reduced = self.at.cost / freedom;
+        let near = |run: &&Run| run.1 <= self.at.cost + RIVAL * reduced.max(1.0);
+        let rivals: Vec<&[f64]> = self.runs.iter().filter(near).map(|r| &r.0[..]).collect();
+        let values: Vec<f64> = self.theta().iter().map(|t| t.exp()).collect();
+        let place = Place {
+            task,
+            theta: self.theta(),
+            at: &self.at,
+        };
+        Tuned {
+            uncertainty: uncertainty(place, &rivals, (reduced, freedom)),
+            reduced_chi_square: reduced,
+            matches: matches(task, &values),
+            agreeing_starts: self.agreeing_starts,
+            pulls: self.pulls(task),
+            values,
+        }
+    }
 }
 
 fn check(task: &Tuning) -> Outcome<()> {
@@ -163,131 +237,11 @@ fn freedom(task: &Tuning) -> f64 {
     (measured - fitted as f64).max(1.0)
 }
 
-/// Levenberg-Marquardt, steps cut at the bounds.
-fn descend(task: &Tuning, kinds: &[Kind], mut theta: Vec<f64>) -> Option<(Vec<f64>, f64)> {
-    let mut at = linearise(task, kinds, &theta)?;
-    let mut brake = 1e-3;
-    for _ in 0..60 {
-        let before = at.cost;
-        while brake < 1e10 {
-            let trial = stepped(task, &theta, &at, brake);
-            let found = trial.and_then(|trial| Some((linearise(task, kinds, &trial)?, trial)));
-            if let Some((lower, trial)) = found.filter(|(found, _)| found.cost < at.cost) {
-                (at, theta) = (lower, trial);
-                brake = (0.1 * brake).max(1e-10);
-                break;
-            }
-            brake *= 10.0;
-        }
-        if before - at.cost <= 1e-9 * before {
-            break;
-        }
-    }
-    Some((theta, at.cost))
-}
-
-/// A damped step; parameters that push against a bound stay there.
-fn stepped(task: &Tuning, theta: &[f64], at: &Linearised, brake: f64) -> Option<Vec<f64>> {
-    let bound = |i: usize, side: usize| task.parameters[i].bounds[side].ln();
-    let held = |i: &usize| {
-        (at.slope[*i] < 0.0 && theta[*i] <= bound(*i, 0))
-            || (at.slope[*i] > 0.0 && theta[*i] >= bound(*i, 1))
-    };
-    let free: Vec<usize> = (0..theta.len()).filter(|i| !held(i)).collect();
-    let largest = at.normal.diagonal().max().max(1e-300);
-    let damped = DMatrix::from_fn(free.len(), free.len(), |i, j| {
-        let entry = at.normal[(free[i], free[j])];
-        if i == j {
-            entry * (1.0 + brake) + 1e-12 * largest
-        } else {
-            entry
-        }
-    });
-    let slope = DVector::from_iterator(free.len(), free.iter().map(|i| at.slope[*i]));
-    let step = damped.cholesky()?.solve(&slope);
-    let mut next = theta.to_vec();
-    for (i, change) in free.iter().zip(step.iter()) {
-        next[*i] = (theta[*i] + change.clamp(-1.5, 1.5)).clamp(bound(*i, 0), bound(*i, 1));
-    }
-    Some(next)
-}
-
-/// `JᵀJ`, `−Jᵀr` and cost at the logarithms `theta`, priors included.
-pub(super) fn linearise(task: &Tuning, kinds: &[Kind], theta: &[f64]) -> Option<Linearised> {
-    let values: Vec<f64> = theta.iter().map(|t| t.exp()).collect();
-    let n = theta.len();
-    let mut sum = Linearised {
-        normal: DMatrix::zeros(n, n),
-        slope: DVector::zeros(n),
-        cost: 0.0,
-    };
-    for pose in &task.poses {
-        let entries = pose.entries();
-        for pairs in pose.measured.chunk_by(Measured::on_lines_of) {
-            let responses = pose.responses(kinds, &values, &pairs[0])?;
-            let weighed = pose.weighed(&responses, &pairs[0]);
-            for pair in pairs {
-                let (frf, slopes) =
-                    pose.sensitivities_of(&responses, &weighed, kinds, &entries, pair);
-                sum.add(&channel(pair, &frf, &slopes, &values, task.residuals));
-            }
-        }
-    }
-    for (i, parameter) in task.parameters.iter().enumerate() {
-        if let Some(deviation) = parameter.prior_ln_std {
-            let off = (theta[i] - parameter.start.ln()) / deviation;
-            sum.normal[(i, i)] += deviation.powi(-2);
-            sum.slope[i] -= off / deviation;
-            sum.cost += off * off;
-        }
-    }
-    sum.cost.is_finite().then_some(sum)
-}
-
-impl Linearised {
-    fn add(&mut self, (jacobian, rest): &(DMatrix<f64>, DVector<f64>)) {
-        self.normal += jacobian.tr_mul(jacobian);
-        self.slope += jacobian.tr_mul(rest);
-        self.cost += rest.norm_squared();
-    }
-}
-
-/// Weighted `∂H/∂lnθ` and `measured − simulated` of one channel, residual terms projected out.
-fn channel(
-    pair: &Measured,
-    frf: &[Complex64],
-    slopes: &[Vec<Complex64>],
-    values: &[f64],
-    residuals: Residuals,
-) -> (DMatrix<f64>, DVector<f64>) {
-    let independent = pair.lines_per_independent_one();
-    let weight: Vec<f64> = pair
-        .variance
-        .iter()
-        .map(|v| (2.0 / (v * independent)).sqrt())
-        .collect();
-    let rest: Vec<Complex64> = pair.frf.iter().zip(frf).map(|(m, a)| m - a).collect();
-    let mut rest = DVector::from_vec(stacked(&rest, &weight));
-    let columns = slopes.iter().zip(values).flat_map(|(slope, value)| {
-        let scaled: Vec<Complex64> = slope.iter().map(|v| v * *value).collect();
-        stacked(&scaled, &weight)
-    });
-    let mut jacobian = DMatrix::from_vec(rest.len(), slopes.len(), columns.collect());
-    if let Some(q) = residual_basis(pair, &weight, residuals) {
-        rest -= &q * q.tr_mul(&rest);
-        jacobian -= &q * q.tr_mul(&jacobian);
-    }
-    (jacobian, rest)
-}
-
-fn stacked(column: &[Complex64], weight: &[f64]) -> Vec<f64> {
-    crate::signal::modal_model::stacked(column, weight)
-}
-
-fn matches(task: &Tuning, kinds: &[Kind], values: &[f64]) -> Vec<Vec<[FrfMatch; 2]>> {
+fn matches(task: &Tuning, values: &[f64]) -> Vec<Vec<[FrfMatch; 2]>> {
+    let kinds = task.kinds();
     let starts: Vec<f64> = task.parameters.iter().map(|p| p.start).collect();
     let of = |pose: &Pose, pair: &Measured, theta: &[f64]| {
-        let simulated = pose.accelerance(kinds, theta, pair).unwrap_or_default();
+        let simulated = pose.accelerance(&kinds, theta, pair).unwrap_or_default();
         frf_match(&pair.frf, &with_residuals(task.residuals, pair, &simulated))
     };
     let pose = |pose: &Pose| -> Vec<[FrfMatch; 2]> {

@@ -10,6 +10,7 @@ pub mod fault;
 pub mod frf;
 pub mod jackknife;
 pub mod judge;
+pub mod line_noise;
 pub mod lscf;
 pub mod modal_fit;
 pub mod modal_grid;

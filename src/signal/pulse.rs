@@ -1,7 +1,12 @@
 //! The force pulse of one hit: where it is, how high, how long, above which baseline.
 
+use std::ops::Range;
+
 /// Samples before the pulse from which a baseline is taken; with fewer, the median of the record.
 const ENOUGH_PRETRIGGER: usize = 16;
+
+/// Standard deviations that the mean over the length of a pulse must keep to be noise.
+const CLEAR: f64 = 5.5;
 
 /// The main pulse of a force record.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,6 +63,20 @@ impl Pulse {
         (force[i] - self.baseline) * self.peak.signum()
     }
 
+    /// Whether the record shows nothing but noise outside the samples `kept`: no mean over the length of
+    /// the pulse stands clear of it. Hum, ringing and a slowly returning baseline do.
+    pub fn quiet_outside(&self, force: &[f64], kept: Range<usize>) -> bool {
+        let width = self.width().max(1);
+        let before = &force[..kept.start.min(force.len())];
+        let after = force.get(kept.end..).unwrap_or(&[]);
+        let level = CLEAR * spread(after, median(after)) * (width as f64).sqrt();
+        let mut sums = [before, after].into_iter().flat_map(|rest| {
+            let parts = rest.windows(width);
+            parts.map(|part| part.iter().map(|v| v - self.baseline).sum::<f64>().abs())
+        });
+        after.len() > 4 * width && sums.all(|sum| sum <= level)
+    }
+
     fn bound(&mut self, force: &[f64]) {
         let floor = (0.02 * self.peak.abs()).max(3.0 * self.noise);
         let inside = |i: &usize| self.above(force, *i) > floor;
@@ -68,10 +87,15 @@ impl Pulse {
     }
 }
 
-/// Mean over the samples before `start`, `otherwise` if they are too few. The last quarter of them
-/// is left out: filters ring before the pulse.
+/// How many samples before `start` give a baseline. The last quarter of them is left out: filters ring
+/// before the pulse.
+pub fn quiet(start: usize) -> usize {
+    start - start / 4
+}
+
+/// Mean over the samples before `start` that are [`quiet`], `otherwise` if they are too few.
 pub fn baseline(record: &[f64], start: usize, otherwise: f64) -> f64 {
-    let quiet = start - start / 4;
+    let quiet = quiet(start);
     if quiet < ENOUGH_PRETRIGGER {
         return otherwise;
     }
@@ -97,4 +121,39 @@ pub fn spread(values: &[f64], middle: f64) -> f64 {
 fn farthest(values: &[f64], middle: f64) -> Option<usize> {
     let away = |i: &usize| (values[*i] - middle).abs();
     (0..values.len()).max_by(|a, b| away(a).total_cmp(&away(b)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ground::random::Random;
+
+    /// A pulse of 200 N over ten samples, noise of 1 N, another pulse of `second` N.
+    fn record(second: f64) -> (Vec<f64>, Pulse) {
+        let mut random = Random::new(3);
+        let bump = |i: usize, at: usize| match (at..at + 10).contains(&i) {
+            true => (std::f64::consts::PI * (i - at) as f64 / 10.0).sin(),
+            false => 0.0,
+        };
+        let force: Vec<f64> = (0..1000)
+            .map(|i| 200.0 * bump(i, 50) + second * bump(i, 90) + random.normal())
+            .collect();
+        let pulse = Pulse::find(&force).unwrap();
+        (force, pulse)
+    }
+
+    #[test]
+    fn a_force_is_quiet_outside_a_single_pulse() {
+        let (force, pulse) = record(0.0);
+        assert!(pulse.quiet_outside(&force, 40..70));
+        let (force, pulse) = record(8.0);
+        assert!(!pulse.quiet_outside(&force, 40..70));
+    }
+
+    #[test]
+    fn a_record_that_ends_with_the_pulse_says_nothing() {
+        let (force, pulse) = record(0.0);
+        assert!(!pulse.quiet_outside(&force[..75], 40..70));
+        assert!(!pulse.quiet_outside(&force[..75], 40..90));
+    }
 }

@@ -11,6 +11,7 @@ mod write;
 use super::chapter::Chapter;
 use super::output::{print, tell};
 use super::{Ending, Verb, arguments, from_words, parsed};
+use crate::experiments::hammer_force::ForceWindow;
 use crate::experiments::hammer_frf::Settings;
 use crate::fit::damping::{Request, identify};
 use crate::fit::frf_robot::Released;
@@ -186,6 +187,7 @@ fn request(arguments: &Arguments) -> Outcome<Request> {
         settings: Settings {
             band_hz: to_hz,
             exponential_end: (end < 1.0).then_some(end),
+            force_window: ForceWindow::Quiet,
             ..Settings::default()
         },
         from_hz,

@@ -2,9 +2,9 @@
 
 use crate::experiments::hammer_frf::HammerFrf;
 use crate::experiments::hammer_variance::variance;
-use crate::fit::frf_model::Measured;
 use crate::motion::frf::C64;
 use crate::signal::frf::CrossSpectra;
+use crate::signal::window::Exponential;
 
 /// The rows of a 3×3 accelerance by name.
 pub const AXES: [&str; 3] = ["x", "y", "z"];
@@ -141,16 +141,9 @@ fn lines(frf: &HammerFrf, grid: Grid) -> Vec<usize> {
 /// How many of the lines carry the information of one.
 fn independent(frf: &HammerFrf, lines: &[usize]) -> f64 {
     let stride = lines.windows(2).map(|w| w[1] - w[0]).next().unwrap_or(1);
-    let all = Measured {
-        input: 0,
-        output: 0,
-        frequency_hz: Vec::new(),
-        rate: frf.rate,
-        length_s: frf.length_s,
-        frf: Vec::new(),
-        variance: Vec::new(),
-    };
-    (all.lines_per_independent_one() / stride as f64).max(1.0)
+    let window = Exponential { rate: frf.rate };
+    let all = window.lines_per_independent_one(frf.length_s);
+    (all / stride as f64).max(1.0)
 }
 
 fn weights(values: &[C64], scatter: &[f64], independent: f64) -> Vec<f64> {

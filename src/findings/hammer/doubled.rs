@@ -6,6 +6,7 @@ use super::map::Fit;
 use super::prediction::Machine;
 use super::unseen::of_blocks;
 use crate::causes;
+use crate::experiments::hammer_force::ForceWindow;
 use crate::experiments::hammer_frf::{HammerFrf, Settings, estimate};
 use crate::findings::answer::Cause;
 use crate::findings::gain::Gain;
@@ -38,7 +39,7 @@ pub fn cause(
     let highest = seconds.iter().max_by(|a, b| a.share.total_cmp(&b.share))?;
     let card = causes::named(NAME)?.card();
     let overlooked = Settings {
-        force_window: true,
+        force_window: ForceWindow::Always,
         ..*settings
     };
     let gain = gain(
