@@ -86,7 +86,11 @@ fn found(truth: &[Mode], settings: &Settings, seed: u64) -> Vec<Found> {
             blows.push((direction, blow));
         }
     }
-    let frf = estimate(&record(truth, &blows, seed), settings).unwrap();
+    let settings = Settings {
+        modes: true,
+        ..*settings
+    };
+    let frf = estimate(&record(truth, &blows, seed), &settings).unwrap();
     modes(&frf, 50.0)
 }
 

@@ -39,7 +39,11 @@ fn hammered(truth: &[Mode], blow: Blow, settings: &Settings, seed: u64) -> Vec<F
     if blow.window_rate > 0.0 {
         record.exponential_window_s = Some(1.0 / blow.window_rate);
     }
-    let frf = estimate(&record, settings).unwrap();
+    let settings = Settings {
+        modes: true,
+        ..*settings
+    };
+    let frf = estimate(&record, &settings).unwrap();
     assert!(frf.screened.iter().all(|hit| hit.used()));
     modes(&frf, 50.0)
 }

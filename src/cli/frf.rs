@@ -140,6 +140,7 @@ fn settings(args: &FrfArgs) -> Outcome<Settings> {
         },
         keep_double: false,
         exponential_end: args.exponential_end,
+        modes: args.modes,
     })
 }
 

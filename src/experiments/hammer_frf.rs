@@ -27,6 +27,8 @@ pub struct Settings {
     pub keep_double: bool,
     /// Value of an exponential window at the end of the record; none: no window is applied.
     pub exponential_end: Option<f64>,
+    /// Whether modes will be sought.
+    pub modes: bool,
 }
 
 impl Default for Settings {
@@ -37,6 +39,7 @@ impl Default for Settings {
             force_window: ForceWindow::Never,
             keep_double: false,
             exponential_end: None,
+            modes: false,
         }
     }
 }
@@ -75,9 +78,10 @@ pub struct HammerFrf {
     pub screened: Vec<ScreenedHit>,
     /// FRFs per direction of the force.
     pub inputs: Vec<InputFrf>,
-    /// The same without the window of [`Settings::exponential_end`], if there is one: a model that
-    /// knows the end of the record loses nothing there.
-    pub unwindowed: Option<Vec<InputFrf>>,
+    /// The same for modes, if asked for: without the window of [`Settings::exponential_end`], as a
+    /// model that knows the end of the record loses nothing there, and with the force windows of
+    /// [`ForceWindow::Quiet`].
+    pub for_modes: Option<Vec<InputFrf>>,
     /// What the user should know, each with its remedy.
     pub remarks: Vec<String>,
 }
@@ -98,9 +102,9 @@ pub fn estimate(record: &HammerRecord, settings: &Settings) -> Outcome<HammerFrf
             .map_or(0.0, |end| Exponential::with_end(end, length_s).rate),
     };
     let lines = lines_up_to(samples, record.interval_s, settings.to_hz);
-    let inputs = |window: Exponential| {
-        let treat = |hit: &ScreenedHit| treated(hit, samples, record.interval_s, window, settings);
-        inputs(&screened, lines, settings.force_window, treat)
+    let inputs = |window: Exponential, force: ForceWindow| {
+        let treat = |hit: &ScreenedHit| treated(hit, samples, record.interval_s, window, force);
+        inputs(&screened, lines, force, treat)
     };
     let recorded_rate = record.exponential_window_s.map_or(0.0, f64::recip);
     let mut frf = HammerFrf {
@@ -111,8 +115,10 @@ pub fn estimate(record: &HammerRecord, settings: &Settings) -> Outcome<HammerFrf
         recorded_rate,
         frequency_hz: frequencies(samples, record.interval_s, lines),
         outputs: record.outputs.clone(),
-        inputs: inputs(window),
-        unwindowed: (window.rate > 0.0).then(|| inputs(Exponential { rate: 0.0 })),
+        inputs: inputs(window, settings.force_window),
+        for_modes: settings
+            .modes
+            .then(|| inputs(Exponential { rate: 0.0 }, ForceWindow::Quiet)),
         screened: Vec::new(),
         remarks: Vec::new(),
     };
@@ -177,7 +183,7 @@ fn treated(
     samples: usize,
     interval_s: f64,
     window: Exponential,
-    settings: &Settings,
+    force_window: ForceWindow,
 ) -> (Vec<f64>, Vec<Vec<f64>>) {
     let found = Pulse::find(&hit.force);
     let start = found.map_or(0, |pulse| pulse.start);
@@ -187,7 +193,7 @@ fn treated(
         record
     };
     let mut force = clean(&hit.force, found.map_or(0.0, |pulse| pulse.baseline));
-    if let Some(pulse) = found.filter(|p| settings.force_window.suits(&hit.force, p)) {
+    if let Some(pulse) = found.filter(|p| force_window.suits(&hit.force, p)) {
         Force::around(&pulse).apply(&mut force);
     }
     let mean = |r: &[f64]| r.iter().sum::<f64>() / r.len() as f64;

@@ -31,12 +31,12 @@ pub fn modes(frf: &HammerFrf, to_hz: f64) -> Vec<Mode> {
 
 /// The records as they were, before any window of ours.
 fn inputs(frf: &HammerFrf) -> &[InputFrf] {
-    frf.unwindowed.as_deref().unwrap_or(&frf.inputs)
+    frf.for_modes.as_deref().unwrap_or(&frf.inputs)
 }
 
 /// Rate of the window that is in the records, 1/s.
 fn rate(frf: &HammerFrf) -> f64 {
-    match frf.unwindowed {
+    match frf.for_modes {
         Some(_) => frf.recorded_rate,
         None => frf.rate,
     }

@@ -11,9 +11,9 @@ const SMOOTHING: usize = 10;
 const PASSES: usize = 3;
 /// Relative standard deviation taken for a single hit, which shows no scatter.
 const SINGLE: f64 = 0.01;
-/// Least relative standard deviation, of the value and of its root mean square in the band: no
-/// calibration is better.
-const FLOOR: f64 = 0.001;
+/// Least relative standard deviation, of the value and of its root mean square in the band: digits,
+/// cables and the model of a record leave no less.
+const FLOOR: f64 = 0.0006;
 
 /// Variance `var(Re) + var(Im)` of H1 of one output at `lines`, ((m/s²)/N)².
 pub fn variance(input: &InputFrf, output: usize, lines: &[usize]) -> Vec<f64> {

@@ -41,7 +41,7 @@ const RIVAL: f64 = 16.0;
 
 /// The search from each start.
 const SEARCH: Stop = Stop {
-    steps: 60,
+    steps: 200,
     gain: 1e-4,
 };
 /// How often a better solution found by exchanging dampings is exchanged in turn.

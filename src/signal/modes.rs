@@ -8,6 +8,10 @@ use super::modal_search::search;
 use super::stabilisation::{candidates, chart};
 use rustfft::num_complex::Complex64;
 
+/// Damping ratios of modes: below, a pole follows one line of noise; beyond, it is a slope.
+const UNDAMPED: f64 = 1e-6;
+const HEAVILY: f64 = 0.3;
+
 /// A mode of the structure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
@@ -39,7 +43,8 @@ pub fn identify(channels: &Channels, left_out: &LeftOut, to_hz: f64) -> Vec<Mode
         .enumerate()
         .map(|(r, half_width)| mode(&task, &fit, r, half_width))
         .collect();
-    modes.retain(|mode| mode.frequency_hz <= to_hz && mode.damping_ratio < 0.3);
+    let is_mode = |d: f64| (UNDAMPED..HEAVILY).contains(&d);
+    modes.retain(|mode| mode.frequency_hz <= to_hz && is_mode(mode.damping_ratio));
     modes.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
     modes
 }

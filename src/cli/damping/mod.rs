@@ -188,6 +188,7 @@ fn request(arguments: &Arguments) -> Outcome<Request> {
             band_hz: to_hz,
             exponential_end: (end < 1.0).then_some(end),
             force_window: ForceWindow::Quiet,
+            modes: true,
             ..Settings::default()
         },
         from_hz,
