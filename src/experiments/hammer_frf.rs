@@ -53,6 +53,9 @@ pub struct InputFrf {
     pub hits: Vec<HitSpectra>,
     /// Their sums.
     pub sums: CrossSpectra,
+    /// Mean power of the noise of every output per line of one hit, by the samples before the pulse,
+    /// ((m/s²)·samples)²; 0 where they are too few.
+    pub noise_power: Vec<f64>,
     /// What the noise of the force does where every hit has a force window.
     pub force_noise: Option<ForceNoise>,
 }
@@ -104,7 +107,8 @@ pub fn estimate(record: &HammerRecord, settings: &Settings) -> Outcome<HammerFrf
     let lines = lines_up_to(samples, record.interval_s, settings.to_hz);
     let inputs = |window: Exponential, force: ForceWindow| {
         let treat = |hit: &ScreenedHit| treated(hit, samples, record.interval_s, window, force);
-        inputs(&screened, lines, force, treat)
+        let power = window.power(samples, record.interval_s);
+        inputs(&screened, lines, power, force, treat)
     };
     let recorded_rate = record.exponential_window_s.map_or(0.0, f64::recip);
     let mut frf = HammerFrf {
@@ -131,6 +135,7 @@ pub fn estimate(record: &HammerRecord, settings: &Settings) -> Outcome<HammerFrf
 fn inputs(
     screened: &[ScreenedHit],
     lines: usize,
+    power: f64,
     window: ForceWindow,
     treat: impl Fn(&ScreenedHit) -> (Vec<f64>, Vec<Vec<f64>>),
 ) -> Vec<InputFrf> {
@@ -146,10 +151,26 @@ fn inputs(
             input,
             sums: CrossSpectra::of(&hits),
             hits,
+            noise_power: noise_power(&own, power),
             force_noise: force_noise(&own, window),
         })
     });
     inputs.collect()
+}
+
+/// Mean power per line of the noise of every output, `power` being that of the window.
+fn noise_power(hits: &[&ScreenedHit], power: f64) -> Vec<f64> {
+    let starts = hits.iter().map(|hit| Pulse::find(&hit.force));
+    let starts: Vec<usize> = starts.map(|p| p.map_or(0, |pulse| pulse.start)).collect();
+    let of = |output: usize| {
+        let stds = hits
+            .iter()
+            .zip(&starts)
+            .filter_map(|(hit, start)| pulse::noise_before(&hit.responses[output], *start));
+        stds.map(|std| std.powi(2)).sum::<f64>() / hits.len() as f64 * power
+    };
+    let outputs = hits.first().map_or(0, |hit| hit.responses.len());
+    (0..outputs).map(of).collect()
 }
 
 /// Takes doubled hits back where a direction is left with fewer than two hits.

@@ -9,7 +9,11 @@ use std::ops::Range;
 const SMOOTHING: usize = 10;
 /// Passes of that fit, each weighing the lines by the last.
 const PASSES: usize = 3;
-/// Relative standard deviation taken for a single hit, which shows no scatter.
+/// Times the fitted variance above which the scatter of a line counts alone.
+const OUTLYING: f64 = 4.0;
+/// Determinant, over that of unlike columns, below which the two parts are not told apart.
+const ALIKE: f64 = 1e-9;
+/// Relative standard deviation taken for a single hit, which shows no scatter, beside the noise before it.
 const SINGLE: f64 = 0.01;
 /// Least relative standard deviation, of the value and of its root mean square in the band: digits,
 /// cables and the model of a record leave no less.
@@ -19,15 +23,18 @@ const FLOOR: f64 = 0.0006;
 pub fn variance(input: &InputFrf, output: usize, lines: &[usize]) -> Vec<f64> {
     let power = |k: &usize| input.sums.lines[output][*k].h1().norm_sqr();
     let size: Vec<f64> = lines.iter().map(power).collect();
-    let mean = size.iter().sum::<f64>() / size.len().max(1) as f64;
-    let scatter: Vec<f64> = if input.hits.len() > 1 {
+    let level = mean(&size);
+    let smooth = if input.hits.len() > 1 {
         let all = frf_variance(&input.sums, &input.hits, output, Estimator::H1);
-        lines.iter().map(|k| all[*k]).collect()
+        let scatter: Vec<f64> = lines.iter().map(|k| all[*k]).collect();
+        smoothed(&scatter, &size)
     } else {
-        size.iter().map(|s| SINGLE.powi(2) * s).collect()
+        let noise = |k: &usize| input.noise_power[output] / input.sums.lines[output][*k].ff;
+        let near = |i: usize| SINGLE.powi(2) * mean(&size[around(i, size.len())]);
+        let all = lines.iter().enumerate();
+        all.map(|(i, k)| near(i) + noise(k)).collect()
     };
-    let floor = |s: &f64| FLOOR.powi(2) * (s + mean) + f64::MIN_POSITIVE;
-    let smooth = smoothed(&scatter, &size);
+    let floor = |s: &f64| FLOOR.powi(2) * (s + level) + f64::MIN_POSITIVE;
     smooth
         .iter()
         .zip(&size)
@@ -36,18 +43,28 @@ pub fn variance(input: &InputFrf, output: usize, lines: &[usize]) -> Vec<f64> {
 }
 
 /// The scatter as noise of the response, alike on neighbouring lines, and noise of the force, which
-/// follows the power of the FRF: `a + b·|H|²` with `a` and `b` not negative, fitted around every line.
+/// follows the power of the FRF: `a + b·|H|²` with `a` and `b` not negative, fitted around every line;
+/// a line that scatters much more, such as one of hum, keeps its own.
 fn smoothed(scatter: &[f64], size: &[f64]) -> Vec<f64> {
     let mut model = vec![1.0; scatter.len()];
     for _ in 0..PASSES {
-        let around = |i: usize| i.saturating_sub(SMOOTHING)..(i + SMOOTHING + 1).min(scatter.len());
         let at = |i: usize| {
-            let [a, b] = share(scatter, size, &model, around(i));
+            let [a, b] = share(scatter, size, &model, around(i, scatter.len()));
             a + b * size[i]
         };
         model = (0..scatter.len()).map(at).collect();
     }
-    model
+    let raised = |(v, m): (&f64, &f64)| if *v > OUTLYING * m { *v } else { *m };
+    scatter.iter().zip(&model).map(raised).collect()
+}
+
+/// The places around `i` of `count`.
+fn around(i: usize, count: usize) -> Range<usize> {
+    i.saturating_sub(SMOOTHING)..(i + SMOOTHING + 1).min(count)
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
 }
 
 /// Least squares of `v ≈ a + b·s`, each line in units of its `model`.
@@ -63,6 +80,9 @@ fn share(scatter: &[f64], size: &[f64], model: &[f64], range: Range<usize>) -> [
         sv += s * v;
     }
     let both = ww * ss - ws * ws;
+    if both.is_nan() || both <= ALIKE * ww * ss {
+        return [wv / ww.max(f64::MIN_POSITIVE), 0.0];
+    }
     let (a, b) = ((wv * ss - sv * ws) / both, (sv * ww - wv * ws) / both);
     match (a >= 0.0, b >= 0.0) {
         (true, true) => [a, b],
@@ -94,5 +114,6 @@ mod tests {
         let found = smoothed(&[0.0, 1.0, 0.0], &[5.0, 0.0, 1.0]);
         assert!(found.iter().all(|v| v.is_finite() && *v >= 0.0));
         assert!(smoothed(&[], &[]).is_empty());
+        assert_eq!(smoothed(&[2.0], &[3.0]), [2.0]);
     }
 }

@@ -1,5 +1,6 @@
 //! What measured FRFs say about each constant, and which combinations they fix.
 
+use super::frf_data::Errors;
 use super::frf_linear::Linearised;
 use super::frf_profile::widened;
 use super::frf_scatter::{Scatter, scatter};
@@ -108,12 +109,17 @@ pub(super) fn uncertainty(
     let spread = |priors_of: usize| spread(best, found.as_ref(), rest, priors_of);
     let (all, data_only) = (spread(0), spread(asked_for));
     let inverse = inverse(&best.at.normal);
+    let bare = bare(task);
+    let bare = Place {
+        task: &bare,
+        ..best
+    };
     let statement = |i: usize| {
         let apart = |rival: &&[f64]| (rival[i] - theta[i]).exp_m1().abs();
         let apart = rivals.iter().map(apart).fold(0.0, f64::max) / t95(freedom);
         let deviation = calibrated(all[(i, i)]) + apart;
         let sides = match deviation < WORTH {
-            true => widened(best, &inverse, i, t95(freedom) * deviation),
+            true => widened(bare, &inverse, i, t95(freedom) * deviation),
             false => [None; 2],
         };
         let alone = calibrated(data_only[(i, i)]) + apart < IDENTIFIABLE;
@@ -129,6 +135,14 @@ pub(super) fn uncertainty(
             .collect(),
         covariance: kept(&all, asked_for),
     }
+}
+
+/// The task without the errors of its data, which a search does not need: a profile copies it often.
+fn bare(task: &Tuning) -> Tuning {
+    let mut bare = task.clone();
+    let pairs = bare.poses.iter_mut().flat_map(|pose| &mut pose.measured);
+    pairs.for_each(|pair| pair.errors = Errors::default());
+    bare
 }
 
 /// Relative covariance of all parameters, the priors of the first `ignored` left out.

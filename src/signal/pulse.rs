@@ -69,7 +69,7 @@ impl Pulse {
         let width = self.width().max(1);
         let before = &force[..kept.start.min(force.len())];
         let after = force.get(kept.end..).unwrap_or(&[]);
-        let level = CLEAR * spread(after, median(after)) * (width as f64).sqrt();
+        let level = CLEAR * white(after) * (width as f64).sqrt();
         let mut sums = [before, after].into_iter().flat_map(|rest| {
             let parts = rest.windows(width);
             parts.map(|part| part.iter().map(|v| v - self.baseline).sum::<f64>().abs())
@@ -102,6 +102,12 @@ pub fn baseline(record: &[f64], start: usize, otherwise: f64) -> f64 {
     record[..quiet].iter().sum::<f64>() / quiet as f64
 }
 
+/// Standard deviation of the samples before `start` that are [`quiet`]; none if they are too few.
+pub fn noise_before(record: &[f64], start: usize) -> Option<f64> {
+    let before = record.get(..quiet(start))?;
+    (before.len() >= ENOUGH_PRETRIGGER).then(|| spread(before, median(before)))
+}
+
 /// Median; 0 for nothing.
 pub fn median(values: &[f64]) -> f64 {
     if values.is_empty() {
@@ -116,6 +122,13 @@ pub fn median(values: &[f64]) -> f64 {
 pub fn spread(values: &[f64], middle: f64) -> f64 {
     let away: Vec<f64> = values.iter().map(|v| (v - middle).abs()).collect();
     1.4826 * median(&away)
+}
+
+/// Standard deviation of white noise in `values` by the differences of neighbours, which see little of hum
+/// and slow parts.
+fn white(values: &[f64]) -> f64 {
+    let steps: Vec<f64> = values.windows(2).map(|two| two[1] - two[0]).collect();
+    spread(&steps, 0.0) / std::f64::consts::SQRT_2
 }
 
 fn farthest(values: &[f64], middle: f64) -> Option<usize> {
@@ -147,6 +160,16 @@ mod tests {
         let (force, pulse) = record(0.0);
         assert!(pulse.quiet_outside(&force, 40..70));
         let (force, pulse) = record(8.0);
+        assert!(!pulse.quiet_outside(&force, 40..70));
+    }
+
+    #[test]
+    fn hum_is_not_quiet() {
+        let (mut force, _) = record(0.0);
+        for (i, value) in force.iter_mut().enumerate() {
+            *value += 3.0 * (0.1 * std::f64::consts::PI * i as f64).sin();
+        }
+        let pulse = Pulse::find(&force).unwrap();
         assert!(!pulse.quiet_outside(&force, 40..70));
     }
 

@@ -28,6 +28,12 @@ impl Exponential {
         }
     }
 
+    /// Sum of its squares over a record.
+    pub fn power(&self, samples: usize, interval_s: f64) -> f64 {
+        let square = |i: usize| (-2.0 * self.rate * i as f64 * interval_s).exp();
+        (0..samples).map(square).sum()
+    }
+
     /// How many lines of a record of `length_s` carry the information of one: `x·coth x` with
     /// `x = σT`, the equivalent noise bandwidth of the squared window.
     pub fn lines_per_independent_one(&self, length_s: f64) -> f64 {
