@@ -213,7 +213,8 @@ fn modes_account(modes: Option<&[Mode]>) -> String {
 
 fn channel(frf: &HammerFrf, input: &InputFrf, output: usize) -> Value {
     let estimate = |estimator| complex(&input.frf(output, estimator));
-    let variance = jackknife::frf_variance(&input.sums, &input.hits, output, Estimator::H1);
+    let lines: Vec<usize> = (0..frf.frequency_hz.len()).collect();
+    let variance = jackknife::frf_variance(&input.sums, &input.hits, output, Estimator::H1, &lines);
     let deviation: Vec<f64> = variance.iter().map(|v| v.sqrt()).collect();
     json!({
         "input": input.input,

@@ -10,8 +10,8 @@ pub enum ForceWindow {
     /// None.
     #[default]
     Never,
-    /// Those whose force shows nothing but noise there: it would only bias H1
-    /// and scatter at the resonances.
+    /// Hits whose force shows nothing but noise outside its pulse: that would bias H1 and scatter at
+    /// the resonances.
     Quiet,
     /// All.
     Always,

@@ -105,12 +105,13 @@ pub fn estimate(record: &HammerRecord, settings: &Settings) -> Outcome<HammerFrf
             .map_or(0.0, |end| Exponential::with_end(end, length_s).rate),
     };
     let lines = lines_up_to(samples, record.interval_s, settings.to_hz);
+    let recorded_rate = record.exponential_window_s.map_or(0.0, f64::recip);
     let inputs = |window: Exponential, force: ForceWindow| {
         let treat = |hit: &ScreenedHit| treated(hit, samples, record.interval_s, window, force);
-        let power = window.power(samples, record.interval_s);
+        let rate = window.rate + recorded_rate;
+        let power = Exponential { rate }.power(samples, record.interval_s);
         inputs(&screened, lines, power, force, treat)
     };
-    let recorded_rate = record.exponential_window_s.map_or(0.0, f64::recip);
     let mut frf = HammerFrf {
         interval_s: record.interval_s,
         length_s,
@@ -158,7 +159,7 @@ fn inputs(
     inputs.collect()
 }
 
-/// Mean power per line of the noise of every output, `power` being that of the window.
+/// Mean power per line of the noise of every output, `power` being that of the windows.
 fn noise_power(hits: &[&ScreenedHit], power: f64) -> Vec<f64> {
     let starts = hits.iter().map(|hit| Pulse::find(&hit.force));
     let starts: Vec<usize> = starts.map(|p| p.map_or(0, |pulse| pulse.start)).collect();

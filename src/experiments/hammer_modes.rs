@@ -2,8 +2,8 @@
 
 use super::hammer_frf::{HammerFrf, InputFrf};
 use super::hammer_variance::variance;
-use crate::signal::frf::{CrossSpectra, Line};
-use crate::signal::jackknife::leave_one_out;
+use crate::signal::frf::{CrossSpectra, Estimator, Line};
+use crate::signal::jackknife;
 use crate::signal::modal_model::Channels;
 use crate::signal::modes::{LeftOut, Mode, identify};
 use crate::signal::stabilisation::{Point, chart};
@@ -44,8 +44,8 @@ fn rate(frf: &HammerFrf) -> f64 {
 
 fn left_out(frf: &HammerFrf, lines: &[usize]) -> LeftOut {
     let of = |input: &InputFrf| {
-        let without = leave_one_out(&input.hits);
-        without.iter().map(|sums| all(sums, lines)).collect()
+        let output = |o| jackknife::left_out(&input.sums, &input.hits, o, Estimator::H1, lines);
+        (0..frf.outputs.len()).map(output).collect()
     };
     inputs(frf).iter().map(of).collect()
 }

@@ -13,7 +13,8 @@ const PASSES: usize = 3;
 const OUTLYING: f64 = 4.0;
 /// Determinant, over that of unlike columns, below which the two parts are not told apart.
 const ALIKE: f64 = 1e-9;
-/// Relative standard deviation taken for a single hit, which shows no scatter, beside the noise before it.
+/// Relative standard deviation taken for a single hit, which shows no scatter, beside the noise before
+/// it.
 const SINGLE: f64 = 0.01;
 /// Least relative standard deviation, of the value and of its root mean square in the band: digits,
 /// cables and the model of a record leave no less.
@@ -25,8 +26,7 @@ pub fn variance(input: &InputFrf, output: usize, lines: &[usize]) -> Vec<f64> {
     let size: Vec<f64> = lines.iter().map(power).collect();
     let level = mean(&size);
     let smooth = if input.hits.len() > 1 {
-        let all = frf_variance(&input.sums, &input.hits, output, Estimator::H1);
-        let scatter: Vec<f64> = lines.iter().map(|k| all[*k]).collect();
+        let scatter = frf_variance(&input.sums, &input.hits, output, Estimator::H1, lines);
         smoothed(&scatter, &size)
     } else {
         let noise = |k: &usize| input.noise_power[output] / input.sums.lines[output][*k].ff;

@@ -3,7 +3,8 @@
 use super::frf_data::{Errors, Measured};
 use crate::experiments::hammer_frf::{HammerFrf, InputFrf};
 use crate::experiments::hammer_variance::variance;
-use crate::signal::frf::HitSpectra;
+use crate::signal::frf::Estimator;
+use crate::signal::jackknife;
 use rustfft::num_complex::Complex64;
 
 /// The rows of the Jacobian by name.
@@ -53,21 +54,12 @@ fn pair(
     }
 }
 
-/// H1 with each of the hits left out.
+/// H1 with each of the hits left out; nothing where there is one.
 fn left_out(input: &InputFrf, channel: usize, lines: &[usize]) -> Vec<Vec<Complex64>> {
-    if input.hits.len() < 2 {
-        return Vec::new();
+    match input.hits.len() {
+        0 | 1 => Vec::new(),
+        _ => jackknife::left_out(&input.sums, &input.hits, channel, Estimator::H1, lines),
     }
-    let without = |hit: &HitSpectra| {
-        let (force, response) = (&hit.force, &hit.responses[channel]);
-        let h1 = |k: &usize| {
-            input.sums.lines[channel][*k]
-                .without(force[*k], response[*k])
-                .h1()
-        };
-        lines.iter().map(h1).collect()
-    };
-    input.hits.iter().map(without).collect()
 }
 
 /// Errors of the force by its noise within its window: one of every sample, one of the baseline.

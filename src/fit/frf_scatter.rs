@@ -8,7 +8,7 @@ use super::frf_data::Measured;
 use super::frf_linear::{Channel, channels};
 use super::frf_tuning::Tuning;
 use super::parameter::Z95;
-use crate::signal::jackknife::t95;
+use crate::signal::jackknife::{covariance, t95};
 use crate::signal::line_noise::LineNoise;
 use nalgebra::{DMatrix, DVector};
 use rustfft::num_complex::Complex64;
@@ -17,8 +17,7 @@ use rustfft::num_complex::Complex64;
 pub(super) struct Scatter {
     /// By the noise of single lines under the window, and by errors of the force that lines share.
     lines: DMatrix<f64>,
-    /// By the scatter of the hits, as the jackknife over each direction sees it (strata: Shao and Tu
-    /// 1995); zero where every direction has one hit.
+    /// By the scatter of the hits, as the jackknife over each direction sees it; zero where every direction has one hit.
     hits: DMatrix<f64>,
     /// Degrees of freedom of the second.
     freedom: usize,
@@ -80,7 +79,7 @@ impl Scatter {
         }
     }
 
-    /// Adds the jackknife of one direction: `(n−1)/n·Σ(s − mean)(s − mean)ᵀ`.
+    /// Adds the jackknife of one direction.
     fn add_hits(&mut self, direction: &[Channel]) {
         let hits = direction[0].pair.errors.left_out.len();
         if hits < 2 {
@@ -95,12 +94,7 @@ impl Scatter {
             direction.iter().map(of).sum::<DVector<f64>>()
         };
         let slopes: Vec<DVector<f64>> = (0..hits).map(slope).collect();
-        let count = hits as f64;
-        let mean = slopes.iter().sum::<DVector<f64>>() / count;
-        for slope in slopes {
-            let off = slope - &mean;
-            self.hits.ger((count - 1.0) / count, &off, &off, 1.0);
-        }
+        self.hits += covariance(&slopes);
         self.freedom += hits - 1;
     }
 }

@@ -185,4 +185,18 @@ mod tests {
             assert_eq!(again, robot);
         }
     }
+
+    #[test]
+    fn what_is_identified_of_any_spring_reads_back() {
+        for (_, source) in builtin::BUILTINS {
+            let mut robot = file::read(source).unwrap();
+            for (_, spring) in robot.springs_mut() {
+                spring.backlash = vec![2e-4];
+                spring.ci95.stiffness = Some([0.9, 1.1].map(|share| share * spring.stiffness));
+                spring.ci95.damping = Some([10.0, 20.0]);
+                spring.ci95.backlash = Some([1e-4, 3e-4]);
+            }
+            assert_eq!(file::read(&write(&robot)).unwrap(), robot);
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! Jackknife over hits: what the scatter of the hits says about anything computed from all of them.
 
 use super::frf::{CrossSpectra, Estimator, HitSpectra};
+use nalgebra::{DMatrix, DVector};
 use rustfft::num_complex::Complex64;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
@@ -16,6 +17,20 @@ pub fn variance(left_out: &[f64]) -> f64 {
     (n - 1.0) / n * spread
 }
 
+/// Jackknife covariance `(n−1)/n·Σ(v − mean)(v − mean)ᵀ` of vectors computed with each of n hits left
+/// out; those of several strata add up (Shao and Tu 1995).
+pub fn covariance(left_out: &[DVector<f64>]) -> DMatrix<f64> {
+    let n = left_out.first().map_or(0, DVector::len);
+    let count = left_out.len() as f64;
+    let mean = left_out.iter().fold(DVector::zeros(n), |sum, v| sum + v) / count;
+    let mut sum = DMatrix::zeros(n, n);
+    for vector in left_out {
+        let off = vector - &mean;
+        sum.ger((count - 1.0) / count, &off, &off, 1.0);
+    }
+    sum
+}
+
 /// Half width of the 95 % interval of Student's t with `freedom` degrees, in standard errors.
 pub fn t95(freedom: f64) -> f64 {
     if freedom < 1.0 {
@@ -24,33 +39,36 @@ pub fn t95(freedom: f64) -> f64 {
     StudentsT::new(0.0, 1.0, freedom).map_or(f64::INFINITY, |t| t.inverse_cdf(0.975))
 }
 
-/// The sums over all hits but one, for every hit.
-pub fn leave_one_out(hits: &[HitSpectra]) -> Vec<CrossSpectra> {
-    (0..hits.len())
-        .map(|k| {
-            let rest = hits.iter().enumerate().filter(|(i, _)| *i != k);
-            CrossSpectra::of(rest.map(|(_, hit)| hit))
-        })
-        .collect()
+/// The FRF of one output at `lines` with each of the hits left out in turn.
+pub fn left_out(
+    sums: &CrossSpectra,
+    hits: &[HitSpectra],
+    output: usize,
+    estimator: Estimator,
+    lines: &[usize],
+) -> Vec<Vec<Complex64>> {
+    let without = |hit: &HitSpectra| {
+        let one = |k: &usize| {
+            let line = sums.lines[output][*k].without(hit.force[*k], hit.responses[output][*k]);
+            line.estimate(estimator)
+        };
+        lines.iter().map(one).collect()
+    };
+    hits.iter().map(without).collect()
 }
 
-/// Jackknife variance of the complex FRF of one output, `var(Re) + var(Im)` per line, in the square
+/// Jackknife variance of the complex FRF of one output at `lines`, `var(Re) + var(Im)`, in the square
 /// of the FRF's unit. Not a number below two hits.
 pub fn frf_variance(
     sums: &CrossSpectra,
     hits: &[HitSpectra],
     output: usize,
     estimator: Estimator,
+    lines: &[usize],
 ) -> Vec<f64> {
-    let lines = sums.lines[output].iter().enumerate();
-    let left_out = |k: usize| -> Vec<Complex64> {
-        let line = sums.lines[output][k];
-        let without = |hit: &HitSpectra| line.without(hit.force[k], hit.responses[output][k]);
-        hits.iter()
-            .map(|hit| without(hit).estimate(estimator))
-            .collect()
-    };
-    lines.map(|(k, _)| complex_variance(&left_out(k))).collect()
+    let left_out = left_out(sums, hits, output, estimator, lines);
+    let at = |i: usize| -> Vec<Complex64> { left_out.iter().map(|frf| frf[i]).collect() };
+    (0..lines.len()).map(|i| complex_variance(&at(i))).collect()
 }
 
 fn complex_variance(left_out: &[Complex64]) -> f64 {

@@ -1,13 +1,13 @@
 //! Intervals of the modes: by jackknife over hits to first order, never less than the rest of the
 //! fit says.
 
-use super::jackknife::t95;
+use super::jackknife::{covariance, t95};
 use super::modal_fit::{Fit, Normal, Task};
 use super::modal_model::damping;
 use nalgebra::{DMatrix, DVector};
 use rustfft::num_complex::Complex64;
 
-/// FRFs with one hit left out: `[input][hit][output][line]`.
+/// FRFs with one hit left out: `[input][output][hit][line]`.
 pub type LeftOut = Vec<Vec<Vec<Vec<Complex64>>>>;
 
 /// Half widths of the 95 % intervals of frequency (Hz) and damping ratio of every mode; not a number
@@ -19,11 +19,12 @@ pub type LeftOut = Vec<Vec<Vec<Vec<Complex64>>>>;
 pub fn half_widths(task: &Task, fit: &Fit, left_out: &LeftOut) -> Vec<[f64; 2]> {
     let modes = fit.structure.modes();
     let normal = task.normal(&fit.structure, &task.rest(&fit.structure));
-    let enough = left_out.iter().all(|hits| hits.len() > 1);
+    let hits = |outputs: &Vec<Vec<Vec<Complex64>>>| outputs.first().map_or(0, Vec::len);
+    let enough = left_out.iter().all(|outputs| hits(outputs) > 1);
     let Some(inverse) = normal.inverse().filter(|_| enough) else {
         return vec![[f64::NAN; 2]; modes];
     };
-    let freedom: usize = left_out.iter().map(|hits| hits.len() - 1).sum();
+    let freedom: usize = left_out.iter().map(|outputs| hits(outputs) - 1).sum();
     let jackknife = jackknife(task, fit, &inverse, left_out);
     let values = (task.values() - normal.matrix.nrows() as f64).max(1.0);
     let fisher = inverse * (fit.cost / values * task.correlated());
@@ -40,30 +41,29 @@ pub fn half_widths(task: &Task, fit: &Fit, left_out: &LeftOut) -> Vec<[f64; 2]> 
 /// Covariance of the parameters from the hits left out.
 fn jackknife(task: &Task, fit: &Fit, inverse: &DMatrix<f64>, left_out: &LeftOut) -> DMatrix<f64> {
     let n = inverse.nrows();
-    let mut covariance = DMatrix::zeros(n, n);
-    for (input, hits) in left_out.iter().enumerate() {
-        let slopes = slopes(task, fit, input, hits);
-        let count = hits.len() as f64;
-        let mean = slopes.iter().sum::<DVector<f64>>() / count;
-        for slope in &slopes {
-            let moved = inverse * (slope - &mean);
-            covariance.ger((count - 1.0) / count, &moved, &moved, 1.0);
-        }
+    let mut of_slopes = DMatrix::zeros(n, n);
+    for (input, outputs) in left_out.iter().enumerate() {
+        of_slopes += covariance(&slopes(task, fit, input, outputs));
     }
-    covariance
+    inverse * of_slopes * inverse
 }
 
 /// `Jᵀ·Δ` for every hit of a direction left out.
-fn slopes(task: &Task, fit: &Fit, input: usize, hits: &[Vec<Vec<Complex64>>]) -> Vec<DVector<f64>> {
+fn slopes(
+    task: &Task,
+    fit: &Fit,
+    input: usize,
+    outputs: &[Vec<Vec<Complex64>>],
+) -> Vec<DVector<f64>> {
     let columns = task.columns(&fit.structure.poles);
-    let outputs = task.channels.shape.1;
-    let mut slopes = vec![DVector::zeros(fit.structure.parameters()); hits.len()];
-    for output in 0..outputs {
-        let c = input * outputs + output;
+    let hits = outputs.first().map_or(0, Vec::len);
+    let mut slopes = vec![DVector::zeros(fit.structure.parameters()); hits];
+    for (output, hits) in outputs.iter().enumerate() {
+        let c = input * outputs.len() + output;
         let basis = task.basis(c, &columns, true);
         let rows = fit.structure.rows(c);
         for (hit, slope) in hits.iter().zip(&mut slopes) {
-            let moved = task.weighted(c, &hit[output]) - &task.target[c];
+            let moved = task.weighted(c, hit) - &task.target[c];
             Normal::add_slope(slope, &rows, &basis.tr_mul(&moved));
         }
     }

@@ -116,7 +116,7 @@ fn secant(mut scene: Scene) -> Scene {
     scene
 }
 
-fn note(plan: &Plan, stiffness: f64, file: &Robot) -> String {
+pub(super) fn note(plan: &Plan, stiffness: f64, file: &Robot) -> String {
     let lacking = (1..=6).filter(|i| file.joints[i - 1].tilt.is_none());
     format!(
         "{} at {:?}, {} Hz, {:.2} s, {} hits of {:.0} N in {:.1} ms, noise {:.4} {}, window {:?}, springs {:.1} %, no tilt at {:?}, {} more axes",
@@ -136,7 +136,7 @@ fn note(plan: &Plan, stiffness: f64, file: &Robot) -> String {
     )
 }
 
-fn text(scene: &Scene, plan: &Plan, stiffness: f64, random: &mut Random) -> String {
+pub(super) fn text(scene: &Scene, plan: &Plan, stiffness: f64, random: &mut Random) -> String {
     let mut text = format!(
         "# kind = \"hammer\"\n# robot = \"robot.toml\"\n# joint_angles_deg = {:?}\n# accelerometer_noise_m_s2 = {:.6}\n# nominal_stiffness_rel_std = {stiffness:.4}\n",
         plan.pose, plan.noise.size

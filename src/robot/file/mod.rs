@@ -6,12 +6,12 @@ mod text;
 use super::body::Body;
 use super::joint_effect;
 use super::model::{ElasticAxis, Joint, Robot, Tool};
-use super::spring::{Intervals, Spring};
+use super::spring::Spring;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{IDENTITY, M3, V3, scale, unit};
 use crate::ground::units::DEGREE;
 use syntax::{line_of, syntax};
-use text::{BodyText, ElasticText, JointText, OneOrMany, RobotText, SpringText, ToolText};
+use text::{BodyText, ElasticText, JointText, RobotText, SpringText, ToolText};
 
 /// How far from 1 the length of an axis may be before it counts as a mistake; then it is scaled.
 const UNIT_TOLERANCE: f64 = 1e-3;
@@ -129,30 +129,20 @@ fn joint_of(raw: JointText) -> Outcome<Joint> {
 }
 
 fn elastic_of(raw: ElasticText, joints: usize) -> Outcome<ElasticAxis> {
-    let name = raw.name;
-    if raw.after > joints {
+    let (spring, effects, (name, after, axis, point_m)) = raw.parts();
+    if after > joints {
         return Err(refuse(
             &name,
             "after",
-            format!("is {}", raw.after),
+            format!("is {after}"),
             &format!("0 is the foundation, 1 to {joints} the link moved by that joint"),
         ));
     }
-    let spring = SpringText {
-        stiffness: raw.stiffness,
-        damping: raw.damping,
-        backlash: raw.backlash,
-        effects: raw.effects,
-        source: raw.source,
-        stiffness_ci95: raw.stiffness_ci95,
-        damping_ci95: raw.damping_ci95,
-        backlash_ci95: None,
-    };
     Ok(ElasticAxis {
-        after: raw.after,
-        axis: unit_axis(&name, raw.axis)?,
-        point: finite(&name, "point_m", raw.point_m)?,
-        spring: spring_of(&name, spring)?,
+        after,
+        axis: unit_axis(&name, axis)?,
+        point: finite(&name, "point_m", point_m)?,
+        spring: sound(&name, spring, effects)?,
         name,
     })
 }
@@ -177,23 +167,13 @@ fn tool_of(raw: ToolText) -> Outcome<Tool> {
 }
 
 fn spring_of(site: &str, raw: SpringText) -> Outcome<Spring> {
-    let mut backlash = match raw.backlash {
-        OneOrMany::One(gap) => vec![gap],
-        OneOrMany::Many(gaps) => gaps,
-    };
-    backlash.retain(|gap| *gap != 0.0);
-    let spring = Spring {
-        stiffness: raw.stiffness,
-        damping: raw.damping,
-        backlash,
-        effects: joint_effect::read(site, raw.effects, raw.stiffness)?,
-        source: raw.source,
-        ci95: Intervals {
-            stiffness: raw.stiffness_ci95,
-            damping: raw.damping_ci95,
-            backlash: raw.backlash_ci95,
-        },
-    };
+    let (spring, effects, ()) = raw.parts();
+    sound(site, spring, effects)
+}
+
+/// The spring with its effects, if both are possible.
+fn sound(site: &str, mut spring: Spring, effects: Vec<toml::Table>) -> Outcome<Spring> {
+    spring.effects = joint_effect::read(site, effects, spring.stiffness)?;
     match spring.fault() {
         Some(fault) => Err(Problem::new(
             format!("the spring {site} {fault}"),

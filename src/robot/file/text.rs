@@ -1,5 +1,6 @@
 //! The tables and keys of a robot file, as they are written (`formats.md`, section 2).
 
+use super::super::spring::{Intervals, Spring};
 use crate::ground::spatial::{M3, V3};
 use serde::Deserialize;
 use toml::Spanned;
@@ -32,32 +33,78 @@ pub(super) struct JointText {
     pub(super) source: Option<String>,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct SpringText {
-    #[serde(rename = "stiffness_Nm_rad")]
-    pub(super) stiffness: f64,
-    #[serde(rename = "damping_Nms_rad", default)]
-    pub(super) damping: f64,
-    #[serde(rename = "backlash_rad", default)]
-    pub(super) backlash: OneOrMany,
-    #[serde(default)]
-    pub(super) effects: Vec<toml::Table>,
-    pub(super) source: Option<String>,
-    #[serde(rename = "stiffness_ci95_Nm_rad")]
-    pub(super) stiffness_ci95: Option<[f64; 2]>,
-    #[serde(rename = "damping_ci95_Nms_rad")]
-    pub(super) damping_ci95: Option<[f64; 2]>,
-    #[serde(rename = "backlash_ci95_rad")]
-    pub(super) backlash_ci95: Option<[f64; 2]>,
+/// A table that carries the keys of a spring beside its own. Written by a macro, as `serde` refuses
+/// unknown keys, and keeps their lines, only in tables that are flat.
+macro_rules! with_spring {
+    ($name:ident { $($key:ident: $kind:ty),* }) => {
+        #[derive(Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub(super) struct $name {
+            $($key: $kind,)*
+            #[serde(rename = "stiffness_Nm_rad")]
+            stiffness: f64,
+            #[serde(rename = "damping_Nms_rad", default)]
+            damping: f64,
+            #[serde(rename = "backlash_rad", default)]
+            backlash: OneOrMany,
+            #[serde(default)]
+            effects: Vec<toml::Table>,
+            source: Option<String>,
+            #[serde(rename = "stiffness_ci95_Nm_rad")]
+            stiffness_ci95: Option<[f64; 2]>,
+            #[serde(rename = "damping_ci95_Nms_rad")]
+            damping_ci95: Option<[f64; 2]>,
+            #[serde(rename = "backlash_ci95_rad")]
+            backlash_ci95: Option<[f64; 2]>,
+        }
+
+        impl $name {
+            /// The spring, its effects as written, and the keys of the table itself.
+            pub(super) fn parts(self) -> (Spring, Vec<toml::Table>, ($($kind,)*)) {
+                let spring = Spring {
+                    stiffness: self.stiffness,
+                    damping: self.damping,
+                    backlash: self.backlash.gaps(),
+                    effects: Vec::new(),
+                    source: self.source,
+                    ci95: Intervals {
+                        stiffness: self.stiffness_ci95,
+                        damping: self.damping_ci95,
+                        backlash: self.backlash_ci95,
+                    },
+                };
+                (spring, self.effects, ($(self.$key,)*))
+            }
+        }
+    };
 }
+
+with_spring!(SpringText {});
+with_spring!(ElasticText {
+    name: String,
+    after: usize,
+    axis: V3,
+    point_m: V3
+});
 
 /// One gap or a list of gaps in series.
 #[derive(Deserialize)]
 #[serde(untagged)]
-pub(super) enum OneOrMany {
+enum OneOrMany {
     One(f64),
     Many(Vec<f64>),
+}
+
+impl OneOrMany {
+    /// The gaps that are there.
+    fn gaps(self) -> Vec<f64> {
+        let mut gaps = match self {
+            Self::One(gap) => vec![gap],
+            Self::Many(gaps) => gaps,
+        };
+        gaps.retain(|gap| *gap != 0.0);
+        gaps
+    }
 }
 
 impl Default for OneOrMany {
@@ -82,26 +129,4 @@ pub(super) struct ToolText {
     pub(super) rotation: Option<M3>,
     pub(super) body: Option<BodyText>,
     pub(super) source: Option<String>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct ElasticText {
-    pub(super) name: String,
-    pub(super) after: usize,
-    pub(super) axis: V3,
-    pub(super) point_m: V3,
-    #[serde(rename = "stiffness_Nm_rad")]
-    pub(super) stiffness: f64,
-    #[serde(rename = "damping_Nms_rad", default)]
-    pub(super) damping: f64,
-    #[serde(rename = "backlash_rad", default)]
-    pub(super) backlash: OneOrMany,
-    #[serde(default)]
-    pub(super) effects: Vec<toml::Table>,
-    pub(super) source: Option<String>,
-    #[serde(rename = "stiffness_ci95_Nm_rad")]
-    pub(super) stiffness_ci95: Option<[f64; 2]>,
-    #[serde(rename = "damping_ci95_Nms_rad")]
-    pub(super) damping_ci95: Option<[f64; 2]>,
 }
