@@ -1,9 +1,10 @@
-//! Floor 7, the heart: what the simulation gets wrong, and why. One folder per kind of measurement;
+//! Floor 8, the heart: what the simulation gets wrong, and why. One folder per kind of measurement;
 //! all of them answer in the same form.
 
 pub mod answer;
 pub mod belief;
 pub mod campaign;
+pub mod engine;
 pub mod gain;
 pub mod hammer;
 pub mod joint;
