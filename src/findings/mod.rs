@@ -9,6 +9,7 @@ pub mod gain;
 pub mod hammer;
 pub mod joint;
 pub mod joint_motion;
+pub mod kinds;
 pub mod load_cycle;
 pub mod next_setups;
 pub mod sentence;

@@ -1,6 +1,17 @@
-//! The kinds of measurement that can be diagnosed. A new kind is one file and one line in [`KINDS`].
+//! The kinds of measurement that can be diagnosed. A new kind is one file here and one line in [`KINDS`]:
+//! what it measured and its figures ([`Measured`]) around an experiment of [`crate::findings::engine`].
 
-use super::{hammer, joint_motion, load_cycle, workspace};
+mod examined;
+mod hammer;
+mod hammer_figures;
+mod joint_motion;
+pub mod load_cycle;
+mod present;
+mod workspace;
+mod workspace_figures;
+
+pub use examined::{Measured, examined};
+
 use crate::findings::Answer;
 use crate::findings::belief::Belief;
 use crate::ground::problem::Outcome;
