@@ -5,6 +5,7 @@ mod damping;
 mod diagnose;
 mod effects;
 mod frf;
+mod import;
 mod inspect;
 mod lab;
 mod output;
@@ -43,6 +44,7 @@ pub struct Verb {
 /// Every verb, in the order of the help text.
 pub const VERBS: &[Verb] = &[
     inspect::VERB,
+    import::VERB,
     stiffness::VERB,
     damping::VERB,
     diagnose::VERB,

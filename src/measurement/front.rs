@@ -38,6 +38,13 @@ impl Front {
         .at_line(line)
     }
 
+    /// Takes over facts from beside the file, where the file does not state them itself.
+    pub fn inherit(&mut self, facts: Table) {
+        for (key, value) in facts {
+            self.facts.entry(key).or_insert(value);
+        }
+    }
+
     /// 1-based line of the file on which `key` is set.
     pub fn line_of(&self, key: &str) -> Option<usize> {
         let starts = |line: &str| {

@@ -1,5 +1,6 @@
 //! What the leading lines of a CSV file say, read without its rows.
 
+use super::foreign::Sidecar;
 use super::front::Front;
 use crate::ground::problem::{Outcome, Problem};
 use std::io::{BufRead, BufReader, Read};
@@ -15,8 +16,14 @@ pub fn fact_of(path: &Path, name: &str) -> Outcome<Option<String>> {
     Ok(front_of(path)?.text(name)?.map(str::to_string))
 }
 
-/// The front matter of a CSV file; only its leading lines are read.
+/// The front matter of a CSV file with the facts beside it; only its leading lines are read.
 pub fn front_of(path: &Path) -> Outcome<Front> {
+    let mut front = own_front(path)?;
+    front.inherit(Sidecar::beside(path)?.facts);
+    Ok(front)
+}
+
+fn own_front(path: &Path) -> Outcome<Front> {
     let unreadable = |e: std::io::Error| {
         Problem::new(
             format!("cannot be read ({e})"),

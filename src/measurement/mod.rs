@@ -2,6 +2,7 @@
 //! experiment kinds of `measurements/README.md`, refusing with file, line and remedy.
 
 pub mod cycles;
+pub mod foreign;
 pub mod front;
 pub mod hammer;
 pub mod hammer_uff;
