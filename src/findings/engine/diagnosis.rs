@@ -238,15 +238,19 @@ fn drop_unreal(
     }
 }
 
-/// Several causes must beat "no law at all, only structure".
+/// Several causes must be worth their price beside structure of any kind: else that is the better story.
 fn loses_to_structure(
     bank: &Bank,
     posterior: &Posterior,
     set: &Scored,
     span: Option<&Span>,
 ) -> bool {
-    let several = set.suspects.len() > 1;
-    several && span.is_some_and(|s| s.alone(bank, &nothing(posterior).fit) > set.score)
+    let Some(span) = span.filter(|_| set.suspects.len() > 1) else {
+        return false;
+    };
+    let empty = nothing(posterior).fit;
+    let price = set.fit.posterior.ln_evidence - empty.posterior.ln_evidence - set.score;
+    span.best(bank, &set.fit) - price < span.best(bank, &empty)
 }
 
 fn in_noise(statement: &Statement, raw: &[f64]) -> Vec<f64> {

@@ -4,7 +4,7 @@
 use super::bank::{Bank, Fit};
 use super::judgement::Judgement;
 use super::statement::Statement;
-use crate::inference::gaussian::{Size, update};
+use crate::inference::gaussian::{Products, Size, update};
 use crate::inference::stats::{quantile, rms};
 use nalgebra::{DMatrix, DVector};
 
@@ -44,45 +44,41 @@ impl Span {
         })
     }
 
-    /// Evidence of a set with so much generic structure beside it, and that structure, whitened.
-    fn beside(&self, bank: &Bank, fit: &Fit, size: f64) -> Option<(f64, DVector<f64>)> {
-        let products = bank.beside(&fit.members, &self.columns);
+    /// A set with generic structure beside it: products once, for any size of the structure.
+    fn beside(&self, bank: &Bank, fit: &Fit) -> Beside {
         let own = fit.members.iter().zip(&fit.posterior.sizes);
-        let mut blocks: Vec<(usize, Size)> = own
+        let blocks: Vec<(usize, Size)> = own
             .map(|(m, size)| (bank.entries[*m].columns.len(), Size::Given(*size)))
             .collect();
-        let before: usize = blocks.iter().map(|b| b.0).sum();
-        blocks.push((self.columns.ncols(), Size::Given(size)));
-        let found = update(&products, &bank.reading, &blocks)?;
-        let amounts = found.mean.rows(before, self.columns.ncols());
-        Some((found.ln_evidence, &self.columns * amounts))
+        Beside {
+            products: bank.beside(&fit.members, &self.columns),
+            before: blocks.iter().map(|b| b.0).sum(),
+            blocks,
+        }
     }
 
-    /// Greatest evidence of structure alone, without any cause, less that of nothing.
-    pub fn alone(&self, bank: &Bank, nothing: &Fit) -> f64 {
-        let at = |times: &f64| self.beside(bank, nothing, GRANTED * times).map(|f| f.0);
-        let best = TIMES
+    /// Greatest evidence of a set with generic structure beside it.
+    pub fn best(&self, bank: &Bank, fit: &Fit) -> f64 {
+        let beside = self.beside(bank, fit);
+        let at = |times: &f64| beside.at(bank, self, GRANTED * times).map(|f| f.0);
+        TIMES
             .iter()
             .filter_map(at)
-            .fold(f64::NEG_INFINITY, f64::max);
-        best - nothing.posterior.ln_evidence - (TIMES.len() as f64).ln()
+            .fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// What is left beside a set.
     pub fn rest(&self, bank: &Bank, fit: &Fit, whole: f64, judgement: &Judgement) -> Rest {
         let noise = fit.posterior.noise_variance.sqrt();
         let granted = GRANTED.hypot(judgement.formula_error * explained(bank, fit) / noise);
-        let Some((base, _)) = self.beside(bank, fit, granted) else {
+        let beside = self.beside(bank, fit);
+        let Some((base, _)) = beside.at(bank, self, granted) else {
             return Rest::default();
         };
-        let mut best: Option<(f64, DVector<f64>)> = None;
-        for times in TIMES {
-            if let Some((evidence, left)) = self.beside(bank, fit, granted * times)
-                && best.as_ref().is_none_or(|b| b.0 < evidence)
-            {
-                best = Some((evidence, left));
-            }
-        }
+        let tried = TIMES
+            .iter()
+            .filter_map(|times| beside.at(bank, self, granted * times));
+        let best = tried.reduce(|a, b| if b.0 > a.0 { b } else { a });
         let Some((evidence, left)) = best else {
             return Rest::default();
         };
@@ -97,6 +93,24 @@ impl Span {
             share,
             is_left,
         }
+    }
+}
+
+/// A set and the generic columns.
+struct Beside {
+    products: Products,
+    blocks: Vec<(usize, Size)>,
+    before: usize,
+}
+
+impl Beside {
+    /// Evidence with so much structure, and that structure, whitened.
+    fn at(&self, bank: &Bank, span: &Span, size: f64) -> Option<(f64, DVector<f64>)> {
+        let mut blocks = self.blocks.clone();
+        blocks.push((span.columns.ncols(), Size::Given(size)));
+        let found = update(&self.products, &bank.reading, &blocks)?;
+        let amounts = found.mean.rows(self.before, span.columns.ncols());
+        Some((found.ln_evidence, &span.columns * amounts))
     }
 }
 

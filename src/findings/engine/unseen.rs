@@ -102,7 +102,7 @@ impl Design {
 }
 
 /// From errors before and after; the interval by leaving out each fold in turn (jackknife).
-fn compare(before: &[f64], after: &[f64], split: &[usize]) -> Gain {
+pub fn compare(before: &[f64], after: &[f64], split: &[usize]) -> Gain {
     let folds = split.iter().copied().max().map_or(0, |f| f + 1);
     let sums = |errors: &[f64]| {
         let mut sums = vec![0.0; folds];

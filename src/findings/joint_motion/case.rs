@@ -8,7 +8,9 @@ use super::noise::{Noise, Shared};
 use super::ripple::ripples;
 use super::stiffness::{Friction, friction};
 use super::unseen::{Split, amplitudes, residual};
-use crate::findings::engine::{Blamed, Experiment, Member, Nuisance, Remaining, Statement, Suspect};
+use crate::findings::engine::{
+    Blamed, Experiment, Member, Nuisance, Remaining, Statement, Suspect,
+};
 use crate::inference::gaussian::Size;
 use crate::measurement::joint_motion::JointRecord;
 use std::sync::Arc;
@@ -67,7 +69,12 @@ impl<'a> Case<'a> {
             let fine = kind == Kind::Offset && !near.is_empty();
             let own: Vec<(usize, &Atom)> = match fine {
                 true => near.iter().enumerate().collect(),
-                false => self.atoms.iter().enumerate().filter(|(_, a)| a.kind == kind).collect(),
+                false => self
+                    .atoms
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, a)| a.kind == kind)
+                    .collect(),
             };
             Suspect {
                 effect: kind.effect(),
@@ -96,8 +103,13 @@ impl<'a> Case<'a> {
         let (low, high) = range(&self.data.motor);
         let turn = |q: f64| (q - low) / (high - low).max(f64::MIN_POSITIVE);
         let wave = |k: usize, x: f64| (std::f64::consts::PI * k as f64 * x).cos() / k as f64;
-        let angle = (1..=OVER_ANGLE).map(|k| self.data.motor.iter().map(|q| wave(k, turn(*q))).collect());
-        let time = (1..=OVER_TIME).map(|k| (0..n).map(|i| wave(k, (i as f64 + 0.5) / n as f64)).collect());
+        let angle =
+            (1..=OVER_ANGLE).map(|k| self.data.motor.iter().map(|q| wave(k, turn(*q))).collect());
+        let time = (1..=OVER_TIME).map(|k| {
+            (0..n)
+                .map(|i| wave(k, (i as f64 + 0.5) / n as f64))
+                .collect()
+        });
         angle.chain(time).collect()
     }
 }
@@ -132,7 +144,9 @@ impl Experiment for Case<'_> {
             nuisances: base(&self.data).into_iter().map(flat).collect(),
             suspects: self.suspects(about),
             span: self.span(),
-            splits: [Split::Long, Split::Short].map(|s| (0..rows).map(|i| s.fold(i, rows)).collect()).to_vec(),
+            splits: [Split::Long, Split::Short]
+                .map(|s| (0..rows).map(|i| s.fold(i, rows)).collect())
+                .to_vec(),
         }
     }
 

@@ -169,11 +169,7 @@ fn loops(data: &Channels) -> Vec<Atom> {
         .collect();
     let mean = |of: &[Vec<f64>]| {
         let at = |i: usize| of.iter().map(|c| c[i]).sum::<f64>() / of.len() as f64;
-        Atom::one(
-            Kind::Hysteresis,
-            (0..data.rows()).map(at).collect(),
-            0.0,
-        )
+        Atom::one(Kind::Hysteresis, (0..data.rows()).map(at).collect(), 0.0)
     };
     (1..=3)
         .flat_map(|many| single.windows(many).map(mean))

@@ -95,7 +95,13 @@ fn compliance_of(case: &Case, chosen: &[Atom]) -> Result<Compliance, &'static st
         return Err("the file states no gear ratio");
     }
     let chosen: Vec<&Atom> = chosen.iter().collect();
-    compliance(&case.data, &case.noise, &chosen, structure(case, &chosen), &case.atoms)
+    compliance(
+        &case.data,
+        &case.noise,
+        &chosen,
+        structure(case, &chosen),
+        &case.atoms,
+    )
 }
 
 fn delay_of(case: &Case, chosen: &[Atom]) -> Option<Delay> {
@@ -109,7 +115,9 @@ fn delay_of(case: &Case, chosen: &[Atom]) -> Option<Delay> {
 fn structure(case: &Case, chosen: &[&Atom]) -> f64 {
     let white = |c: &Vec<f64>| case.noise.whiten(c);
     let known = chosen.iter().filter(|a| a.kind != Kind::Position);
-    let known = base(&case.data).into_iter().chain(known.flat_map(|a| a.columns.clone()));
+    let known = base(&case.data)
+        .into_iter()
+        .chain(known.flat_map(|a| a.columns.clone()));
     let basis = orthonormal(known.map(|c| white(&c)).collect());
     let left = without(&basis, white(&case.data.twist));
     let slow = case.atoms.iter().filter(|a| a.kind == Kind::Position);
@@ -159,7 +167,10 @@ const P_LEFT: f64 = 1e-4;
 /// What zero, torque, inertia and the causes with a name leave.
 fn left_beside(data: &Channels, chosen: &[Atom]) -> Vec<f64> {
     let loud = chosen.iter().filter(|a| !a.kind.is_silent());
-    let columns: Vec<Vec<f64>> = base(data).into_iter().chain(loud.flat_map(|a| a.columns.clone())).collect();
+    let columns: Vec<Vec<f64>> = base(data)
+        .into_iter()
+        .chain(loud.flat_map(|a| a.columns.clone()))
+        .collect();
     let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
     let a = amplitudes(&columns, &data.twist, &all(data));
     residual(&columns, &a, &data.twist)
@@ -168,7 +179,10 @@ fn left_beside(data: &Channels, chosen: &[Atom]) -> Vec<f64> {
 /// The silent terms with their rms, in words.
 fn describe(case: &Case, chosen: &[Atom]) -> Option<String> {
     let data = &case.data;
-    let columns: Vec<Vec<f64>> = base(data).into_iter().chain(chosen.iter().flat_map(|a| a.columns.clone())).collect();
+    let columns: Vec<Vec<f64>> = base(data)
+        .into_iter()
+        .chain(chosen.iter().flat_map(|a| a.columns.clone()))
+        .collect();
     let slices: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
     let a = amplitudes(&slices, &data.twist, &all(data));
     let mut at = 3;
@@ -176,7 +190,9 @@ fn describe(case: &Case, chosen: &[Atom]) -> Option<String> {
     for atom in chosen {
         let own = at..at + atom.columns.len();
         at = own.end;
-        let part: Vec<f64> = (0..data.rows()).map(|i| own.clone().map(|k| a[k] * columns[k][i]).sum()).collect();
+        let part: Vec<f64> = (0..data.rows())
+            .map(|i| own.clone().map(|k| a[k] * columns[k][i]).sum())
+            .collect();
         let mean = super::channels::mean(&part);
         let size = rms(&part.iter().map(|v| v - mean).collect::<Vec<f64>>());
         sized.extend(atom.kind.is_silent().then_some((atom, size)));

@@ -75,7 +75,14 @@ pub(super) fn name(
 ) -> Named {
     let mut named = Named::default();
     for one in &found.answer.causes {
-        name_one(case, (one.effect, one.gain, one.probability), (found, chosen), delay, compliance, &mut named);
+        name_one(
+            case,
+            (one.effect, one.gain, one.probability),
+            (found, chosen),
+            delay,
+            compliance,
+            &mut named,
+        );
     }
     for group in &found.answer.groups {
         name_group(case, group, (found, chosen), delay, compliance, &mut named);
@@ -103,7 +110,10 @@ fn name_group(
         }
         [_] => {}
         _ => named.groups.push(Group {
-            effects: spoken.iter().map(|e| if *e == "rate" { "time_skew" } else { e }).collect(),
+            effects: spoken
+                .iter()
+                .map(|e| if *e == "rate" { "time_skew" } else { e })
+                .collect(),
             sites: vec![case.record.site(); spoken.len()],
             ..group.clone()
         }),
@@ -126,7 +136,9 @@ fn name_one(
         (Kind::Rate, Some(delay)) => name_rate(case, delay, compliance, (gain, probability), named),
         _ => {
             let parameters = parameters(case, &chosen[at], &found.blamed[at].amounts, compliance);
-            named.causes.push(cause(case, effect, parameters, (gain, probability)));
+            named
+                .causes
+                .push(cause(case, effect, parameters, (gain, probability)));
         }
     }
 }
@@ -219,7 +231,10 @@ fn stiffness(case: &Case, chosen: &[Atom], compliance: Option<Compliance>) -> Op
     if log.abs() < Z95 * std {
         return None;
     }
-    let columns: Vec<Vec<f64>> = base(&case.data).into_iter().chain(chosen.iter().flat_map(|a| a.columns.clone())).collect();
+    let columns: Vec<Vec<f64>> = base(&case.data)
+        .into_iter()
+        .chain(chosen.iter().flat_map(|a| a.columns.clone()))
+        .collect();
     let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
     let after = held_out(&columns, &case.data, Split::Long);
     let excess = 1.0 / nominal - found.value;
