@@ -11,6 +11,8 @@ use crate::experiments::load_cycle::{enclosed, settled_cycle, straight_line};
 use crate::fit::candidates::Candidates;
 use crate::fit::screen::screen;
 use crate::fit::second::log_ratio;
+use crate::fit::suitability::load_cycle::doubts;
+use crate::fit::suitability::{Doubt, is_fatal, is_odd};
 use crate::measurement::load_cycle::{LEVER_REL_STD, LoadCycle};
 
 /// What is identified when nothing else is asked for.
@@ -51,6 +53,8 @@ pub struct Account {
     pub second: Option<(f64, f64)>,
     /// What needs attention, one sentence each.
     pub warnings: Vec<String>,
+    /// What is odd about the data.
+    pub doubts: Vec<Doubt>,
 }
 
 /// Share of the deflection that a straight line may miss before it counts as no description.
@@ -62,8 +66,33 @@ pub fn identify(file: &LoadCycle, request: &Request) -> Account {
         true => moved(file),
         false => pressed(file, request),
     };
-    account.warnings = warnings(&account, file);
+    account.doubts = doubts(file);
+    if is_fatal(&account.doubts) {
+        account.withhold();
+    } else {
+        account.warnings = warnings(&account, file);
+    }
+    let said = account.doubts.iter().map(Doubt::sentence);
+    account.warnings.splice(0..0, said);
     account
+}
+
+impl Account {
+    /// Takes back every number: the data cannot carry one.
+    fn withhold(&mut self) {
+        let none = |p: &Identified| p.clone().without_value(Status::NotIdentifiable);
+        self.parameters = self.parameters.iter().map(none).collect();
+        self.parameters.iter_mut().for_each(|p| p.limit95 = None);
+        self.branches = None;
+        self.straight = f64::NAN;
+        self.second = None;
+        self.losses.clear();
+    }
+
+    /// Whether a stiffness is supported and nothing is odd about the data.
+    pub fn is_fine(&self) -> bool {
+        self.parameters[0].status == Status::Identified && !is_odd(&self.doubts)
+    }
 }
 
 /// The account of a test under imposed displacement.
@@ -79,6 +108,7 @@ fn moved(file: &LoadCycle) -> Account {
         straight: straight_line(&file.load, &file.deflection),
         second: None,
         warnings: Vec::new(),
+        doubts: Vec::new(),
         data: fitted.data,
         solution: fitted.solution,
     }
@@ -114,6 +144,7 @@ fn pressed(file: &LoadCycle, request: &Request) -> Account {
         straight,
         second,
         warnings: Vec::new(),
+        doubts: Vec::new(),
     }
 }
 
@@ -187,18 +218,6 @@ fn warnings(account: &Account, file: &LoadCycle) -> Vec<String> {
                 100.0 * excess
             ));
         }
-    }
-    if !account.data.wild.is_empty() {
-        said.push(format!(
-            "{} lone wild readings were replaced by their neighbours",
-            account.data.wild.len()
-        ));
-    }
-    if file.left_out > 0 {
-        said.push(format!(
-            "{} of {} rows left out for an empty cell",
-            file.left_out, file.rows
-        ));
     }
     if account.parameters[0].status != Status::Identified {
         said.push("these data do not support a stiffness".into());

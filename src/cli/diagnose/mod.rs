@@ -19,7 +19,7 @@ use super::output::{print, tell};
 use super::progress::Progress;
 use super::run::place;
 use super::{Ending, Verb, arguments, parsed};
-use crate::findings::{Verdict, sentence::sentences};
+use crate::findings::sentence::sentences;
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::workspace::{Place, resolve};
@@ -63,6 +63,7 @@ struct Arguments {
 }
 
 pub use campaign::chapter;
+pub use json::doubts_json;
 
 /// One file, diagnosed.
 pub struct One {
@@ -100,7 +101,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
         false => as_text(&results, arguments.dry_run)?,
     };
     print(&said)?;
-    let fine = |one: &One| one.found.answer().verdict == Verdict::Sufficient;
+    let fine = |one: &One| one.found.answer().is_fine();
     Ok(match results.iter().all(fine) {
         true => Ending::Done,
         false => Ending::Attention,
@@ -147,6 +148,9 @@ impl One {
             .place
             .fits()
             .join(format!("{}-extended.toml", self.stem()));
+        if self.found.answer().is_withheld() {
+            return Ok(None);
+        }
         Ok(self.found.model()?.map(|text| (path, text)))
     }
 

@@ -9,6 +9,7 @@ use crate::causes::contract::Blame;
 use crate::findings::answer::{Answer, Cause, Group, Verdict};
 use crate::findings::belief::Belief;
 use crate::fit::force_shapes::Shapes;
+use crate::fit::suitability::workspace::doubts;
 use crate::ground::spatial::M3;
 use crate::measurement::workspace_test::WorkspaceTest;
 use crate::robot::Robot;
@@ -48,7 +49,12 @@ const NOT_THE_STORY: f64 = 0.35;
 
 /// Diagnoses a test against the robot that simulates it.
 pub fn diagnose(test: &WorkspaceTest, robot: &Robot) -> WorkspaceDiagnosis {
-    Case::of(test, robot).conclude()
+    let mut found = Case::of(test, robot).conclude();
+    found.answer = found.answer.doubted(doubts(test, Some(robot)));
+    if found.answer.is_withheld() {
+        found.extended = robot.clone();
+    }
+    found
 }
 
 impl Case<'_> {
@@ -76,6 +82,8 @@ impl Case<'_> {
             candidates: self.table(),
             unit: "m",
             noise: self.noise(),
+            unstated: false,
+            doubts: Vec::new(),
         };
         if answer.verdict == Verdict::UnknownCause {
             answer.causes.clear();
