@@ -102,6 +102,7 @@ fn opening(answer: &Answer) -> String {
         );
     }
     let times = match found.rms / found.noise_rms {
+        ratio if ratio > 1e4 => "far above the noise".into(),
         ratio if ratio.is_finite() && ratio >= 1.5 => {
             format!(
                 "{} times the noise of {noise}",

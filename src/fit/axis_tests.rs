@@ -91,7 +91,11 @@ fn one(path: &Path, measurements: &Path) -> Outcome<Option<AxisTest>> {
     let Some(fitted) = fixed(&fit.parameters, "stiffness") else {
         return Ok(None);
     };
-    let (value, stderr, ci95) = widened(fitted, levers(&measurements.join(&fit.input)));
+    let known = fit.parameters.iter().any(|p| p.name == "stiffness" && p.parts.is_some());
+    let (value, stderr, ci95) = match known {
+        true => fitted,
+        false => widened(fitted, levers(&measurements.join(&fit.input))),
+    };
     let backlash = fixed(&fit.parameters, "backlash").or_else(|| fixed(&fit.parameters, "gap"));
     Ok((value > 0.0 && stderr > 0.0).then(|| AxisTest {
         site: fit.site.clone(),

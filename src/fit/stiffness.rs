@@ -57,6 +57,9 @@ pub struct Account {
     pub doubts: Vec<Doubt>,
 }
 
+/// A ratio above this says no more than "far".
+const FAR_BEYOND: f64 = 1e4;
+
 /// Share of the deflection that a straight line may miss before it counts as no description.
 const NOT_STRAIGHT: f64 = 0.08;
 
@@ -66,6 +69,7 @@ pub fn identify(file: &LoadCycle, request: &Request) -> Account {
         true => moved(file),
         false => pressed(file, request),
     };
+    account.take_levers(file);
     account.doubts = doubts(file);
     if is_fatal(&account.doubts) {
         account.withhold();
@@ -78,6 +82,16 @@ pub fn identify(file: &LoadCycle, request: &Request) -> Account {
 }
 
 impl Account {
+    /// Widens what stands over both levers by what is known of them.
+    fn take_levers(&mut self, file: &LoadCycle) {
+        let spread = file.facts.lever_spread();
+        let widened = |p: &Identified| match p.unit == file.port.stiffness_unit() && spread > 0.0 {
+            true => p.clone().with_levers(spread),
+            false => p.clone(),
+        };
+        self.parameters = self.parameters.iter().map(widened).collect();
+    }
+
     /// Takes back every number: the data cannot carry one.
     fn withhold(&mut self) {
         let none = |p: &Identified| p.clone().without_value(Status::NotIdentifiable);
@@ -204,9 +218,13 @@ fn warnings(account: &Account, file: &LoadCycle) -> Vec<String> {
         ));
     }
     if account.solution.rms > 1.5 * account.noise_rms {
+        let times = account.solution.rms / account.noise_rms;
         said.push(format!(
-            "the model misses the readings by {:.1} times their noise: `ident diagnose {}` names the cause",
-            account.solution.rms / account.noise_rms,
+            "the model misses the readings by {} their noise: `ident diagnose {}` names the cause",
+            match times < FAR_BEYOND {
+                true => format!("{times:.1} times"),
+                false => "far more than".into(),
+            },
             file.path.display()
         ));
     }

@@ -60,7 +60,7 @@ impl Front {
         let problem = Problem::new(what, remedy).in_column(key);
         match self.line_of(key) {
             Some(line) => problem.at_line(line),
-            None => problem,
+            None => problem.at_line(1),
         }
     }
 

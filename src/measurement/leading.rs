@@ -1,6 +1,7 @@
 //! What the leading lines of a CSV file say, read without its rows.
 
 use super::front::Front;
+use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
@@ -23,7 +24,7 @@ pub fn front_of(path: &Path) -> Outcome<Front> {
             "make it a readable file, or move it away",
         )
     };
-    let file = std::fs::File::open(path).map_err(unreadable)?;
+    let (file, _) = files::open(path).map_err(|problem| Problem { file: None, ..problem })?;
     let mut text = String::new();
     for line in BufReader::new(file.take(1 << 20)).split(b'\n') {
         let line = String::from_utf8_lossy(&line.map_err(unreadable)?).to_string();

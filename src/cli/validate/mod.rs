@@ -133,7 +133,7 @@ pub fn collect(place: &Place, base: &Loaded, synthetic: bool) -> Outcome<()> {
     let found = match usable {
         Some(test) => {
             let found = validate(&test, &robot, &tests)?;
-            with_points(&robot, &found.refit.parameters(), &provenance(&test))
+            with_points(&robot, &found.parameters(), &provenance(&test))
         }
         None => robot,
     };
@@ -214,7 +214,7 @@ impl Validated {
         let known = with_axis_tests(&self.base.robot, &self.tests);
         with_points(
             &known,
-            &self.found.refit.parameters(),
+            &self.found.parameters(),
             &provenance(&self.test),
         )
     }

@@ -5,6 +5,7 @@ use super::case::Case;
 use super::limits::{Limit, limits};
 use super::search::Set;
 use super::seats::Seat;
+use super::thin::thinned;
 use crate::causes::contract::Blame;
 use crate::findings::answer::{Answer, Cause, Group, Verdict};
 use crate::findings::belief::Belief;
@@ -49,8 +50,15 @@ const NOT_THE_STORY: f64 = 0.35;
 
 /// Diagnoses a test against the robot that simulates it.
 pub fn diagnose(test: &WorkspaceTest, robot: &Robot) -> WorkspaceDiagnosis {
-    let mut found = Case::of(test, robot).conclude();
-    found.answer = found.answer.doubted(doubts(test, Some(robot)));
+    let mut doubts = doubts(test, Some(robot));
+    let mut found = match thinned(test) {
+        None => Case::of(test, robot).conclude(),
+        Some((thin, doubt)) => {
+            doubts.push(doubt);
+            Case::of(&thin, robot).conclude()
+        }
+    };
+    found.answer = found.answer.doubted(doubts);
     if found.answer.is_withheld() {
         found.extended = robot.clone();
     }

@@ -51,6 +51,13 @@ pub fn lever_spread(front: &Front) -> Outcome<f64> {
 }
 
 impl Facts {
+    /// The same for a file at hand.
+    pub fn lever_spread(&self) -> f64 {
+        let each = self.lever_rel_std.unwrap_or(LEVER_REL_STD);
+        let levers = [self.load_lever, self.sensor_lever];
+        each * (levers.iter().flatten().count() as f64).sqrt()
+    }
+
     pub(super) fn of(front: &Front) -> Outcome<Self> {
         Ok(Self {
             robot: front.text("robot")?.map(str::to_string),

@@ -12,11 +12,11 @@ mod source;
 pub use column::{Cells, Column};
 
 use super::front::Front;
+use crate::ground::files;
 use crate::ground::problem::Outcome;
 use body::Body;
 use layout::Layout;
-use source::{Hashing, read_head, unreadable};
-use std::fs::File;
+use source::{Hashing, read_head};
 use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
 
@@ -46,12 +46,7 @@ pub struct Table {
 impl Table {
     /// Reads a file.
     pub fn read(path: &Path) -> Outcome<Self> {
-        let open = || {
-            let file = File::open(path)?;
-            let bytes = file.metadata()?.len();
-            Ok((file, bytes))
-        };
-        let (file, bytes) = open().map_err(|e| unreadable(&e).in_file(path))?;
+        let (file, bytes) = files::open(path)?;
         Self::from_reader(path, file, bytes)
     }
 

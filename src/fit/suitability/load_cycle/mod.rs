@@ -5,6 +5,7 @@ mod clock;
 mod coarse;
 mod few_rows;
 mod left_out;
+mod long;
 mod part_of_a_cycle;
 mod rest;
 mod reversed;
@@ -50,6 +51,7 @@ pub const RULES: &[Rule] = &[
     second_sensor::RULE,
     rest::RULE,
     wild_response::RULE,
+    long::RULE,
     left_out::RULE,
     coarse::RULE,
 ];
