@@ -1,5 +1,6 @@
 //! Front matter: the leading `#` lines of a measurement file, one TOML document.
 
+use crate::ground::nearest::nearest;
 use crate::ground::problem::{Outcome, Problem};
 use toml::{Table, Value};
 
@@ -14,6 +15,11 @@ pub struct Front {
 /// Magnitudes of facts: beyond them products with measured values leave the numbers.
 const SMALLEST: f64 = 1e-30;
 const LARGEST: f64 = 1e30;
+
+/// Facts that every kind knows.
+const COMMON: &[&str] = &[
+    "kind", "source", "synthetic", "notes", "robot", "role", "columns", "skip_rows", "encoding",
+];
 
 impl Front {
     /// Parses the text behind the `#` signs; line n of `text` is line n of the file.
@@ -141,6 +147,22 @@ impl Front {
             )
             .at_line(1)),
         }
+    }
+
+    /// Refuses facts that the kind does not know: a misspelt fact would count as left out.
+    ///
+    /// # Errors
+    /// The first unknown fact, with the nearest known one.
+    pub fn only(&self, known: &[&str]) -> Outcome<()> {
+        let all = [COMMON, known].concat();
+        let Some(key) = self.facts.keys().find(|key| !all.contains(&key.as_str())) else {
+            return Ok(());
+        };
+        let remedy = match nearest(key, &all) {
+            Some(near) => format!("write `{near}`, or put what is free into `notes = {{ {key} = .. }}`"),
+            None => format!("put what is free into `notes = {{ {key} = .. }}`; known here: {}", all.join(", ")),
+        };
+        Err(self.problem(key, "is no fact of this kind", remedy))
     }
 
     /// A list of finite numbers, if given.

@@ -64,6 +64,7 @@ struct Arguments {
 
 pub use campaign::chapter;
 pub use json::doubts_json;
+pub use kind::kinds;
 
 /// One file, diagnosed.
 pub struct One {
@@ -221,6 +222,7 @@ fn whole(place: &Place, arguments: &Arguments) -> Outcome<Ending> {
 }
 
 fn write(results: &[One], more: Vec<(PathBuf, String)>) -> Outcome<()> {
+    results.iter().try_for_each(|one| Place::nameable(one.path()))?;
     let inked: Vec<Vec<(PathBuf, String)>> =
         results.par_iter().map(One::files).collect::<Outcome<_>>()?;
     let all = [inked.concat(), more].concat();

@@ -152,6 +152,9 @@ fn paths(arguments: &Arguments) -> Outcome<Vec<PathBuf>> {
     for name in &arguments.files {
         let (path, said) = resolve(name)?;
         said.iter().for_each(|s| tell(s));
+        if !arguments.dry_run {
+            Place::nameable(&path)?;
+        }
         let same = |other: &&PathBuf| {
             Place::of(other) == Place::of(&path) && other.file_stem() == path.file_stem()
         };

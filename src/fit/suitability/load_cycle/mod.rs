@@ -9,6 +9,7 @@ mod long;
 mod part_of_a_cycle;
 mod rest;
 mod reversed;
+mod robot;
 mod scale;
 mod second_sensor;
 mod unchanging;
@@ -49,6 +50,7 @@ pub const RULES: &[Rule] = &[
     unrelated::RULE,
     scale::RULE,
     second_sensor::RULE,
+    robot::RULE,
     rest::RULE,
     wild_response::RULE,
     long::RULE,
