@@ -90,6 +90,7 @@ fn imported(path: &Path, arguments: &Arguments) -> Outcome<Imported> {
         None => Table::read(path)?,
     };
     let mut facts = table.front.facts.clone();
+    facts.extend(sidecar.shared.clone());
     facts.extend(sidecar.facts.clone());
     Ok(Imported {
         path: path.to_path_buf(),

@@ -17,6 +17,8 @@ mod simulate;
 mod stiffness;
 mod validate;
 
+pub use output::tell;
+
 use crate::ground::problem::Outcome;
 use clap::{ArgMatches, Args, Command, FromArgMatches};
 

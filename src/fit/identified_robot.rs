@@ -11,6 +11,13 @@ use crate::robot::{Robot, write};
 #[must_use]
 pub fn with_axis_tests(robot: &Robot, tests: &[AxisTest]) -> Robot {
     let mut robot = robot.clone();
+    for joint in &mut robot.joints {
+        let own = |site: &str| tests.iter().find(|test| test.site == site);
+        let spring = |test: &AxisTest| Spring::new(test.stiffness.0, 0.0);
+        let tilt = joint.tilt_site();
+        joint.drive = joint.drive.take().or_else(|| own(&joint.name).map(spring));
+        joint.tilt = joint.tilt.take().or_else(|| own(&tilt).map(spring));
+    }
     for (site, spring) in robot.springs_mut() {
         if let Some(test) = tests.iter().find(|test| test.site == site) {
             take_axis_test(spring, test);

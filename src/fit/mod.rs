@@ -43,5 +43,6 @@ pub mod starts;
 pub mod stiffness;
 pub mod store;
 pub mod stored_text;
+pub mod suitability;
 pub mod validation;
 pub mod weighing;

@@ -4,6 +4,7 @@
 pub mod cholesky;
 pub mod dual;
 pub mod files;
+pub mod nearest;
 pub mod problem;
 pub mod random;
 pub mod spatial;

@@ -11,7 +11,7 @@ use super::progress::Progress;
 use super::run::place;
 use super::{Ending, Verb, arguments, parsed};
 use crate::findings::kinds::{Diagnosed, kind, load_cycle};
-use crate::findings::{Verdict, sentence::sentences};
+use crate::findings::sentence::sentences;
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::workspace::{Place, resolve};
@@ -54,6 +54,8 @@ struct Arguments {
 }
 
 pub use campaign::chapter;
+pub use json::doubts_json;
+pub use kind::kinds;
 
 /// One file, diagnosed.
 pub struct One {
@@ -91,7 +93,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
         false => as_text(&results, arguments.dry_run)?,
     };
     print(&said)?;
-    let fine = |one: &One| one.found.answer().verdict == Verdict::Sufficient;
+    let fine = |one: &One| one.found.answer().is_fine();
     Ok(match results.iter().all(fine) {
         true => Ending::Done,
         false => Ending::Attention,
@@ -138,6 +140,9 @@ impl One {
             .place
             .fits()
             .join(format!("{}-extended.toml", self.stem()));
+        if self.found.answer().is_withheld() {
+            return Ok(None);
+        }
         Ok(self.found.model()?.map(|text| (path, text)))
     }
 
@@ -208,6 +213,9 @@ fn whole(place: &Place, arguments: &Arguments) -> Outcome<Ending> {
 }
 
 fn write(results: &[One], more: Vec<(PathBuf, String)>) -> Outcome<()> {
+    results
+        .iter()
+        .try_for_each(|one| Place::nameable(one.path()))?;
     let inked: Vec<Vec<(PathBuf, String)>> =
         results.par_iter().map(One::files).collect::<Outcome<_>>()?;
     let all = [inked.concat(), more].concat();

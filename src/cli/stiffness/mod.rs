@@ -10,7 +10,6 @@ use super::progress::Progress;
 use super::validate;
 use super::{Ending, Verb, arguments, from_words, parsed};
 use crate::effects::Composite;
-use crate::fit::parameter::Status;
 use crate::fit::stiffness::{Account, DEFAULT_EFFECTS, Request, identify};
 use crate::fit::store::{SCHEMA, StoredFit, stored_effects, stored_scale};
 use crate::ground::files;
@@ -153,6 +152,9 @@ fn paths(arguments: &Arguments) -> Outcome<Vec<PathBuf>> {
     for name in &arguments.files {
         let (path, said) = resolve(name)?;
         said.iter().for_each(|s| tell(s));
+        if !arguments.dry_run {
+            Place::nameable(&path)?;
+        }
         let same = |other: &&PathBuf| {
             Place::of(other) == Place::of(&path) && other.file_stem() == path.file_stem()
         };
@@ -181,10 +183,9 @@ fn one(path: PathBuf, request: &Request) -> Outcome<Result> {
     })
 }
 
-/// 1 when something needs attention: no stiffness, or a straight line that misleads.
+/// 1 when something needs attention: no stiffness, or data that are odd.
 fn ending(results: &[Result]) -> Ending {
-    let supported = |r: &Result| r.account.parameters[0].status == Status::Identified;
-    match results.iter().all(supported) {
+    match results.iter().all(|r| r.account.is_fine()) {
         true => Ending::Done,
         false => Ending::Attention,
     }

@@ -125,7 +125,7 @@ fn ending(validated: &Validated) -> Ending {
 pub fn collect(place: &Place, base: &Loaded, synthetic: bool) -> Outcome<()> {
     let folder = place.measurements();
     let points = only_of_kind(&folder, "workspace").and_then(|path| WorkspaceTest::read(&path));
-    let tests = axis_tests::read(&place.fits(), &folder)?;
+    let tests = known_tests(place, &base.robot)?;
     let robot = with_axis_tests(&base.robot, &tests);
     let usable = points.ok().filter(|test| {
         let same = load(&test.facts.robot, Some(&test.path)).is_ok_and(|l| l.sha256 == base.sha256);
@@ -134,12 +134,34 @@ pub fn collect(place: &Place, base: &Loaded, synthetic: bool) -> Outcome<()> {
     let found = match usable {
         Some(test) => {
             let found = validate(&test, &robot, &tests)?;
-            with_points(&robot, &found.refit.parameters(), &provenance(&test))
+            with_points(&robot, &found.parameters(), &provenance(&test))
         }
         None => robot,
     };
     let path = place.fits().join("robot.toml");
     files::replace(&path, text(&found, &base.path, synthetic).as_bytes())
+}
+
+/// What the axis tests of a campaign found, by the names of this robot's joints; what is not used as it
+/// stands is told.
+///
+/// # Errors
+/// A fit that cannot be read.
+pub fn known_tests(place: &Place, robot: &Robot) -> Outcome<Vec<AxisTest>> {
+    let found = axis_tests::read(&place.fits(), &place.measurements())?;
+    let warn = |remark: &String| tell(&format!("warning: {remark}"));
+    found.remarks.iter().for_each(warn);
+    let tests = axis_tests::named_as(found.tests, robot);
+    for test in &tests {
+        let drive = test.site.trim_end_matches("-tilt");
+        if robot.joints.iter().all(|joint| joint.name != drive) {
+            tell(&format!(
+                "warning: the test of {} is not used: the robot `{}` has no such joint",
+                test.site, robot.name
+            ));
+        }
+    }
+    Ok(tests)
 }
 
 /// The measurement and the start of its hash.
@@ -157,7 +179,7 @@ fn examine(arguments: &Arguments, path: &Path) -> Outcome<Validated> {
         None => load(&test.facts.robot, Some(path)).map_err(|p| p.in_file(path))?,
     };
     fits(&base.robot, &test)?;
-    let tests = axis_tests::read(&place.fits(), &place.measurements())?;
+    let tests = known_tests(&place, &base.robot)?;
     let mut robot = base.robot.clone();
     if arguments.robot.is_none() && !tests.is_empty() {
         robot = with_axis_tests(&robot, &tests);
@@ -187,11 +209,7 @@ impl Validated {
     /// The robot with everything found.
     fn identified(&self) -> Robot {
         let known = with_axis_tests(&self.base.robot, &self.tests);
-        with_points(
-            &known,
-            &self.found.refit.parameters(),
-            &provenance(&self.test),
-        )
+        with_points(&known, &self.found.parameters(), &provenance(&self.test))
     }
 }
 

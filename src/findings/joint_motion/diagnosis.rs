@@ -86,6 +86,8 @@ fn answer(joints: &[JointFinding]) -> Answer {
             .map(|j| format!("{} at {}", j.noise, j.site))
             .collect::<Vec<_>>()
             .join(", "),
+        unstated: false,
+        doubts: Vec::new(),
     }
 }
 

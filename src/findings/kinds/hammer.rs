@@ -110,7 +110,8 @@ impl Diagnosed for HammerDiagnosis {
     }
 
     fn belief(&self) -> Option<&Belief> {
-        let known = self.answer().verdict != Verdict::UnknownCause;
+        let answer = self.answer();
+        let known = answer.verdict != Verdict::UnknownCause && !answer.is_withheld();
         known.then_some(&self.found.belief)
     }
 

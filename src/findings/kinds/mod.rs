@@ -116,3 +116,8 @@ fn kind_said(path: &Path) -> Outcome<(&'static str, Diagnose)> {
         front.problem("kind", what, remedy)
     })
 }
+
+/// The names of all kinds.
+pub fn kinds() -> Vec<&'static str> {
+    KINDS.iter().map(|kind| kind.0).collect()
+}

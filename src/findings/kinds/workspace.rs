@@ -86,7 +86,8 @@ impl Diagnosed for Workspace {
     }
 
     fn belief(&self) -> Option<&Belief> {
-        let known = self.answer().verdict != Verdict::UnknownCause;
+        let answer = self.answer();
+        let known = answer.verdict != Verdict::UnknownCause && !answer.is_withheld();
         known.then_some(&self.found.belief)
     }
 

@@ -8,8 +8,10 @@ use toml::{Table, Value};
 /// What stands beside a file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Sidecar {
-    /// Facts, the sidecar's before the folder's.
+    /// Facts of the file.
     pub facts: Table,
+    /// Facts of all files of the folder: a kind that does not know one passes it over.
+    pub shared: Table,
     /// Name here, and the title there or the number of the column from 1.
     pub columns: Vec<(String, Source)>,
     /// Lines before the titles that do not count.
@@ -49,8 +51,8 @@ impl Sidecar {
             None => Self::default(),
         };
         for (key, value) in shared.unwrap_or_default() {
-            if !OF_THE_FOLDER.contains(&key.as_str()) && !all.facts.contains_key(&key) {
-                all.facts.insert(key, value);
+            if !OF_THE_FOLDER.contains(&key.as_str()) {
+                all.shared.insert(key, value);
             }
         }
         Ok(all)
@@ -86,6 +88,7 @@ impl Sidecar {
         };
         Ok(Self {
             facts: table,
+            shared: Table::new(),
             columns,
             skip_rows,
             encoding,

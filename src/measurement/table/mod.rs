@@ -13,11 +13,11 @@ pub use column::{Cells, Column};
 
 use super::foreign::{Reading, Sidecar, translated};
 use super::front::Front;
+use crate::ground::files;
 use crate::ground::problem::Outcome;
 use body::Body;
 use layout::Layout;
-use source::{Hashing, read_head, unreadable};
-use std::fs::File;
+use source::{Hashing, read_head};
 use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
 
@@ -56,7 +56,7 @@ impl Table {
             Some(reading) => Self::of_foreign(path, &reading)?,
             None => Self::native(path)?,
         };
-        table.front.inherit(sidecar.facts);
+        table.front.inherit(sidecar);
         Ok(table)
     }
 
@@ -80,12 +80,7 @@ impl Table {
     }
 
     fn native(path: &Path) -> Outcome<Self> {
-        let open = || {
-            let file = File::open(path)?;
-            let bytes = file.metadata()?.len();
-            Ok((file, bytes))
-        };
-        let (file, bytes) = open().map_err(|e| unreadable(&e).in_file(path))?;
+        let (file, bytes) = files::open(path)?;
         Self::from_reader(path, file, bytes)
     }
 

@@ -23,6 +23,7 @@ use crate::findings::campaign::Check;
 use crate::findings::joint::Joint;
 use crate::findings::sentence::{candidates, place, probability, spoken};
 use crate::findings::{Group, Verdict};
+use crate::fit::suitability::is_odd;
 use crate::ground::problem::Outcome;
 use crate::measurement::workspace::Place;
 use crate::robot::{Robot, write};
@@ -98,8 +99,12 @@ impl Campaign {
 
     /// How the verb ends.
     pub fn ending(&self) -> Ending {
+        let fine = self
+            .files
+            .iter()
+            .all(|one| !is_odd(&one.found.answer().doubts));
         match self.verdict {
-            Verdict::Sufficient => Ending::Done,
+            Verdict::Sufficient if fine => Ending::Done,
             _ => Ending::Attention,
         }
     }
