@@ -9,6 +9,7 @@ pub mod joint_motion;
 pub mod leading;
 pub mod load_cycle;
 pub mod table;
+pub mod toolpath;
 pub mod uff;
 pub mod workspace;
 pub mod workspace_test;
