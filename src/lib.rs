@@ -44,6 +44,7 @@ pub mod ground;
 pub mod laboratory;
 pub mod measurement;
 pub mod motion;
+pub mod path;
 pub mod report;
 pub mod robot;
 pub mod sheet;
