@@ -8,7 +8,7 @@ mod shape;
 
 pub use shape::{Arc, Shape};
 
-use crate::ground::vector::{M3, V3};
+use crate::ground::spatial::{M3, Pose, V3};
 use std::path::PathBuf;
 
 /// A path as a file states it: no robot, no blends drawn, no time.
@@ -26,9 +26,9 @@ pub struct Toolpath {
     /// The curve, for a file of control points (source 003), instead of moves.
     pub curve: Option<Nurbs>,
     /// `$BASE` of a robot program: the workpiece in the base frame, as that program placed it.
-    pub base: Option<Frame>,
-    /// `$TOOL` of a robot program: the tool frame in the flange frame.
-    pub tool: Option<Frame>,
+    pub base: Option<Pose>,
+    /// `$TOOL` of a robot program: the tool frame in the flange frame of that controller.
+    pub tool: Option<Pose>,
     /// What was passed over, in the order of its first occurrence.
     pub passed_over: Vec<PassedOver>,
     /// True when the file says of itself that nobody measured or made it.
@@ -68,15 +68,6 @@ pub enum Orientation {
     /// Rotation from the tool frame to the workpiece frame: columns are the tool's axes,
     /// `Rz(a) Ry(b) Rx(c)` of the file's angles.
     Full(M3),
-}
-
-/// A frame in its parent: `R = Rz(a) Ry(b) Rx(c)`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Frame {
-    /// Origin, m.
-    pub origin: V3,
-    /// Columns are the frame's axes in its parent.
-    pub rotation: M3,
 }
 
 /// A non-uniform rational B-spline (source 003; Piegl & Tiller 1997, eq. 4.1). There are
