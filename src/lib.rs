@@ -45,6 +45,7 @@ pub mod laboratory;
 pub mod measurement;
 pub mod motion;
 pub mod path;
+pub mod planning;
 pub mod report;
 pub mod robot;
 pub mod sheet;
