@@ -46,6 +46,8 @@ pub mod inference;
 pub mod laboratory;
 pub mod measurement;
 pub mod motion;
+pub mod path;
+pub mod planning;
 pub mod report;
 pub mod robot;
 pub mod sheet;

@@ -15,6 +15,7 @@ const FLOORS: &[(&str, usize)] = &[
     ("motion", 4),
     ("path", 4),
     ("experiments", 5),
+    ("planning", 5),
     ("inference", 6),
     ("causes", 7),
     ("fit", 7),
