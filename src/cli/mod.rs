@@ -12,6 +12,8 @@ mod progress;
 mod report;
 mod robot;
 mod run;
+mod screw;
+mod sensor;
 mod simulate;
 mod stiffness;
 mod validate;
@@ -45,6 +47,8 @@ pub const VERBS: &[Verb] = &[
     inspect::VERB,
     stiffness::VERB,
     damping::VERB,
+    screw::VERB,
+    sensor::VERB,
     diagnose::VERB,
     run::VERB,
     report::VERB,

@@ -2,12 +2,16 @@
 //! experiment kinds of `measurements/README.md`, refusing with file, line and remedy.
 
 pub mod cycles;
+mod facts;
+pub mod force_sensor;
 pub mod front;
 pub mod hammer;
 pub mod hammer_uff;
 pub mod joint_motion;
 pub mod leading;
 pub mod load_cycle;
+pub mod pitch_table;
+pub mod screw;
 pub mod table;
 pub mod uff;
 pub mod workspace;
