@@ -1,6 +1,7 @@
 //! Floor 1: what a laboratory wrote down. Reads tables with front matter into SI columns, then the
 //! experiment kinds of `measurements/README.md`, refusing with file, line and remedy.
 
+pub mod cubes;
 pub mod cycles;
 mod facts;
 pub mod force_sensor;
