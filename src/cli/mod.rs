@@ -1,4 +1,4 @@
-//! Floor 9: one file per verb. A new verb is one file, one `mod` line and one line in [`VERBS`].
+//! Floor 10: one file per verb. A new verb is one file, one `mod` line and one line in [`VERBS`].
 
 mod chapter;
 mod damping;

@@ -1,4 +1,4 @@
-//! Floor 6: from measurements to parameters with their uncertainty.
+//! Floor 7: from measurements to parameters with their uncertainty.
 
 pub mod axis_tests;
 pub mod bootstrap;

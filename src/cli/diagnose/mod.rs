@@ -1,24 +1,16 @@
 //! `ident diagnose`: what the simulation gets wrong, and why.
 
-mod base;
 mod campaign;
-mod extended;
-mod hammer;
-mod hammer_figures;
-mod joint_motion;
 mod json;
-mod kind;
-mod load_cycle;
 mod next;
 mod page;
 mod tables;
-mod workspace;
-mod workspace_figures;
 
 use super::output::{print, tell};
 use super::progress::Progress;
 use super::run::place;
 use super::{Ending, Verb, arguments, parsed};
+use crate::findings::kinds::{Diagnosed, kind, load_cycle};
 use crate::findings::{Verdict, sentence::sentences};
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
@@ -26,7 +18,6 @@ use crate::measurement::workspace::{Place, resolve};
 use crate::report::{folder, html, svg, text};
 use crate::sheet::page::file;
 use clap::{ArgMatches, Args};
-use kind::{Diagnosed, kind};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};

@@ -8,16 +8,17 @@ mod tables;
 use super::chapter::Chapter;
 use super::output::{print, tell};
 use super::{Ending, Verb, arguments, from_words, parsed};
+use crate::experiments::workspace::fits;
 use crate::fit::axis_tests::{self, AxisTest};
 use crate::fit::identified_robot::{text, with_axis_tests, with_points};
 use crate::fit::validation::{Validation, needs_attention, validate};
 use crate::ground::files;
-use crate::ground::problem::{Outcome, Problem};
+use crate::ground::problem::Outcome;
 use crate::measurement::workspace::{Place, campaign, only_of_kind, resolve};
 use crate::measurement::workspace_test::WorkspaceTest;
 use crate::report::{folder, text as terminal};
+use crate::robot::Robot;
 use crate::robot::load::{Loaded, load};
-use crate::robot::{Robot, check};
 use clap::{ArgMatches, Args};
 use std::path::{Path, PathBuf};
 
@@ -176,32 +177,6 @@ fn examine(arguments: &Arguments, path: &Path) -> Outcome<Validated> {
         tests,
         found,
     })
-}
-
-/// Refuses a robot that these points cannot be simulated with.
-///
-/// # Errors
-/// Another number of joints, nothing elastic, bodies that cannot be.
-pub fn fits(robot: &Robot, test: &WorkspaceTest) -> Outcome<()> {
-    let angles = test.facts.joint_angles.first().map_or(0, Vec::len);
-    let refuse = |what: String, remedy: &str| Err(Problem::new(what, remedy).in_file(&test.path));
-    if angles != robot.dof() {
-        return refuse(
-            format!(
-                "gives {angles} joint angles per point, the robot `{}` has {} joints",
-                robot.name,
-                robot.dof()
-            ),
-            "correct `joint_angles_deg`, or name the right robot",
-        );
-    }
-    if !robot.is_elastic() {
-        return refuse(
-            format!("nothing in the robot `{}` is elastic", robot.name),
-            "add `drive = { stiffness_Nm_rad = .. }` to its joints; `ident robot convert FILE` makes an editable copy",
-        );
-    }
-    check::bodies(robot).map_err(|problem| problem.in_file(&test.path))
 }
 
 impl Validated {

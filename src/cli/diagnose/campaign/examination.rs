@@ -2,11 +2,11 @@
 
 use super::{Campaign, remarks};
 use crate::cli::diagnose::One;
-use crate::cli::diagnose::kind::{Diagnosed, KINDS, kind};
 use crate::cli::diagnose::next::Proposal;
 use crate::cli::progress::Progress;
 use crate::findings::campaign::{Check, verdict};
 use crate::findings::joint::Joint;
+use crate::findings::kinds::{Diagnosed, KINDS, kind};
 use crate::fit::axis_tests::{self, AxisTest};
 use crate::fit::identified_robot::with_axis_tests;
 use crate::ground::problem::{Outcome, Problem};

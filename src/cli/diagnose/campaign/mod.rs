@@ -14,8 +14,8 @@ pub use examination::{examine, one};
 pub use json::body;
 pub use page::story;
 
+use super::One;
 use super::next::Proposal;
-use super::{One, extended};
 use crate::cli::Ending;
 use crate::cli::chapter::Chapter;
 use crate::findings::belief;
@@ -25,7 +25,7 @@ use crate::findings::sentence::{candidates, place, probability, spoken};
 use crate::findings::{Group, Verdict};
 use crate::ground::problem::Outcome;
 use crate::measurement::workspace::Place;
-use crate::robot::Robot;
+use crate::robot::{Robot, write};
 use std::path::PathBuf;
 
 /// Everything that a campaign's files say together.
@@ -59,7 +59,7 @@ impl Campaign {
         let robot = self
             .robot
             .as_ref()
-            .map(|robot| (self.robot_path(), extended::text(robot, self.synthetic())));
+            .map(|robot| (self.robot_path(), write::labelled(robot, self.synthetic())));
         robot.into_iter().collect()
     }
 

@@ -2,7 +2,7 @@
 
 use crate::cli::output::tell;
 use crate::cli::run::place;
-use crate::cli::validate::fits;
+use crate::experiments::workspace::fits;
 use crate::fit::axis_tests::{self, AxisTest};
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::leading::{front_of, kind_of};

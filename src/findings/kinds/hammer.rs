@@ -1,16 +1,15 @@
 //! A diagnosed hammer test: its figures and its extended robot.
 
-use super::extended;
 use super::hammer_figures;
-use super::kind::{Diagnosed, Source};
+use super::{Diagnosed, Source};
 use crate::findings::belief::Belief;
 use crate::findings::hammer::{Diagnosis, diagnose};
 use crate::findings::{Answer, Verdict};
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::hammer::HammerRecord;
 use crate::measurement::hammer_uff::read_any;
-use crate::robot::Robot;
 use crate::robot::load::load;
+use crate::robot::{Robot, write};
 use crate::sheet::chart::Chart;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
@@ -116,7 +115,7 @@ impl Diagnosed for HammerDiagnosis {
     }
 
     fn model(&self) -> Outcome<Option<String>> {
-        let text = |robot: &Robot| extended::text(robot, self.record.synthetic);
+        let text = |robot: &Robot| write::labelled(robot, self.record.synthetic);
         Ok(self.found.extended.as_ref().map(text))
     }
 

@@ -1,7 +1,7 @@
 //! A diagnosed load cycle: its figures and its extended model.
 
-use super::base::{Base, Origin, of_fit, of_robot};
-use super::kind::{Diagnosed, Source};
+use super::present::{Base, Origin, of_fit, of_robot};
+use super::{Diagnosed, Source};
 use crate::experiments::load_cycle::Curves;
 use crate::findings::Answer;
 use crate::findings::load_cycle::{Diagnosis, Settings, diagnose};
@@ -18,6 +18,8 @@ struct CycleDiagnosis {
     found: Diagnosis,
     /// Where the present simulation came from, if not from the file.
     origin: Option<Origin>,
+    /// What kept the present simulation from being read.
+    remark: Option<String>,
 }
 
 /// Diagnoses a file of this kind.
@@ -26,8 +28,14 @@ struct CycleDiagnosis {
 /// The file is no load cycle.
 pub fn diagnosed(path: &Path) -> Outcome<Box<dyn Diagnosed>> {
     let mut file = LoadCycle::read(path)?;
-    let base = of_robot(&mut file);
-    Ok(beside(file, base))
+    let (base, remark) = match of_robot(&mut file) {
+        Ok(base) => (base, None),
+        Err(problem) => (
+            None,
+            Some(format!("There is no nominal stiffness: {problem}")),
+        ),
+    };
+    Ok(beside(file, base, remark))
 }
 
 /// Diagnoses a file of this kind, the present simulation being an earlier fit.
@@ -37,10 +45,10 @@ pub fn diagnosed(path: &Path) -> Outcome<Box<dyn Diagnosed>> {
 pub fn diagnosed_with(path: &Path, fit: &Path) -> Outcome<Box<dyn Diagnosed>> {
     let mut file = LoadCycle::read(path)?;
     let base = of_fit(&mut file, fit)?;
-    Ok(beside(file, Some(base)))
+    Ok(beside(file, Some(base), None))
 }
 
-fn beside(file: LoadCycle, base: Option<Base>) -> Box<dyn Diagnosed> {
+fn beside(file: LoadCycle, base: Option<Base>, remark: Option<String>) -> Box<dyn Diagnosed> {
     let (present, origin) = base.map_or((None, None), |base| (base.present, Some(base.origin)));
     let settings = Settings {
         present,
@@ -51,6 +59,7 @@ fn beside(file: LoadCycle, base: Option<Base>) -> Box<dyn Diagnosed> {
         file,
         found,
         origin,
+        remark,
     })
 }
 
@@ -78,6 +87,10 @@ impl Diagnosed for CycleDiagnosis {
 
     fn present(&self) -> Option<String> {
         self.origin.as_ref().map(Origin::sentence)
+    }
+
+    fn remarks(&self) -> Vec<String> {
+        self.remark.iter().cloned().collect()
     }
 
     fn more(&self) -> Map<String, Value> {

@@ -1,9 +1,21 @@
-//! The kinds of measurement that can be diagnosed. A new kind is one file and one line in [`KINDS`].
+//! The kinds of measurement that can be diagnosed. A new kind is one file here and one line in [`KINDS`]:
+//! what it measured and its figures ([`Measured`]) around an experiment of [`crate::findings::engine`].
 
-use super::{hammer, joint_motion, load_cycle, workspace};
+mod examined;
+mod hammer;
+mod hammer_figures;
+mod joint_motion;
+pub mod load_cycle;
+mod present;
+mod workspace;
+mod workspace_figures;
+
+pub use examined::{Measured, examined};
+
 use crate::findings::Answer;
 use crate::findings::belief::Belief;
 use crate::ground::problem::Outcome;
+use crate::measurement::hammer_uff::is_universal;
 use crate::measurement::leading::front_of;
 use crate::robot::Robot;
 use crate::sheet::chart::Chart;
@@ -81,7 +93,7 @@ pub const KINDS: &[(&str, Diagnose)] = &[
     ("hammer", hammer::diagnosed),
 ];
 
-/// The kind of a file, and how it is diagnosed. A file that states none is read as a load cycle,
+/// The kind of a file, and how it is diagnosed. A universal file is a hammer test; a CSV file that states none is read as a load cycle,
 /// whose reader says what is missing.
 ///
 /// # Errors
@@ -91,6 +103,9 @@ pub fn kind(path: &Path) -> Outcome<(&'static str, Diagnose)> {
 }
 
 fn kind_said(path: &Path) -> Outcome<(&'static str, Diagnose)> {
+    if is_universal(path) {
+        return Ok(("hammer", hammer::diagnosed));
+    }
     let front = front_of(path)?;
     let said = front.text("kind")?.unwrap_or(KINDS[0].0);
     let found = KINDS.iter().find(|kind| kind.0 == said).copied();

@@ -1,6 +1,6 @@
 //! A diagnosed joint motion: its figures and what it stores.
 
-use super::kind::{Diagnosed, Source};
+use super::{Diagnosed, Source};
 use crate::findings::Answer;
 use crate::findings::joint_motion::{JointFinding, MotionDiagnosis, diagnose};
 use crate::fit::joint_motion_store::{SCHEMA, StoredCause, StoredMotion, StoredValue};

@@ -1,7 +1,6 @@
 //! What a load cycle is simulated with at present, where its file does not say: an earlier fit, or the
 //! robot that the file names.
 
-use crate::cli::output::tell;
 use crate::effects::contract::Role;
 use crate::effects::{Composite, Effect};
 use crate::findings::load_cycle::Present;
@@ -10,7 +9,7 @@ use crate::fit::parameter::Z95;
 use crate::fit::store::StoredFit;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::load_cycle::{Axis, LEVER_REL_STD, LoadCycle, Port};
-use crate::robot::load::load;
+use crate::robot::load::{Loaded, load};
 use crate::robot::spring::Spring;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -111,19 +110,20 @@ pub fn of_fit(file: &mut LoadCycle, path: &Path) -> Outcome<Base> {
 }
 
 /// Stiffness and gap of the joint in the robot that the file names, if the file states no stiffness.
-pub fn of_robot(file: &mut LoadCycle) -> Option<Base> {
+/// # Errors
+/// That robot cannot be read: the file is diagnosed without it, and the reader is told.
+pub fn of_robot(file: &mut LoadCycle) -> Outcome<Option<Base>> {
     if file.facts.nominal_stiffness.is_some() || file.port != Port::Rotational {
-        return None;
+        return Ok(None);
     }
-    let name = file.facts.robot.clone()?;
-    let loaded = match load(&name, Some(&file.path)) {
-        Ok(loaded) => loaded,
-        Err(problem) => {
-            let path = file.path.display();
-            tell(&format!("{path}: no nominal stiffness: {problem}"));
-            return None;
-        }
+    let Some(name) = file.facts.robot.clone() else {
+        return Ok(None);
     };
+    let loaded = load(&name, Some(&file.path))?;
+    Ok(of_joint(file, &loaded))
+}
+
+fn of_joint(file: &mut LoadCycle, loaded: &Loaded) -> Option<Base> {
     let joint = loaded.robot.joints.get(file.facts.joint?.checked_sub(1)?)?;
     let spring = match file.facts.axis? {
         Axis::Rotation => joint.drive.as_ref()?,
@@ -134,7 +134,12 @@ pub fn of_robot(file: &mut LoadCycle) -> Option<Base> {
     let spread = interval.map(|[low, high]| (high - low) / (2.0 * Z95 * spring.stiffness));
     file.facts.nominal_rel_std = file.facts.nominal_rel_std.or(spread);
     let present = gapped(spring, file);
-    let origin = Origin::new(loaded.path, file, spring.stiffness, present.as_ref());
+    let origin = Origin::new(
+        loaded.path.clone(),
+        file,
+        spring.stiffness,
+        present.as_ref(),
+    );
     Some(Base { present, origin })
 }
 

@@ -1,9 +1,8 @@
 //! A diagnosed workspace test: its figures and its extended robot.
 
-use super::extended;
-use super::kind::{Diagnosed, Source};
 use super::workspace_figures as figures;
-use crate::cli::validate::fits;
+use super::{Diagnosed, Source};
+use crate::experiments::workspace::fits;
 use crate::findings::belief::Belief;
 use crate::findings::sentence::spoken;
 use crate::findings::workspace::{Limit, WorkspaceDiagnosis, diagnose};
@@ -13,8 +12,8 @@ use crate::fit::validation::mean_and_max;
 use crate::ground::problem::Outcome;
 use crate::ground::spatial::M3;
 use crate::measurement::workspace_test::{DIRECTIONS, WorkspaceTest};
-use crate::robot::Robot;
 use crate::robot::load::{Loaded, load};
+use crate::robot::{Robot, write};
 use crate::sheet::chart::Chart;
 use crate::sheet::number::significant;
 use serde_json::{Map, Value, json};
@@ -152,7 +151,7 @@ impl Workspace {
             name.to_string_lossy(),
             causes.join(", ")
         ));
-        extended::text(&robot, self.test.facts.synthetic)
+        write::labelled(&robot, self.test.facts.synthetic)
     }
 
     /// The set-ups loaded in one direction.
