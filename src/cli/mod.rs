@@ -13,6 +13,8 @@ mod progress;
 mod report;
 mod robot;
 mod run;
+mod screw;
+mod sensor;
 mod simulate;
 mod stiffness;
 mod validate;
@@ -49,6 +51,8 @@ pub const VERBS: &[Verb] = &[
     import::VERB,
     stiffness::VERB,
     damping::VERB,
+    screw::VERB,
+    sensor::VERB,
     diagnose::VERB,
     run::VERB,
     report::VERB,

@@ -79,7 +79,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
 
 /// The files of a campaign that no step takes, one clause each.
 fn passed_over(place: &Place) -> Vec<String> {
-    let kinds = diagnose::kinds();
+    let kinds = crate::findings::kinds::kinds();
     let over = place.passed_over(&kinds).into_iter();
     over.map(|(path, why)| format!("{} {why}", path.display()))
         .collect()

@@ -62,6 +62,16 @@ fn drop_impossible(spring: &mut Spring) {
 /// measurement and the start of its hash.
 #[must_use]
 pub fn with_points(robot: &Robot, parameters: &[Identified], provenance: &str) -> Robot {
+    with_stiffnesses(robot, parameters, &format!("ident validate, {provenance}"))
+}
+
+/// The robot with every stiffness that measuring cubes identified, as [`with_points`].
+#[must_use]
+pub fn with_cubes(robot: &Robot, parameters: &[Identified], provenance: &str) -> Robot {
+    with_stiffnesses(robot, parameters, &format!("ident stiffness, {provenance}"))
+}
+
+fn with_stiffnesses(robot: &Robot, parameters: &[Identified], found_by: &str) -> Robot {
     let mut robot = robot.clone();
     for (site, spring) in robot.springs_mut() {
         let own = parameters.iter().find(|p| p.site == site);
@@ -75,7 +85,7 @@ pub fn with_points(robot: &Robot, parameters: &[Identified], provenance: &str) -
             spring.ci95.stiffness = Some(ci95);
             drop_impossible(spring);
             spring.source = Some(format!(
-                "stiffness: ident validate, {provenance}, starting from what follows; {before}"
+                "stiffness: {found_by}, starting from what follows; {before}"
             ));
         }
     }

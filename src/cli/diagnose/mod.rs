@@ -55,7 +55,6 @@ struct Arguments {
 
 pub use campaign::chapter;
 pub use json::doubts_json;
-pub use kind::kinds;
 
 /// One file, diagnosed.
 pub struct One {

@@ -1,7 +1,7 @@
 //! The account of force steps at points of the workspace.
 
 use super::{Account, degrees, range, span, title};
-use crate::cli::validate::fits;
+use crate::experiments::workspace::fits;
 use crate::fit::suitability::Doubt;
 use crate::fit::suitability::workspace::doubts;
 use crate::ground::problem::Outcome;

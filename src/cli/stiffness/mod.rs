@@ -1,5 +1,6 @@
 //! `ident stiffness`: load/unload cycles become stiffnesses with backlash and hysteresis.
 
+mod cubes;
 mod json;
 mod page;
 mod tables;
@@ -26,14 +27,14 @@ use std::path::{Path, PathBuf};
 /// The verb.
 pub const VERB: Verb = Verb {
     name: "stiffness",
-    about: "Identify stiffness, backlash and hysteresis from load/unload cycles",
+    about: "Identify stiffness, backlash and hysteresis from load/unload cycles, or a robot from measuring cubes",
     arguments: arguments::<Arguments>,
     run,
 };
 
 #[derive(Args)]
 struct Arguments {
-    /// Measurement files of kind load-cycle; a bare name is looked up under measurements/
+    /// Measurement files of kind load-cycle, or all of kind cubes; a bare name is looked up under measurements/
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// Print one JSON document instead of the account
@@ -68,6 +69,9 @@ struct Result {
 
 fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let arguments: Arguments = parsed(matches);
+    if let Some(files) = cubes::meant(&arguments.files)? {
+        return cubes::run(&files, arguments.json, arguments.dry_run);
+    }
     let results = act(&arguments)?;
     match arguments.json {
         true => print(&json::as_json(&results))?,

@@ -341,6 +341,8 @@ fn answer(
             .collect(),
         unit: experiment.unit(),
         noise: statement.noise.describe(),
+        unstated: false,
+        doubts: Vec::new(),
     }
 }
 
