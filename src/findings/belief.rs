@@ -13,6 +13,8 @@ pub struct Weighed {
     pub causes: Vec<Place>,
     /// Logarithm of its probability, the causes' prior odds included.
     pub ln_p: f64,
+    /// Logarithm of its evidence, up to a constant of the experiment: no prior odds of physical causes in it.
+    pub ln_evidence: f64,
     /// The robot with these causes as this experiment fits them.
     pub robot: Robot,
 }
@@ -26,25 +28,35 @@ pub struct Belief {
     pub sets: Vec<Weighed>,
 }
 
-/// Prior probability of one cause at one place, as the searches of all kinds have it to within a factor.
+/// Prior probability of one cause at one place in a joint inference: experiments bring evidence, and this is
+/// applied once. A hundred places of a robot, and mostly one of them wrong.
 pub const PRIOR: f64 = 0.01;
 /// Sets with less than this probability are not kept, nor more than so many.
 const KEPT: (f64, usize) = (1e-9, 100);
-/// Logarithm of the probability of a set of which not even a part was weighed.
+/// Logarithm of the evidence of a set of which not even a part was weighed.
 const UNHEARD_OF: f64 = -25.0;
 
 impl Belief {
-    /// From sets with their probabilities, best first. Sets that differ by instruments only are one; the
-    /// robot of the most probable of them counts.
-    pub fn new(sees: Vec<Place>, weighed: impl Iterator<Item = (Vec<Place>, f64, Robot)>) -> Self {
+    /// From sets with their probabilities and the logarithm of the prior odds of their physical causes that is
+    /// in these, best first. Sets that differ by instruments only are one; the robot of the most probable of
+    /// them counts.
+    pub fn new(
+        sees: Vec<Place>,
+        weighed: impl Iterator<Item = (Vec<Place>, f64, f64, Robot)>,
+    ) -> Self {
         let mut sets: Vec<Weighed> = Vec::new();
-        for (mut causes, p, robot) in weighed.filter(|w| w.1 > KEPT.0).take(KEPT.1) {
+        for (mut causes, p, ln_odds, robot) in weighed.filter(|w| w.1 > KEPT.0).take(KEPT.1) {
             causes.sort();
             match sets.iter_mut().find(|set| set.causes == causes) {
-                Some(set) => set.ln_p = (set.ln_p.exp() + p).ln(),
+                Some(set) => {
+                    let more = ((set.ln_p.exp() + p).ln() - set.ln_p).max(0.0);
+                    set.ln_p += more;
+                    set.ln_evidence += more;
+                }
                 None => sets.push(Weighed {
                     causes,
                     ln_p: p.ln(),
+                    ln_evidence: p.ln() - ln_odds,
                     robot,
                 }),
             }
@@ -59,19 +71,15 @@ impl Belief {
         seen.cloned().collect()
     }
 
-    /// Logarithm of the probability of these causes (in order, all visible). A set that was not weighed is at
-    /// least as good as any part of it, with the prior odds of what is added: more causes never fit worse.
-    pub fn ln_p(&self, causes: &[Place]) -> f64 {
+    /// Logarithm of the evidence for these causes (in order, all visible). A set that was not weighed is at
+    /// least as good as any part of it: more causes never fit worse.
+    pub fn ln_evidence(&self, causes: &[Place]) -> f64 {
         if let Some(own) = self.sets.iter().find(|set| set.causes == causes) {
-            return own.ln_p;
+            return own.ln_evidence;
         }
         let within = |set: &&Weighed| set.causes.iter().all(|c| causes.contains(c));
         let parts = self.sets.iter().filter(within);
-        let worth = |set: &Weighed| {
-            let added = causes.len() - set.causes.len();
-            set.ln_p + added as f64 * PRIOR.ln()
-        };
-        parts.map(worth).fold(UNHEARD_OF, f64::max)
+        parts.map(|set| set.ln_evidence).fold(UNHEARD_OF, f64::max)
     }
 
     /// The robot with these causes, if they were weighed.

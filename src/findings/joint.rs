@@ -103,14 +103,10 @@ fn union(a: &[Place], b: &[Place]) -> Vec<Place> {
     all
 }
 
-/// Prior odds once, and the evidence of every experiment: its probability less its own prior odds.
+/// Prior odds once, and the evidence of every experiment.
 fn score(beliefs: &[&Belief], causes: &[Place]) -> f64 {
-    let odds = |count: usize| count as f64 * PRIOR.ln();
-    let evidence = beliefs.iter().map(|belief| {
-        let own = belief.visible(causes);
-        belief.ln_p(&own) - odds(own.len())
-    });
-    odds(causes.len()) + evidence.sum::<f64>()
+    let evidence = beliefs.iter().map(|b| b.ln_evidence(&b.visible(causes)));
+    causes.len() as f64 * PRIOR.ln() + evidence.sum::<f64>()
 }
 
 fn causes(beliefs: &[&Belief], sets: &[(Vec<Place>, f64)]) -> Vec<Together> {
@@ -149,7 +145,9 @@ mod tests {
         let robot = named("kr210").unwrap().unwrap();
         let sets = sets.iter().map(|(sites, p)| {
             let causes = sites.iter().map(|site| at(site)).collect();
-            (causes, *p, robot.clone())
+            let causes: Vec<Place> = causes;
+            let odds = causes.len() as f64 * PRIOR.ln();
+            (causes, *p, odds, robot.clone())
         });
         Belief::new(sees.iter().map(|site| at(site)).collect(), sets)
     }

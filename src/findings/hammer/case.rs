@@ -4,7 +4,7 @@ use super::adequacy::Adequacy;
 use super::data::{Data, Grid};
 use super::diagnosis::{Diagnosis, UNIT};
 use super::linearity::{Linearity, linearity};
-use super::map::{Fit, fit};
+use super::map::{Fit, fit, ln_odds};
 use super::next::would_tell;
 use super::posterior::{Posterior, holds};
 use super::prediction::{Machine, Point};
@@ -79,8 +79,9 @@ impl Case<'_> {
                 suspect.cause.alter(&mut robot, &suspect.site, &amounts);
                 suspect.place()
             });
-            let causes = causes.collect();
-            (causes, *p, robot)
+            let causes: Vec<_> = causes.collect();
+            let odds = ln_odds(causes.len());
+            (causes, *p, odds, robot)
         });
         Belief::new(sees.map(Suspect::place).collect(), weighed)
     }

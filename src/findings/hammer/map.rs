@@ -9,6 +9,11 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// Prior probability that one cause is present at some place.
 const PRIOR: f64 = 0.03;
+/// Logarithm of the prior odds of so many causes.
+pub fn ln_odds(causes: usize) -> f64 {
+    causes as f64 * (PRIOR / (1.0 - PRIOR)).ln()
+}
+
 /// Largest step of an amount (spreads) and of a nuisance (standard deviations).
 const LARGEST: [f64; 2] = [1.0, 2.0];
 /// A descent has arrived when the cost falls by less than this, nats.
@@ -221,7 +226,7 @@ impl Fit {
             temper * (self.precision[(kept[i], kept[j])] - one) + one
         });
         let spread = log_determinant(&precision.cholesky()?);
-        let odds = (PRIOR / (1.0 - PRIOR)).ln() * self.point.set.len() as f64;
+        let odds = ln_odds(self.point.set.len());
         Some(-temper * self.misfit - prior - 0.5 * spread + odds)
     }
 

@@ -123,9 +123,10 @@ impl Case<'_> {
         let physical = |s: &Seat| s.cause.blame() != Blame::Instrument && !s.stranger;
         let sees = seats.iter().filter(|s| physical(s)).map(Seat::place);
         let weighed = self.posterior.sets.iter().map(|(set, p)| {
-            let own = set.seats.iter().map(|s| &seats[*s]);
-            let causes = own.filter(|s| physical(s)).map(Seat::place).collect();
-            (causes, *p, self.extended(set))
+            let own = set.seats.iter().copied();
+            let own: Vec<usize> = own.filter(|s| physical(&seats[*s])).collect();
+            let causes = own.iter().map(|s| seats[*s].place()).collect();
+            (causes, *p, self.seats.odds(&own), self.extended(set))
         });
         Belief::new(sees.collect(), weighed)
     }
