@@ -4,7 +4,9 @@
 pub mod answer;
 pub mod belief;
 pub mod campaign;
+pub mod cubes;
 pub mod engine;
+pub mod force_sensor;
 pub mod gain;
 pub mod hammer;
 pub mod joint;
@@ -12,7 +14,9 @@ pub mod joint_motion;
 pub mod kinds;
 pub mod load_cycle;
 pub mod next_setups;
+pub mod screw;
 pub mod sentence;
+pub mod table;
 pub mod workspace;
 
 pub use answer::{Answer, Cause, Group, Verdict};

@@ -1,12 +1,15 @@
 //! The kinds of measurement that can be diagnosed. A new kind is one file here and one line in [`KINDS`]:
 //! what it measured and its figures ([`Measured`]) around an experiment of [`crate::findings::engine`].
 
+mod cubes;
 mod examined;
+mod force_sensor;
 mod hammer;
 mod hammer_figures;
 mod joint_motion;
 pub mod load_cycle;
 mod present;
+mod screw;
 mod workspace;
 mod workspace_figures;
 
@@ -91,6 +94,9 @@ pub const KINDS: &[(&str, Diagnose)] = &[
     ("joint-motion", joint_motion::diagnosed),
     ("workspace", workspace::diagnosed),
     ("hammer", hammer::diagnosed),
+    ("cubes", cubes::diagnosed),
+    ("force-sensor", force_sensor::diagnosed),
+    ("screw", screw::diagnosed),
 ];
 
 /// The kind of a file, and how it is diagnosed. A universal file is a hammer test; a CSV file that states none is read as a load cycle,

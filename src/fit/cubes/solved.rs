@@ -84,7 +84,9 @@ impl Solved {
             let target = right + &design * &ratio;
             let gradient =
                 design.transpose() * target + DVector::from_element(n, 1.0 / (LOOSE * LOOSE));
-            ratio = non_negative(&hessian, &gradient)?.x;
+            // both times one number: the same minimum, in numbers of order one
+            let size = hessian.diagonal().max().sqrt().max(1.0);
+            ratio = non_negative(&(&hessian / size), &(gradient / size))?.x;
             covariance = hessian.cholesky().map_or_else(
                 || DMatrix::identity(n, n) * (LOOSE * LOOSE),
                 |c| c.inverse(),

@@ -1,0 +1,169 @@
+//! The statement of a cubes test for the engine.
+
+use super::{Case, EFFECTS, physics};
+use crate::causes::places::soften;
+use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, White};
+use crate::findings::table;
+use crate::fit::parameter::Z95;
+
+/// Relative standard deviation of a stiffness whose interval the robot does not state.
+const USUAL: f64 = 0.02;
+/// Readings that a stated noise is worth.
+const WORTH: f64 = 60.0;
+/// Relative compliance at which a nuisance is tried.
+const TRIED: f64 = 0.01;
+
+impl Experiment for Case {
+    fn unit(&self) -> &'static str {
+        "m"
+    }
+
+    fn state(&self, _: &[Blamed]) -> Statement {
+        let stated = self.test.facts.noise.iter().all(Option::is_some);
+        let mut suspects = physics::suspects(self);
+        suspects.extend(table::suspects(EFFECTS, self));
+        Statement {
+            reading: self.missed.clone(),
+            noise: Box::new(White {
+                spread: vec![self.noise; self.rows.len()],
+                rows: if stated { WORTH } else { 0.0 },
+            }),
+            nuisances: self.springs().into_iter().chain(self.frame()).collect(),
+            suspects,
+            span: self.span(),
+            splits: self.splits(),
+        }
+    }
+
+    fn parameters(&self, blamed: &Blamed) -> Vec<(&'static str, f64, &'static str)> {
+        let of_the_robot = || physics::parameters(self, blamed);
+        match blamed.shape.first() {
+            Some(form) if *form >= 0.0 => {
+                of_the_robot().unwrap_or_else(|| table::parameters(EFFECTS, self, blamed))
+            }
+            _ => table::parameters(EFFECTS, self, blamed),
+        }
+    }
+
+    fn would_tell(&self, rivals: &[(&'static str, String)]) -> String {
+        let own = rivals
+            .iter()
+            .any(|r| EFFECTS.iter().any(|effect| effect.name == r.0));
+        match own {
+            true => table::would_tell(EFFECTS, rivals),
+            false => "put a cube between them, or load by a moment of the bar".into(),
+        }
+    }
+
+    fn place(&self, missed: &[f64]) -> String {
+        let worst = (0..missed.len()).max_by(|a, b| missed[*a].abs().total_cmp(&missed[*b].abs()));
+        worst.map_or("nowhere".into(), |i| {
+            let row = self.rows[i];
+            format!(
+                "largest at cube {} in test {}",
+                self.test.facts.cubes[row.cube].name, row.test
+            )
+        })
+    }
+
+    fn remaining(&self, left: &[f64]) -> Remaining {
+        let cubes = 0..self.test.facts.cubes.len();
+        let rms = |cube: usize| {
+            let own: Vec<f64> = self
+                .rows
+                .iter()
+                .zip(left)
+                .filter(|(r, _)| r.cube == cube)
+                .map(|(_, l)| l * l)
+                .collect();
+            (own.iter().sum::<f64>() / own.len().max(1) as f64).sqrt()
+        };
+        Remaining {
+            shape: cubes.map(|cube| [cube as f64, rms(cube)]).collect(),
+            over_time: Vec::new(),
+            description:
+                "movement of cubes that no known effect makes (over the number of the cube)".into(),
+        }
+    }
+}
+
+impl Case {
+    /// Every stiffness within what is known of it.
+    fn springs(&self) -> Vec<Nuisance> {
+        let nuisance = |(site, rel): (String, f64)| {
+            let mut robot = self.robot.clone();
+            soften(&mut robot, &site, TRIED);
+            let column: Vec<f64> = self.change(&robot).iter().map(|x| x / TRIED).collect();
+            column
+                .iter()
+                .any(|x| x.abs() > 1e-3 * self.noise)
+                .then_some(Nuisance {
+                    column,
+                    spread: rel,
+                })
+        };
+        let known = self.robot.springs().map(|(site, spring)| {
+            let stated = spring
+                .ci95
+                .stiffness
+                .map(|[low, high]| (high - low) / (2.0 * Z95 * spring.stiffness));
+            (site, stated.unwrap_or(USUAL))
+        });
+        known.filter_map(nuisance).collect()
+    }
+
+    /// One translation of the frame per test and direction.
+    fn frame(&self) -> Vec<Nuisance> {
+        let Some(spread) = self.test.facts.frame_std.filter(|s| *s > 0.0) else {
+            return Vec::new();
+        };
+        let tests = self.tests();
+        let one = |(test, k): (i64, usize)| {
+            let own =
+                |row: &super::Row| f64::from(u8::from(row.test == test && row.component == k));
+            Nuisance {
+                column: self.rows.iter().map(own).collect(),
+                spread,
+            }
+        };
+        tests
+            .into_iter()
+            .flat_map(|test| (0..3).map(move |k| (test, k)))
+            .map(one)
+            .collect()
+    }
+
+    /// Any linear answer of any cube to the sizes of the loads, by component.
+    fn span(&self) -> Vec<Vec<f64>> {
+        let mut span = Vec::new();
+        for cube in 0..self.test.facts.cubes.len() {
+            for component in 0..6 {
+                let own = |row: &super::Row| {
+                    f64::from(u8::from(row.cube == cube && row.component == component))
+                };
+                let column: Vec<f64> = self.rows.iter().map(own).collect();
+                if column.contains(&1.0) {
+                    for axis in 0..3 {
+                        let load = |i: usize| {
+                            let reading = &self.test.readings[self.rows[i].reading];
+                            reading.force[axis] / 1000.0 + reading.moment[axis] / 500.0
+                        };
+                        span.push((0..column.len()).map(|i| column[i] * load(i)).collect());
+                    }
+                }
+            }
+        }
+        span.retain(|column: &Vec<f64>| column.iter().any(|x| *x != 0.0));
+        span
+    }
+
+    /// Whole tests, whole cubes, then numbers here and there.
+    fn splits(&self) -> Vec<Vec<usize>> {
+        let tests = self.tests();
+        let of_test = |t: i64| tests.iter().position(|known| *known == t).unwrap_or(0) % 8;
+        let by_test = self.rows.iter().map(|r| of_test(r.test)).collect();
+        let by_cube = self.rows.iter().map(|r| r.cube % 8).collect();
+        let spread = (0..self.rows.len()).map(|i| (i + i / 6) % 8).collect();
+        vec![by_test, by_cube, spread]
+    }
+}

@@ -1,0 +1,52 @@
+//! The load points elsewhere than it is said to: force and moment turned about an axis of the base frame.
+
+use super::Case;
+use super::rows::model;
+use crate::findings::engine::Member;
+use crate::findings::table::{Effect, Place};
+use crate::ground::spatial::{V3, rotate, rotation};
+use crate::inference::gaussian::Size;
+
+pub(super) const EFFECT: Effect<Case> = Effect {
+    name: "load_misalignment",
+    summary: "The load points elsewhere than it is said to, in the base frame.",
+    mechanism: "load",
+    places: |case| vec![Place::new("sensor", members(case))],
+    parameters: |_, blamed| {
+        let size = blamed.amounts.iter().map(|x| x * x).sum::<f64>().sqrt();
+        vec![("angle", size, "rad")]
+    },
+    would_tell: "measure the direction of the cables",
+};
+
+/// Ordinary angle, and the one it is tried at, rad.
+const ORDINARY: f64 = 0.05;
+const TRIED: f64 = 1e-3;
+
+fn members(case: &Case) -> Vec<Member> {
+    let column = |k: usize| {
+        let axis: V3 = std::array::from_fn(|j| f64::from(u8::from(j == k)));
+        let turn = rotation(axis, TRIED);
+        let turned = model(&case.setup, &case.test, &case.rows, case.arm, |mut load| {
+            (load.force, load.moment) = (rotate(&turn, load.force), rotate(&turn, load.moment));
+            load
+        });
+        turned
+            .iter()
+            .zip(&case.simulated)
+            .map(|(a, b)| (a - b) / TRIED)
+            .collect::<Vec<f64>>()
+    };
+    let columns: Vec<Vec<f64>> = (0..3).map(column).collect();
+    let single = columns
+        .iter()
+        .enumerate()
+        .map(|(k, c)| Member::given(c.clone(), ORDINARY).shaped(&[k as f64]));
+    let all = Member {
+        columns: columns.clone(),
+        size: Size::Given(ORDINARY),
+        positive: None,
+        shape: vec![3.0],
+    };
+    single.chain([all]).collect()
+}

@@ -1,0 +1,109 @@
+//! A cube that does not move with its link: it follows its neighbour by a share, or slips in one test.
+
+use super::Case;
+use crate::findings::engine::Member;
+use crate::findings::table::{Effect, Place};
+use crate::inference::gaussian::Size;
+
+pub(super) const EFFECT: Effect<Case> = Effect {
+    name: "loose_cube",
+    summary: "A cube does not move with its link: it follows its neighbour by a share, or slips.",
+    mechanism: "loose_cube",
+    places: |case| {
+        (0..case.test.facts.cubes.len())
+            .map(|cube| {
+                Place::new(
+                    case.test.facts.cubes[cube].name.clone(),
+                    members(case, cube),
+                )
+            })
+            .collect()
+    },
+    parameters: |_, blamed| match blamed.shape.get(1) {
+        Some(test) if blamed.amounts.len() > 1 => {
+            let size = blamed.amounts[..3]
+                .iter()
+                .map(|x| x * x)
+                .sum::<f64>()
+                .sqrt();
+            vec![("slip", size, "m"), ("test", *test, "1")]
+        }
+        Some(test) => vec![("share", blamed.amounts[0], "1"), ("test", *test, "1")],
+        None => vec![("share", blamed.amounts[0], "1")],
+    },
+    would_tell: "fasten the cube and repeat",
+};
+
+fn members(case: &Case, cube: usize) -> Vec<Member> {
+    let own = |i: usize| case.rows[i].cube == cube;
+    let with_own = |of: &dyn Fn(usize) -> f64| -> Vec<f64> {
+        (0..case.rows.len())
+            .map(|i| if own(i) { of(i) } else { 0.0 })
+            .collect()
+    };
+    if !case.rows.iter().any(|row| row.cube == cube) {
+        return Vec::new();
+    }
+    // towards its neighbours on either side, and towards standing still
+    let mut targets: Vec<Vec<f64>> = vec![with_own(&|i| -case.simulated[i])];
+    for neighbour in neighbours(case, cube) {
+        let other = |i: usize| {
+            let row = case.rows[i];
+            let same = |j: &usize| {
+                case.rows[*j].cube == neighbour
+                    && case.rows[*j].test == row.test
+                    && case.rows[*j].component == row.component
+            };
+            (0..case.rows.len())
+                .find(same)
+                .map_or(0.0, |j| case.simulated[j] - case.simulated[i])
+        };
+        targets.push(with_own(&other));
+    }
+    let mut members: Vec<Member> = targets
+        .iter()
+        .map(|t| Member::given(t.clone(), 0.3).positive())
+        .collect();
+    for test in case.tests() {
+        let here = |column: &[f64]| -> Vec<f64> {
+            column
+                .iter()
+                .enumerate()
+                .map(|(i, x)| if case.rows[i].test == test { *x } else { 0.0 })
+                .collect()
+        };
+        members.push(Member::free(here(&targets[0])).shaped(&[0.0, test as f64]));
+        let part = |k: usize| {
+            here(&with_own(&|i| {
+                if case.rows[i].component == k {
+                    if k < 3 { 1.0 } else { case.arm }
+                } else {
+                    0.0
+                }
+            }))
+        };
+        let columns: Vec<Vec<f64>> = (0..6)
+            .map(part)
+            .filter(|c| c.iter().any(|x| *x != 0.0))
+            .collect();
+        members.push(Member {
+            columns,
+            size: Size::Free,
+            positive: None,
+            shape: vec![1.0, test as f64],
+        });
+    }
+    members
+}
+
+/// The cubes before and behind it.
+fn neighbours(case: &Case, cube: usize) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..case.test.facts.cubes.len()).collect();
+    order.sort_by_key(|c| case.setup.hinges_before(*c));
+    let at = order.iter().position(|c| *c == cube).unwrap_or(0);
+    [at.checked_sub(1), Some(at + 1)]
+        .into_iter()
+        .flatten()
+        .filter_map(|i| order.get(i).copied())
+        .collect()
+}

@@ -1,0 +1,104 @@
+//! What is wrong with a robot, its measuring cubes, its frame or its load: cubes less the simulation.
+
+mod experiment;
+mod force_gain;
+mod frame_motion;
+mod load_misalignment;
+mod loose_cube;
+mod physics;
+mod rows;
+mod softer;
+
+use super::table::Effect;
+use crate::experiments::cubes::Setup;
+use crate::ground::problem::Outcome;
+use crate::measurement::cubes::CubeTest;
+use crate::robot::Robot;
+pub use rows::Row;
+
+/// Effects of instruments and of elastic axes that the robot has; those of [`crate::causes`] come beside.
+pub const EFFECTS: &[Effect<Case>] = &[
+    softer::BASE,
+    softer::LINK,
+    softer::TOOL,
+    loose_cube::EFFECT,
+    frame_motion::EFFECT,
+    force_gain::EFFECT,
+    load_misalignment::EFFECT,
+];
+
+/// Cubes with the robot they sit on.
+pub struct Case {
+    /// The file.
+    pub test: CubeTest,
+    /// The robot as it is simulated.
+    pub robot: Robot,
+    /// The simulation.
+    pub setup: Setup,
+    /// Its rows, one for each number that was measured.
+    pub rows: Vec<Row>,
+    /// What the simulation says, row by row, m.
+    pub simulated: Vec<f64>,
+    /// Measured less simulated, m.
+    pub missed: Vec<f64>,
+    /// Noise of a row, m.
+    pub noise: f64,
+    /// Length by which rotations are multiplied, so that their noise is that of displacements, m.
+    pub arm: f64,
+}
+
+/// Noise where none is stated: m and rad (source 002's laser sensors).
+const NOISE: [f64; 2] = [2e-6, 1e-5];
+
+impl Case {
+    /// Of a file and its robot.
+    ///
+    /// # Errors
+    /// The file does not fit the robot.
+    pub fn new(test: CubeTest, robot: Robot) -> Outcome<Self> {
+        let setup = Setup::new(&test, &robot)?;
+        let noise = [0, 1].map(|k| test.facts.noise[k].unwrap_or(NOISE[k]));
+        let arm = noise[0] / noise[1];
+        let rows = rows::rows(&test, arm);
+        let simulated = rows::model(&setup, &test, &rows, arm, |load| load);
+        let missed = rows
+            .iter()
+            .zip(&simulated)
+            .map(|(row, s)| row.measured - s)
+            .collect();
+        Ok(Self {
+            noise: noise[0],
+            missed,
+            simulated,
+            rows,
+            setup,
+            arm,
+            robot,
+            test,
+        })
+    }
+
+    /// What another robot would show more than this one, row by row, m. Empty where the file does not fit it.
+    pub fn change(&self, robot: &Robot) -> Vec<f64> {
+        let Ok(setup) = Setup::new(&self.test, robot) else {
+            return Vec::new();
+        };
+        let other = rows::model(&setup, &self.test, &self.rows, self.arm, |load| load);
+        other
+            .iter()
+            .zip(&self.simulated)
+            .map(|(a, b)| a - b)
+            .collect()
+    }
+
+    /// Numbers of the tests, in the order of the file.
+    pub fn tests(&self) -> Vec<i64> {
+        let mut found: Vec<i64> = Vec::new();
+        for row in &self.rows {
+            if !found.contains(&row.test) {
+                found.push(row.test);
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,107 @@
+//! Causes of the whole robot ([`crate::causes`]) as cubes see them: each alters the robot, and the cubes show
+//! the difference. What cubes do not see adds nothing and is left out.
+
+use super::Case;
+use crate::causes::contract::Cause;
+use crate::causes::{CAUSES, Sight};
+use crate::effects::Family;
+use crate::findings::engine::{Blamed, Member, Suspect};
+use crate::inference::gaussian::Size;
+
+/// Share of an ordinary strength at which a cause is tried: small, so that what it adds is linear.
+const TRIED: f64 = 0.02;
+/// Noise deviations rms below which a cause of ordinary strength does not show.
+const UNSEEN: f64 = 1e-3;
+
+/// Everybody of the robot who may be to blame.
+pub(super) fn suspects(case: &Case) -> Vec<Suspect> {
+    let physics = CAUSES.iter().filter(|cause| shows(**cause));
+    physics.flat_map(|cause| of(case, *cause)).collect()
+}
+
+fn shows(cause: &dyn Cause) -> bool {
+    let card = cause.card();
+    card.family == Family::Physics
+        && card
+            .shows
+            .iter()
+            .any(|(sight, _)| *sight == Sight::Workspace)
+}
+
+fn of(case: &Case, cause: &'static dyn Cause) -> Vec<Suspect> {
+    let sites = cause.sites(&case.robot);
+    let total: f64 = sites
+        .iter()
+        .map(|site| cause.readiness(&case.robot, site))
+        .sum();
+    let suspect = |site: String| {
+        let members = members(case, cause, &site);
+        let share = (cause.readiness(&case.robot, &site) / total).ln();
+        let card = cause.card();
+        (!members.is_empty()).then(|| Suspect {
+            effect: card.name,
+            site,
+            summary: card.summary,
+            mechanism: card.name,
+            share,
+            members,
+        })
+    };
+    sites.into_iter().filter_map(suspect).collect()
+}
+
+/// One member per form; columns are the difference at an ordinary strength.
+fn members(case: &Case, cause: &dyn Cause, site: &str) -> Vec<Member> {
+    let scale = cause.scale(&case.robot, site);
+    let columns: Vec<Vec<f64>> = (0..scale.len())
+        .map(|k| column(case, cause, site, &scale, k))
+        .collect();
+    let limit = UNSEEN * case.noise * (case.rows.len() as f64).sqrt();
+    let seen = |k: &usize| columns[*k].iter().map(|x| x * x).sum::<f64>().sqrt() > limit;
+    let form = |(index, form): (usize, Vec<usize>)| {
+        let positive = form
+            .iter()
+            .all(|k| cause.card().amounts[*k].bounds[0] >= 0.0);
+        form.iter().all(&seen).then(|| Member {
+            columns: form.iter().map(|k| columns[*k].clone()).collect(),
+            size: Size::Given(1.0),
+            positive: positive.then(|| vec![1.0; form.len()]),
+            shape: vec![index as f64],
+        })
+    };
+    cause
+        .forms()
+        .into_iter()
+        .enumerate()
+        .filter_map(form)
+        .collect()
+}
+
+fn column(case: &Case, cause: &dyn Cause, site: &str, scale: &[f64], k: usize) -> Vec<f64> {
+    let mut amounts = vec![0.0; scale.len()];
+    amounts[k] = TRIED * scale[k];
+    let mut robot = case.robot.clone();
+    cause.alter(&mut robot, site, &amounts);
+    case.change(&robot).iter().map(|x| x / TRIED).collect()
+}
+
+/// Parameters of a named cause; none for those of other tables.
+pub(super) fn parameters(
+    case: &Case,
+    blamed: &Blamed,
+) -> Option<Vec<(&'static str, f64, &'static str)>> {
+    let cause = CAUSES
+        .iter()
+        .find(|cause| shows(**cause) && cause.card().name == blamed.effect)?;
+    let known = cause.sites(&case.robot).contains(&blamed.site);
+    let form = cause
+        .forms()
+        .into_iter()
+        .nth(*blamed.shape.first().filter(|_| known)? as usize)?;
+    let scale = cause.scale(&case.robot, &blamed.site);
+    let mut amounts = vec![0.0; scale.len()];
+    form.iter()
+        .zip(&blamed.amounts)
+        .for_each(|(k, amount)| amounts[*k] = amount * scale[*k]);
+    Some(cause.said(&case.robot, &blamed.site, &amounts))
+}

@@ -1,0 +1,41 @@
+//! The centre of mass lies elsewhere than it is said to.
+
+use super::Case;
+use crate::findings::engine::Member;
+use crate::findings::table::{Effect, Place};
+use crate::inference::gaussian::Size;
+
+pub(super) const EFFECT: Effect<Case> = Effect {
+    name: "centre_of_mass",
+    summary: "The centre of mass lies elsewhere than it is said to.",
+    mechanism: "centre",
+    places: |case| match case.stated[1] {
+        true => vec![Place::new("tool", members(case))],
+        false => Vec::new(),
+    },
+    parameters: |case, blamed| {
+        const NAMES: [&str; 3] = ["com_x", "com_y", "com_z"];
+        let own = blamed.shape.iter().zip(&blamed.amounts);
+        own.map(|(k, amount)| {
+            (
+                NAMES[*k as usize],
+                case.nominal[1 + *k as usize] + amount,
+                "m",
+            )
+        })
+        .collect()
+    },
+    would_tell: "measure with the sensor level, turned about its own axis",
+};
+
+fn members(case: &Case) -> Vec<Member> {
+    let column = |k: usize| case.parameter(1 + k);
+    let single = (0..3).map(|k| Member::free(column(k)).shaped(&[k as f64]));
+    let all = Member {
+        columns: (0..3).map(column).collect(),
+        size: Size::Free,
+        positive: None,
+        shape: vec![0.0, 1.0, 2.0],
+    };
+    single.chain([all]).collect()
+}

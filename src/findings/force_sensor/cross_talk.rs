@@ -1,0 +1,34 @@
+//! A force along one axis shows on another: six pairs of forces. Of what forces do to moments a single tool
+//! shows no more than a shift of its centre.
+
+use super::Case;
+use crate::findings::engine::Member;
+use crate::findings::table::{Effect, Place};
+
+pub(super) const EFFECT: Effect<Case> = Effect {
+    name: "cross_talk",
+    summary: "A force along one axis of the sensor shows on another.",
+    mechanism: "calibration",
+    places: |case| vec![Place::new("sensor", members(case))],
+    parameters: |_, blamed| {
+        vec![
+            ("share", blamed.amounts[0], "1"),
+            ("from_axis", blamed.shape[0], "1"),
+            ("to_axis", blamed.shape[1], "1"),
+        ]
+    },
+    would_tell: "hang a known weight on the sensor in all directions",
+};
+
+fn members(case: &Case) -> Vec<Member> {
+    let pairs = (0..3).flat_map(|from| {
+        (0..3)
+            .filter(move |to| *to != from)
+            .map(move |to| (from, to))
+    });
+    let member = |(from, to): (usize, usize)| {
+        let column = case.column(|i, c| if c == to { case.load(i, from) } else { 0.0 });
+        Member::free(column).shaped(&[from as f64, to as f64])
+    };
+    pairs.map(member).collect()
+}

@@ -1,0 +1,34 @@
+//! One axis of the sensor reads too much or too little: its force, or its force and moment.
+
+use super::Case;
+use crate::findings::engine::Member;
+use crate::findings::table::{Effect, Place};
+
+pub(super) const EFFECT: Effect<Case> = Effect {
+    name: "force_gain",
+    summary: "One axis of the sensor reads too much or too little.",
+    mechanism: "calibration",
+    places: |case| {
+        (0..3)
+            .map(|k| Place::new(["sensor-x", "sensor-y", "sensor-z"][k], members(case, k)))
+            .collect()
+    },
+    parameters: |_, blamed| vec![("gain_error", blamed.amounts[0], "1")],
+    would_tell: "hang a known weight on the sensor in all directions",
+};
+
+fn members(case: &Case, axis: usize) -> Vec<Member> {
+    let own = |both: bool| {
+        case.column(|i, c| {
+            if c == axis || (both && c == axis + 3) {
+                case.load(i, c)
+            } else {
+                0.0
+            }
+        })
+    };
+    vec![
+        Member::free(own(false)),
+        Member::free(own(true)).shaped(&[1.0]),
+    ]
+}

@@ -1,0 +1,66 @@
+//! A zone where the screw is worn: the error has a bump there, and the ways forth and back differ more than
+//! elsewhere. Zones of several widths and places, with soft and with steep ends.
+
+use super::Case;
+use crate::findings::engine::Member;
+use crate::findings::table::{Effect, Place};
+use crate::inference::gaussian::Size;
+
+pub(super) const EFFECT: Effect<Case> = Effect {
+    name: "wear_zone",
+    summary: "A zone of the travel is worn: error or lost motion have a bump there.",
+    mechanism: "wear",
+    places: |case| vec![Place::new("screw", members(case))],
+    parameters: |case, blamed| {
+        let [centre, width] = [blamed.shape[0], blamed.shape[1]];
+        let middle = case.test.readings[0].target - case.at[0];
+        vec![
+            ("centre", middle + centre, "m"),
+            ("half_width", width, "m"),
+            ("bump", blamed.amounts[0], "m"),
+            (
+                "extra_gap",
+                blamed.amounts.get(1).copied().unwrap_or(0.0),
+                "m",
+            ),
+        ]
+    },
+    would_tell: "measure at more targets in and beside the zone",
+};
+
+/// Half widths over half of the travel.
+const WIDTHS: [f64; 5] = [0.08, 0.14, 0.22, 0.33, 0.5];
+/// Steepness of the ends: 2 is a bell, 8 nearly a box.
+const POWERS: [f64; 2] = [2.0, 8.0];
+
+fn members(case: &Case) -> Vec<Member> {
+    let mut members = Vec::new();
+    for width in WIDTHS {
+        let count = (1.6 / width).ceil() as i32;
+        for k in 0..=count {
+            let centre = case.half * (-0.9 + 1.8 * f64::from(k) / f64::from(count));
+            members.extend(
+                POWERS
+                    .iter()
+                    .map(|power| member(case, centre, width * case.half, *power)),
+            );
+        }
+    }
+    members
+}
+
+fn member(case: &Case, centre: f64, width: f64, power: f64) -> Member {
+    let bump = |i: usize| {
+        (-std::f64::consts::LN_2 * ((case.at[i] - centre) / width).abs().powf(power)).exp()
+    };
+    let mut columns = vec![case.column(bump)];
+    if case.both_ways() {
+        columns.push(case.column(|i| case.side[i] * bump(i)));
+    }
+    Member {
+        columns,
+        size: Size::Free,
+        positive: None,
+        shape: vec![centre, width, power],
+    }
+}

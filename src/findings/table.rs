@@ -1,0 +1,103 @@
+//! Effects of a kind as a table: each is one file that says where it may sit and what it adds to the
+//! readings.
+
+use super::engine::{Blamed, Member, Suspect};
+
+/// One effect of a kind whose case is `C`.
+pub struct Effect<C> {
+    /// Name, as in the answers.
+    pub name: &'static str,
+    /// What it is, one sentence.
+    pub summary: &'static str,
+    /// Effects of one mechanism hardly ever act together.
+    pub mechanism: &'static str,
+    /// Where it may sit in this case, and its shapes there.
+    pub places: fn(&C) -> Vec<Place>,
+    /// Its parameters once it is named: name, value SI, unit.
+    pub parameters: fn(&C, &Blamed) -> Vec<(&'static str, f64, &'static str)>,
+    /// What would tell it from rivals, a phrase.
+    pub would_tell: &'static str,
+}
+
+/// One site of an effect with its shapes there.
+pub struct Place {
+    /// The site.
+    pub site: String,
+    /// The shapes.
+    pub members: Vec<Member>,
+}
+
+impl Place {
+    /// A site with its shapes.
+    pub fn new(site: impl Into<String>, members: Vec<Member>) -> Self {
+        Self {
+            site: site.into(),
+            members,
+        }
+    }
+}
+
+/// Everybody who may be to blame in a case. The sites of an effect share its odds.
+pub fn suspects<C>(table: &[Effect<C>], case: &C) -> Vec<Suspect> {
+    table.iter().flat_map(|effect| own(effect, case)).collect()
+}
+
+fn own<C>(effect: &Effect<C>, case: &C) -> Vec<Suspect> {
+    let places = (effect.places)(case);
+    let share = -(places.len().max(1) as f64).ln();
+    let suspect = |place: Place| Suspect {
+        effect: effect.name,
+        site: place.site,
+        summary: effect.summary,
+        mechanism: effect.mechanism,
+        share,
+        members: place.members,
+    };
+    places
+        .into_iter()
+        .filter(|place| !place.members.is_empty())
+        .map(suspect)
+        .collect()
+}
+
+/// Parameters of a named cause.
+pub fn parameters<C>(
+    table: &[Effect<C>],
+    case: &C,
+    blamed: &Blamed,
+) -> Vec<(&'static str, f64, &'static str)> {
+    let effect = table.iter().find(|effect| effect.name == blamed.effect);
+    effect.map_or(Vec::new(), |effect| (effect.parameters)(case, blamed))
+}
+
+/// What would tell rivals apart: what the first of them that has a phrase asks for.
+pub fn would_tell<C>(table: &[Effect<C>], rivals: &[(&'static str, String)]) -> String {
+    let phrase = |rival: &(&str, String)| {
+        let effect = table.iter().find(|effect| effect.name == rival.0)?;
+        (!effect.would_tell.is_empty()).then(|| effect.would_tell.to_string())
+    };
+    let mut phrases: Vec<String> = rivals.iter().filter_map(phrase).collect();
+    phrases.dedup();
+    phrases.truncate(2);
+    match phrases.is_empty() {
+        true => "repeat the measurement under other conditions".into(),
+        false => phrases.join("; or "),
+    }
+}
+
+/// Waves cos(kπu) over u in [0, 1], k = 1 ..= `count`, falling as 1/k: structure of any smooth kind.
+pub fn waves(u: &[f64], count: usize) -> Vec<Vec<f64>> {
+    let wave = |k: usize| {
+        let at = |u: &f64| (std::f64::consts::PI * k as f64 * u).cos() / k as f64;
+        u.iter().map(at).collect()
+    };
+    (1..=count).map(wave).collect()
+}
+
+/// Places of values between their least and their greatest, 0 to 1.
+pub fn unit_range(values: &[f64]) -> Vec<f64> {
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let span = (high - low).max(f64::MIN_POSITIVE);
+    values.iter().map(|v| (v - low) / span).collect()
+}
