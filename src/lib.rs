@@ -4,16 +4,17 @@
 //! The house, floor by floor; a module uses only floors below its own (`tests/floors.rs`):
 //!
 //! ```text
-//! 9  cli          one file per verb
-//! 8  report       text, HTML, SVG, JSON: ink for a sheet
-//! 7  findings     what the simulation gets wrong, and why    laboratory  known truth, hidden effects
-//! 6  fit          least squares, noise, intervals, stored fits    causes    of the whole robot, ONE FILE EACH
-//! 5  experiments  what a model says that a measurement should have shown
-//! 4  motion       kinematics, dynamics, statics, modes, FRFs
-//! 3  robot        chain, springs, bodies, robot files
-//! 2  effects      ONE FILE PER EFFECT
-//! 1  measurement  files and their facts    signal  spectra, noise    sheet  tables and charts as data
-//! 0  ground       units, dual numbers, spatial algebra, files, problems with a remedy
+//! 10 cli          one file per verb
+//!  9 report       text, HTML, SVG, JSON: ink for a sheet
+//!  8 findings     what the simulation gets wrong, and why    laboratory  known truth, hidden effects
+//!  7 fit          parameters, intervals, stored fits    causes    of the whole robot, ONE FILE EACH
+//!  6 inference    one descent, one linear-Gaussian update, statistics
+//!  5 experiments  what a model says that a measurement should have shown
+//!  4 motion       kinematics, dynamics, statics, modes, FRFs
+//!  3 robot        chain, springs, bodies, robot files
+//!  2 effects      ONE FILE PER EFFECT
+//!  1 measurement  files and their facts    signal  spectra, noise    sheet  tables and charts as data
+//!  0 ground       units, dual numbers, spatial algebra, files, problems with a remedy
 //! ```
 //!
 //! From a file to its stiffness, and to the cause of what the simulation misses:
@@ -41,6 +42,7 @@ pub mod experiments;
 pub mod findings;
 pub mod fit;
 pub mod ground;
+pub mod inference;
 pub mod laboratory;
 pub mod measurement;
 pub mod motion;

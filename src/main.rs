@@ -8,7 +8,7 @@ fn main() -> ExitCode {
         Ok(Ending::Done) => ExitCode::SUCCESS,
         Ok(Ending::Attention) => ExitCode::from(1),
         Err(problem) => {
-            eprintln!("error: {problem}");
+            cli::tell(&format!("error: {problem}"));
             ExitCode::from(2)
         }
     }

@@ -1,7 +1,7 @@
 //! Workspace tests that hide a cause; the program must name it.
 //!
 //! `cargo test --release --test blind_workspace -- --nocapture`; `IDENT_BLIND_ROBOT_CASES` (per
-//! effect), `IDENT_BLIND_SEED`, `IDENT_DEBUG=1` (misses), `IDENT_BLIND_ROBOT_JUDGE=1` (hold the floors),
+//! effect), `IDENT_BLIND_SEED`, `IDENT_DEBUG=1` (misses),
 //! `IDENT_BLIND_ROBOT_KIND` (one kind alone), `IDENT_BLIND_ROBOT_KEEP` (folder for the files).
 
 mod robot_blind;

@@ -16,14 +16,15 @@ const FLOORS: &[(&str, usize)] = &[
     ("path", 4),
     ("experiments", 5),
     ("planning", 5),
-    ("causes", 6),
-    ("fit", 6),
-    ("process", 6),
-    ("findings", 7),
-    ("laboratory", 7),
-    ("compensation", 7),
-    ("report", 8),
-    ("cli", 9),
+    ("inference", 6),
+    ("causes", 7),
+    ("fit", 7),
+    ("process", 7),
+    ("findings", 8),
+    ("laboratory", 8),
+    ("compensation", 8),
+    ("report", 9),
+    ("cli", 10),
 ];
 
 /// Neighbours on one floor that may be used, as (user, used). None so far.

@@ -1,4 +1,4 @@
-//! Floor 6: what can be wrong with the simulation of the whole robot, or with what is measured on it.
+//! Floor 7: what can be wrong with the simulation of the whole robot, or with what is measured on it.
 //!
 //! One cause is one file: add it, one `mod` line and one line in [`CAUSES`], and every experiment that
 //! would show it seeks it, `ident effects` explains it, and the extended robot carries it. Nothing else

@@ -1,10 +1,11 @@
-//! Floor 9: one file per verb. A new verb is one file, one `mod` line and one line in [`VERBS`].
+//! Floor 10: one file per verb. A new verb is one file, one `mod` line and one line in [`VERBS`].
 
 mod chapter;
 mod damping;
 mod diagnose;
 mod effects;
 mod frf;
+mod import;
 mod inspect;
 mod lab;
 mod output;
@@ -12,9 +13,13 @@ mod progress;
 mod report;
 mod robot;
 mod run;
+mod screw;
+mod sensor;
 mod simulate;
 mod stiffness;
 mod validate;
+
+pub use output::tell;
 
 use crate::ground::problem::Outcome;
 use clap::{ArgMatches, Args, Command, FromArgMatches};
@@ -43,8 +48,11 @@ pub struct Verb {
 /// Every verb, in the order of the help text.
 pub const VERBS: &[Verb] = &[
     inspect::VERB,
+    import::VERB,
     stiffness::VERB,
     damping::VERB,
+    screw::VERB,
+    sensor::VERB,
     diagnose::VERB,
     run::VERB,
     report::VERB,

@@ -3,13 +3,17 @@
 use crate::ground::problem::{Outcome, Problem};
 use crate::report::json;
 use serde_json::Value;
+use std::borrow::Cow;
 use std::io::Write;
 use std::path::Path;
 
 /// Prints a text; a reader that went away is no error.
 pub fn print(text: &str) -> Outcome<()> {
     let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    match out
+        .write_all(harmless(text).as_bytes())
+        .and_then(|()| out.flush())
+    {
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
         Err(error) => Err(Problem::new(
             format!("standard output cannot be written ({error})"),
@@ -21,7 +25,21 @@ pub fn print(text: &str) -> Outcome<()> {
 
 /// Tells something on standard error; nothing can be done if that fails.
 pub fn tell(text: &str) {
-    let _ = writeln!(std::io::stderr().lock(), "{text}");
+    let _ = writeln!(std::io::stderr().lock(), "{}", harmless(text));
+}
+
+/// A text without what would steer a terminal: files name kinds, units, joints and hits as they like.
+/// Control characters but line ends and tabs, and marks that turn the direction of writing, become U+FFFD.
+pub fn harmless(text: &str) -> Cow<'_, str> {
+    let steers = |c: char| {
+        let plain = matches!(c, '\n' | '\t');
+        let turns = matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+        c.is_control() && !plain || turns
+    };
+    match text.contains(steers) {
+        true => Cow::Owned(text.replace(steers, "\u{fffd}")),
+        false => Cow::Borrowed(text),
+    }
 }
 
 /// Prints a result as JSON: the common head, then the keys of `body`, and nothing else.

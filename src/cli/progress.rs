@@ -40,7 +40,7 @@ impl Progress {
     /// One piece is done.
     pub fn done(&self, what: &str) {
         if let Some(bar) = &self.bar {
-            bar.set_message(what.to_string());
+            bar.set_message(super::output::harmless(what).into_owned());
             bar.inc(1);
         }
         if self.asked {

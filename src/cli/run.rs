@@ -57,17 +57,32 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
     if chapters.is_empty() {
         return Err(nothing(&place));
     }
-    let attention = chapters.iter().any(|c| c.1.ending == Ending::Attention);
+    let over = passed_over(&place);
+    let attention = !over.is_empty() || chapters.iter().any(|c| c.1.ending == Ending::Attention);
     let said = match arguments.json {
-        true => as_json(&place, &chapters),
-        false => as_text(&place, &chapters),
+        true => as_json(&place, &chapters, &over),
+        false => as_text(&place, &chapters, &over),
     };
-    folder::write_as(&place.reports(), "index.html", &page(&place, chapters))?;
+    let mut page = page(&place, chapters);
+    if !over.is_empty() {
+        page.blocks.push(Block::heading("Files that no step took"));
+        page.blocks
+            .push(Block::text(format!("{}.", over.join("; "))));
+    }
+    folder::write_as(&place.reports(), "index.html", &page)?;
     print(&said)?;
     Ok(match attention {
         true => Ending::Attention,
         false => Ending::Done,
     })
+}
+
+/// The files of a campaign that no step takes, one clause each.
+fn passed_over(place: &Place) -> Vec<String> {
+    let kinds = crate::findings::kinds::kinds();
+    let over = place.passed_over(&kinds).into_iter();
+    over.map(|(path, why)| format!("{} {why}", path.display()))
+        .collect()
 }
 
 /// The campaign that a folder holds.
@@ -126,7 +141,7 @@ fn counted(count: usize, what: &str) -> String {
     }
 }
 
-fn as_text(place: &Place, chapters: &[(&str, Chapter)]) -> String {
+fn as_text(place: &Place, chapters: &[(&str, Chapter)], over: &[String]) -> String {
     let mut said = String::new();
     for (name, chapter) in chapters {
         let end = match chapter.ending {
@@ -143,6 +158,9 @@ fn as_text(place: &Place, chapters: &[(&str, Chapter)]) -> String {
             ));
         }
     }
+    for left in over {
+        said.push_str(&format!("passed over: {left}\n"));
+    }
     let index = place.reports().join("index.html");
     said + &format!("report {}\n", index.display())
 }
@@ -154,7 +172,7 @@ fn verdicts(page: &Page) -> impl Iterator<Item = (Tone, &String)> {
     })
 }
 
-fn as_json(place: &Place, chapters: &[(&str, Chapter)]) -> String {
+fn as_json(place: &Place, chapters: &[(&str, Chapter)], over: &[String]) -> String {
     let mut inputs: Vec<(&Path, &str)> = chapters
         .iter()
         .flat_map(|c| c.1.inputs.iter().map(|(p, h)| (p.as_path(), h.as_str())))
@@ -163,6 +181,7 @@ fn as_json(place: &Place, chapters: &[(&str, Chapter)]) -> String {
     inputs.dedup();
     let mut map = json::head("run", &inputs);
     map.insert("campaign".into(), json!(place.campaign));
+    map.insert("passed_over".into(), json!(over));
     let step = |(name, chapter): &(&str, Chapter)| {
         let said: Vec<&String> = verdicts(&chapter.page).map(|v| v.1).collect();
         json!({

@@ -2,11 +2,13 @@
 //! site by site. Deflection is linear in the compliances: C = Σ Jᵥ Jᵥᵀ / k (Abele et al. 2008).
 
 use super::drive_law::{Law, Press};
+use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{M3, V3, add, rotate, sub};
+use crate::measurement::workspace_test::WorkspaceTest;
 use crate::motion::kinematics::{column, hinge_point, hinge_rotation, place, tcp};
 use crate::motion::statics::{compliance, springs};
 use crate::motion::{Chain, Work, elastic, gravity_torque};
-use crate::robot::{Robot, Spring};
+use crate::robot::{Robot, Spring, check};
 
 /// One place whose compliance acts as one number: a drive, a bearing (two equal axes), a virtual axis.
 #[derive(Debug, Clone, PartialEq)]
@@ -214,4 +216,29 @@ impl Gap {
         self.levers.push(column(work, hinge, at).0);
         self.weights.push(-weight);
     }
+}
+/// Refuses a robot that these points cannot be simulated with.
+///
+/// # Errors
+/// Another number of joints, nothing elastic, bodies that cannot be.
+pub fn fits(robot: &Robot, test: &WorkspaceTest) -> Outcome<()> {
+    let angles = test.facts.joint_angles.first().map_or(0, Vec::len);
+    let refuse = |what: String, remedy: &str| Err(Problem::new(what, remedy).in_file(&test.path));
+    if angles != robot.dof() {
+        return refuse(
+            format!(
+                "gives {angles} joint angles per point, the robot `{}` has {} joints",
+                robot.name,
+                robot.dof()
+            ),
+            "correct `joint_angles_deg`, or name the right robot",
+        );
+    }
+    if !robot.is_elastic() {
+        return refuse(
+            format!("nothing in the robot `{}` is elastic", robot.name),
+            "add `drive = { stiffness_Nm_rad = .. }` to its joints; `ident robot convert FILE` makes an editable copy",
+        );
+    }
+    check::bodies(robot).map_err(|problem| problem.in_file(&test.path))
 }

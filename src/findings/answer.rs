@@ -2,6 +2,7 @@
 //! apart, what is left.
 
 use super::gain::Gain;
+use crate::fit::suitability::{Doubt, is_fatal, is_odd};
 
 /// The verdict on a simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -123,4 +124,34 @@ pub struct Answer {
     pub unit: &'static str,
     /// Noise in words.
     pub noise: String,
+    /// Whether nobody stated a simulation: the error is then that of a straight spring fitted here.
+    pub unstated: bool,
+    /// What is odd about the data.
+    pub doubts: Vec<Doubt>,
+}
+
+impl Answer {
+    /// The same answer with what is odd about the data. Where that is fatal nothing is named: the data
+    /// cannot tell, and the remedies say what would.
+    #[must_use]
+    pub fn doubted(mut self, doubts: Vec<Doubt>) -> Self {
+        if is_fatal(&doubts) {
+            self.verdict = Verdict::CannotTell;
+            self.causes.clear();
+            self.groups.clear();
+            self.candidates.clear();
+        }
+        self.doubts = doubts;
+        self
+    }
+
+    /// Whether these data cannot carry any answer.
+    pub fn is_withheld(&self) -> bool {
+        is_fatal(&self.doubts)
+    }
+
+    /// Whether the simulation is right to within the noise, and nothing is odd about the data.
+    pub fn is_fine(&self) -> bool {
+        self.verdict == Verdict::Sufficient && !is_odd(&self.doubts)
+    }
 }

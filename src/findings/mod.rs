@@ -1,13 +1,15 @@
-//! Floor 7, the heart: what the simulation gets wrong, and why. One folder per kind of measurement;
+//! Floor 8, the heart: what the simulation gets wrong, and why. One folder per kind of measurement;
 //! all of them answer in the same form.
 
 pub mod answer;
 pub mod belief;
 pub mod campaign;
+pub mod engine;
 pub mod gain;
 pub mod hammer;
 pub mod joint;
 pub mod joint_motion;
+pub mod kinds;
 pub mod load_cycle;
 pub mod next_setups;
 pub mod sentence;

@@ -10,7 +10,13 @@ pub fn sentence(answer: &Answer) -> String {
 }
 
 /// The same, one entry for the error, for each cause, for each open question and for what remains.
+///
+/// Where the data cannot carry an answer, what makes them so stands alone.
 pub fn sentences(answer: &Answer) -> Vec<String> {
+    if answer.is_withheld() {
+        let head = "These data cannot carry a diagnosis.".to_string();
+        return [head].into_iter().chain(doubts(answer)).collect();
+    }
     let mut said = vec![opening(answer)];
     let count = answer.causes.len();
     let numbered = |i: usize| match count {
@@ -21,7 +27,14 @@ pub fn sentences(answer: &Answer) -> Vec<String> {
     said.extend(causes.map(|(i, c)| of_cause(c, &numbered(i), answer.unit)));
     said.extend(answer.groups.iter().map(|g| of_group(g, answer.unit)));
     said.extend(closing(answer));
+    said.extend(doubts(answer));
     said
+}
+
+/// What is odd about the data, one sentence each.
+pub fn doubts(answer: &Answer) -> Vec<String> {
+    let said = answer.doubts.iter().map(|doubt| doubt.sentence());
+    said.map(|said| format!("Odd: {said}.")).collect()
 }
 
 /// A probability as it is spoken: never a certainty.
@@ -77,14 +90,19 @@ pub fn left(answer: &Answer) -> String {
 
 fn opening(answer: &Answer) -> String {
     let found = &answer.discrepancy;
+    let simulation = match answer.unstated {
+        true => "No stiffness is stated; a straight spring fitted to these readings",
+        false => "The simulation",
+    };
     let size = engineering(found.rms, 3, answer.unit);
     let noise = engineering(found.noise_rms, 2, answer.unit);
     if answer.verdict == Verdict::Sufficient {
         return format!(
-            "The simulation is right to within the noise: it misses the readings by {size} rms, and the readings scatter by {noise}."
+            "{simulation} is right to within the noise: it misses the readings by {size} rms, and the readings scatter by {noise}."
         );
     }
     let times = match found.rms / found.noise_rms {
+        ratio if ratio > 1e4 => "far above the noise".into(),
         ratio if ratio.is_finite() && ratio >= 1.5 => {
             format!(
                 "{} times the noise of {noise}",
@@ -94,7 +112,7 @@ fn opening(answer: &Answer) -> String {
         _ => format!("with a noise of {noise}"),
     };
     format!(
-        "The simulation misses the readings by {size} rms, {times}; the error is {}.",
+        "{simulation} misses the readings by {size} rms, {times}; the error is {}.",
         found.place
     )
 }

@@ -6,6 +6,7 @@ use crate::ground::files;
 use crate::ground::problem::Outcome;
 use crate::measurement::leading::front_of;
 use crate::measurement::load_cycle::{LEVER_REL_STD, lever_spread};
+use crate::robot::Robot;
 use crate::robot::joint_effect::JointEffect;
 use std::path::{Path, PathBuf};
 
@@ -38,25 +39,163 @@ impl AxisTest {
     }
 }
 
-/// The axis tests in a folder of fits, one per site, in the order of the file names. Of several fits
-/// of one site the one named like its measurement counts, then the one with the smallest interval.
-/// `measurements` holds the files that were fitted: they state how well their levers are known.
+/// The axis tests of a campaign, and what to say of those that are not used as they stand.
+#[derive(Debug, Clone, Default)]
+pub struct Found {
+    /// One per site, in the order of the file names.
+    pub tests: Vec<AxisTest>,
+    /// One sentence each.
+    pub remarks: Vec<String>,
+}
+
+/// The axis tests in a folder of fits. Several of one site are pooled, with the scatter between them; a
+/// fit whose measurement is gone or changed is not used. `measurements` holds the files that were fitted.
 ///
 /// # Errors
 /// A fit that cannot be read.
-pub fn read(folder: &Path, measurements: &Path) -> Outcome<Vec<AxisTest>> {
-    let mut found: Vec<AxisTest> = Vec::new();
+pub fn read(folder: &Path, measurements: &Path) -> Outcome<Found> {
+    let mut found = Found::default();
+    let mut sites: Vec<Vec<AxisTest>> = Vec::new();
     for path in fits(folder) {
         let Some(test) = one(&path, measurements)? else {
             continue;
         };
-        match found.iter_mut().find(|other| other.site == test.site) {
-            Some(other) if better(&test, other) => *other = test,
-            Some(_) => {}
-            None => found.push(test),
+        if let Some(why) = outdated(&test, measurements) {
+            found
+                .remarks
+                .push(format!("{} is not used: {why}", path.display()));
+            continue;
+        }
+        match sites.iter_mut().find(|own| own[0].site == test.site) {
+            Some(own) => take(own, test),
+            None => sites.push(vec![test]),
         }
     }
+    for own in sites {
+        found.remarks.extend(contradiction(&own));
+        found.tests.extend(pooled(&own));
+    }
     Ok(found)
+}
+
+/// Why a fit no longer belongs to a measurement.
+fn outdated(test: &AxisTest, measurements: &Path) -> Option<String> {
+    let path = measurements.join(&test.input.0);
+    if !measurements.is_dir() {
+        return None;
+    }
+    match files::open(&path).and_then(|_| hash(&path)) {
+        Ok(hash) if hash == test.input.1 => None,
+        Ok(_) => Some(format!(
+            "{} was changed since it was fitted",
+            path.display()
+        )),
+        Err(_) => Some(format!("its measurement {} is gone", path.display())),
+    }
+}
+
+fn hash(path: &Path) -> Outcome<String> {
+    Ok(files::sha256(&files::read_bytes(path)?))
+}
+
+/// Of several fits of one measurement the one named like it counts, then the one with the smallest interval.
+fn take(own: &mut Vec<AxisTest>, test: AxisTest) {
+    match own.iter_mut().find(|other| other.input == test.input) {
+        Some(other) if better(&test, other) => *other = test,
+        Some(_) => {}
+        None => own.push(test),
+    }
+}
+
+/// Differences between repeats beyond this many standard deviations contradict each other.
+const CONTRADICTS: f64 = 4.0;
+
+/// Repeats of one site that contradict each other.
+fn contradiction(own: &[AxisTest]) -> Option<String> {
+    let (first, last) = (
+        own.iter()
+            .min_by(|a, b| a.stiffness.0.total_cmp(&b.stiffness.0))?,
+        own.iter()
+            .max_by(|a, b| a.stiffness.0.total_cmp(&b.stiffness.0))?,
+    );
+    let apart = last.stiffness.0 - first.stiffness.0;
+    let spread = first.stiffness.1.hypot(last.stiffness.1);
+    (apart > CONTRADICTS * spread).then(|| {
+        format!(
+            "{}: {} and {} contradict each other ({:.0} and {:.0} N·m/rad, {:.1} standard deviations apart); \
+             they are pooled with the scatter between them",
+            first.site,
+            first.input.0,
+            last.input.0,
+            first.stiffness.0,
+            last.stiffness.0,
+            apart / spread
+        )
+    })
+}
+
+/// Repeats of one site as one test: the mean weighed by their own errors and the scatter between them
+/// (DerSimonian and Laird 1986), all else from the one with the smallest interval.
+fn pooled(own: &[AxisTest]) -> Option<AxisTest> {
+    let width = |test: &&AxisTest| test.stiffness.1 / test.stiffness.0;
+    let best = own.iter().min_by(|a, b| width(a).total_cmp(&width(b)))?;
+    if own.len() < 2 {
+        return Some(best.clone());
+    }
+    let between = between(own);
+    let weight = |test: &AxisTest| 1.0 / (test.stiffness.1.powi(2) + between);
+    let total: f64 = own.iter().map(weight).sum();
+    let mean = own.iter().map(|t| weight(t) * t.stiffness.0).sum::<f64>() / total;
+    let stderr = (1.0 / total).sqrt();
+    let names: Vec<&str> = own.iter().map(|t| t.input.0.as_str()).collect();
+    Some(AxisTest {
+        stiffness: (mean, stderr),
+        ci95: [mean - Z95 * stderr, mean + Z95 * stderr],
+        input: (names.join(" + "), best.input.1.clone()),
+        ..best.clone()
+    })
+}
+
+/// Variance between repeats beyond their own errors.
+fn between(own: &[AxisTest]) -> f64 {
+    let weights: Vec<f64> = own.iter().map(|t| t.stiffness.1.powi(-2)).collect();
+    let total: f64 = weights.iter().sum();
+    let pairs = || own.iter().zip(&weights);
+    let mean = pairs().map(|(t, w)| w * t.stiffness.0).sum::<f64>() / total;
+    let misfit: f64 = pairs()
+        .map(|(t, w)| w * (t.stiffness.0 - mean).powi(2))
+        .sum();
+    let squares: f64 = weights.iter().map(|w| w * w).sum();
+    ((misfit - (own.len() as f64 - 1.0)) / (total - squares / total)).max(0.0)
+}
+
+/// The same tests under the names that a robot gives its joints: tests count joints from 1, and a
+/// robot may call its first joint as it likes.
+#[must_use]
+pub fn named_as(tests: Vec<AxisTest>, robot: &Robot) -> Vec<AxisTest> {
+    let renamed = |mut test: AxisTest| {
+        test.site = site_in(robot, &test.site);
+        test
+    };
+    tests.into_iter().map(renamed).collect()
+}
+
+/// The robot's name for `A3` or `A3-tilt`: the same if it has it, else by position.
+fn site_in(robot: &Robot, site: &str) -> String {
+    let (drive, tilt) = match site.strip_suffix("-tilt") {
+        Some(drive) => (drive, true),
+        None => (site, false),
+    };
+    let known = robot.joints.iter().any(|joint| joint.name == drive);
+    let number = drive
+        .strip_prefix('A')
+        .and_then(|n| n.parse::<usize>().ok());
+    let joint = number.and_then(|n| robot.joints.get(n.checked_sub(1)?));
+    match joint {
+        Some(joint) if !known && tilt => joint.tilt_site(),
+        Some(joint) if !known => joint.name.clone(),
+        _ => site.to_string(),
+    }
 }
 
 fn fits(folder: &Path) -> Vec<PathBuf> {
@@ -91,7 +230,14 @@ fn one(path: &Path, measurements: &Path) -> Outcome<Option<AxisTest>> {
     let Some(fitted) = fixed(&fit.parameters, "stiffness") else {
         return Ok(None);
     };
-    let (value, stderr, ci95) = widened(fitted, levers(&measurements.join(&fit.input)));
+    let known = fit
+        .parameters
+        .iter()
+        .any(|p| p.name == "stiffness" && p.parts.is_some());
+    let (value, stderr, ci95) = match known {
+        true => fitted,
+        false => widened(fitted, levers(&measurements.join(&fit.input))),
+    };
     let backlash = fixed(&fit.parameters, "backlash").or_else(|| fixed(&fit.parameters, "gap"));
     Ok((value > 0.0 && stderr > 0.0).then(|| AxisTest {
         site: fit.site.clone(),

@@ -55,6 +55,7 @@ fn identified(constant: &Parameter, value: f64, said: &Statement) -> Identified 
         status: status(said.status),
         meaning: format!("{meaning}{prior}"),
         limit95: None,
+        parts: None,
     }
 }
 

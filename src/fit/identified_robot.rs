@@ -11,6 +11,13 @@ use crate::robot::{Robot, write};
 #[must_use]
 pub fn with_axis_tests(robot: &Robot, tests: &[AxisTest]) -> Robot {
     let mut robot = robot.clone();
+    for joint in &mut robot.joints {
+        let own = |site: &str| tests.iter().find(|test| test.site == site);
+        let spring = |test: &AxisTest| Spring::new(test.stiffness.0, 0.0);
+        let tilt = joint.tilt_site();
+        joint.drive = joint.drive.take().or_else(|| own(&joint.name).map(spring));
+        joint.tilt = joint.tilt.take().or_else(|| own(&tilt).map(spring));
+    }
     for (site, spring) in robot.springs_mut() {
         if let Some(test) = tests.iter().find(|test| test.site == site) {
             take_axis_test(spring, test);
@@ -55,6 +62,16 @@ fn drop_impossible(spring: &mut Spring) {
 /// measurement and the start of its hash.
 #[must_use]
 pub fn with_points(robot: &Robot, parameters: &[Identified], provenance: &str) -> Robot {
+    with_stiffnesses(robot, parameters, &format!("ident validate, {provenance}"))
+}
+
+/// The robot with every stiffness that measuring cubes identified, as [`with_points`].
+#[must_use]
+pub fn with_cubes(robot: &Robot, parameters: &[Identified], provenance: &str) -> Robot {
+    with_stiffnesses(robot, parameters, &format!("ident stiffness, {provenance}"))
+}
+
+fn with_stiffnesses(robot: &Robot, parameters: &[Identified], found_by: &str) -> Robot {
     let mut robot = robot.clone();
     for (site, spring) in robot.springs_mut() {
         let own = parameters.iter().find(|p| p.site == site);
@@ -68,7 +85,7 @@ pub fn with_points(robot: &Robot, parameters: &[Identified], provenance: &str) -
             spring.ci95.stiffness = Some(ci95);
             drop_impossible(spring);
             spring.source = Some(format!(
-                "stiffness: ident validate, {provenance}, starting from what follows; {before}"
+                "stiffness: {found_by}, starting from what follows; {before}"
             ));
         }
     }

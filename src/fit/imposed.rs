@@ -9,6 +9,7 @@ use super::observation::{MOST_ROWS, Observation, reduce};
 use super::parameter::{Identified, Status};
 use super::solution::{Solution, conclude_with, noise_of};
 use super::starts::starts;
+use super::suitability::relation::{Relation, halved, ramps, slope};
 use crate::effects::{CLEARANCE_SLIDER, Composite, Effect, named};
 use crate::experiments::load_cycle::enclosed;
 use crate::measurement::cycles::Cycles;
@@ -30,10 +31,35 @@ pub fn is_imposed(file: &LoadCycle) -> bool {
         dd += (d - md).powi(2);
         ld += (l - ml) * (d - md);
     }
+    let pressed = ld * ld >= PRESSED * ll * dd;
     ll > 0.0
         && dd > 0.0
-        && ld * ld < PRESSED * ll * dd
+        && !pressed
         && enclosed(&file.load, &file.deflection) > 0.0
+        && saturates(&file.deflection, &file.load)
+}
+
+/// Share of the slope at the beginning of a stroke that may be left on its second half.
+const SATURATED: f64 = 0.5;
+/// Share of the strokes that must saturate.
+const MOST_STROKES: f64 = 0.7;
+
+/// Evidence of its own for an imposed displacement: the force answers the displacement stroke by
+/// stroke beyond chance, and rises on the first half of a stroke far more than on the second.
+fn saturates(displacement: &[f64], force: &[f64]) -> bool {
+    if !Relation::of(displacement, force).is_real() {
+        return false;
+    }
+    let strokes = ramps(displacement);
+    let flat = |stroke: &&(usize, usize)| {
+        let halves = halved(**stroke, displacement);
+        let slopes: Vec<f64> = halves
+            .iter()
+            .map(|h| slope(*h, displacement, force).0)
+            .collect();
+        matches!(slopes[..], [first, second] if first > 0.0 && second < SATURATED * first)
+    };
+    strokes.iter().filter(flat).count() as f64 > MOST_STROKES * strokes.len() as f64
 }
 
 /// The fit of a test under imposed displacement.

@@ -1,15 +1,17 @@
-//! Floor 6: from measurements to parameters with their uncertainty.
+//! Floor 7: from measurements to parameters with their uncertainty.
 
 pub mod axis_tests;
 pub mod bootstrap;
 pub mod candidates;
 pub mod compliance;
 pub mod convex;
+pub mod cubes;
 pub mod damping;
 pub mod damping_statement;
 pub mod damping_store;
 pub mod derived;
 mod force_rest;
+pub mod force_sensor;
 pub mod force_shapes;
 pub mod force_steps;
 pub mod frf_data;
@@ -36,6 +38,7 @@ pub mod normal;
 pub mod observation;
 pub mod parameter;
 pub mod screen;
+pub mod screw;
 pub mod second;
 pub mod separability;
 pub mod solution;
@@ -43,5 +46,6 @@ pub mod starts;
 pub mod stiffness;
 pub mod store;
 pub mod stored_text;
+pub mod suitability;
 pub mod validation;
 pub mod weighing;

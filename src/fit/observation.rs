@@ -20,6 +20,70 @@ pub struct Observation {
     pub block: usize,
     /// Rows (after reduction) that were wild and were replaced.
     pub wild: Vec<usize>,
+    /// What was taken of the file.
+    pub part: Part,
+}
+
+/// The part of a long record that is fitted, and how it is averaged.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Part {
+    /// Rows taken, from the first.
+    pub rows: usize,
+    /// Rows averaged into one.
+    pub block: usize,
+    /// Cycles taken, and cycles of the record.
+    pub cycles: [usize; 2],
+}
+
+/// Averaged rows that a cycle keeps at least: fewer round its corners.
+const PER_CYCLE: usize = 120;
+
+impl Part {
+    /// The whole record, averaged, where every cycle keeps its shape; else its first cycles.
+    fn of(load: &[f64], most: usize) -> Self {
+        let (rows, most) = (load.len(), most.max(4));
+        let block = rows.div_ceil(most).max(1);
+        if block == 1 {
+            return Self {
+                rows,
+                block,
+                cycles: [0; 2],
+            };
+        }
+        Self::of_cycles(&Cycles::find(load), rows, most)
+    }
+
+    /// The same, the cycles being known.
+    pub fn of_cycles(cycles: &Cycles, rows: usize, most: usize) -> Self {
+        let block = rows.div_ceil(most).max(1);
+        let whole = |cycles: usize| Self {
+            rows,
+            block,
+            cycles: [cycles; 2],
+        };
+        let count = cycles.count();
+        let finest = (rows / count / PER_CYCLE).max(1);
+        if block == 1 || block <= finest {
+            return whole(count);
+        }
+        let edges = cycles.starts.iter().copied().skip(1).chain([rows]);
+        let fits = |edge: &usize| *edge <= most * finest;
+        let taken = edges.clone().take_while(fits).count().max(1);
+        let end = edges.clone().nth(taken - 1).unwrap_or(rows);
+        Self {
+            rows: end,
+            block: end.div_ceil(most).max(finest),
+            cycles: [taken, count],
+        }
+    }
+
+    /// How many cycles are fitted of how many, where that is not all.
+    pub fn sentence(&self) -> Option<String> {
+        let [taken, all] = self.cycles;
+        (taken < all).then(|| {
+            format!("of {all} cycles the first {taken} are fitted: averaging the rest down would mix cycles")
+        })
+    }
 }
 
 /// Ratio of the load's noise to the reading's below which it is negligible.
@@ -42,15 +106,19 @@ impl Observation {
         load.fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)))
     }
 
-    /// Prepares the first sensor of a file, averaged down to at most `most` rows.
+    /// Prepares the first sensor of a file, averaged down to at most `most` rows. Where averaging would
+    /// mix cycles, the first cycles are taken as they are, and the others left out and counted.
     pub fn of(file: &LoadCycle, most: usize) -> Self {
-        let block = file.load.len().div_ceil(most.max(4)).max(1);
-        Self::from_channels(
-            reduce(&file.time, block),
-            reduce(&file.load, block),
-            reduce(&file.deflection, block),
-            block,
-        )
+        let part = Part::of(&file.load, most);
+        let taken = |v: &[f64]| reduce(&v[..part.rows], part.block);
+        let mut data = Self::from_channels(
+            taken(&file.time),
+            taken(&file.load),
+            taken(&file.deflection),
+            part.block,
+        );
+        data.part = part;
+        data
     }
 
     /// Prepares channels that are at hand already.
@@ -61,6 +129,7 @@ impl Observation {
         block: usize,
     ) -> Self {
         let wild = repair(&load, &mut reading);
+        let reading_rows = reading.len() * block;
         let cycles = Cycles::find(&load);
         let stiffness = rough_stiffness(&load, &reading);
         let mut scene = Scene::new(time, load, stiffness, cycles.count());
@@ -71,6 +140,11 @@ impl Observation {
             reading,
             cycles,
             cosine,
+            part: Part {
+                rows: reading_rows,
+                block,
+                cycles: [0; 2],
+            },
             block,
             wild,
         }

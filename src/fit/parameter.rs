@@ -37,6 +37,18 @@ pub struct Identified {
     /// data allow (95 %).
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub limit95: Option<f64>,
+    /// What the standard error is made of, where the readings are not all of it.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub parts: Option<Parts>,
+}
+
+/// The parts of a standard error, in the parameter's unit; their squares add up.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Parts {
+    /// By the scatter of the readings.
+    pub readings: f64,
+    /// By the stated uncertainty of the levers, which no repetition takes away.
+    pub levers: f64,
 }
 
 /// 97.5 % point of the normal distribution.
@@ -55,6 +67,7 @@ impl Identified {
             status: Status::Identified,
             meaning: meaning.into(),
             limit95: None,
+            parts: None,
         }
     }
 
@@ -65,6 +78,7 @@ impl Identified {
             self.limit95 = self.ci95.map(|ci| ci[0].abs().max(ci[1].abs()));
         }
         (self.value, self.stderr, self.ci95, self.status) = (None, None, None, status);
+        self.parts = None;
         self
     }
 
@@ -73,6 +87,22 @@ impl Identified {
     pub fn limited(mut self, status: Status, limit: f64) -> Self {
         self.limit95 = (limit.is_finite() && limit > 0.0).then_some(limit);
         (self.value, self.stderr, self.ci95, self.status) = (None, None, None, status);
+        self.parts = None;
+        self
+    }
+
+    /// The same parameter with an independent relative standard deviation of the levers added.
+    #[must_use]
+    pub fn with_levers(mut self, relative: f64) -> Self {
+        if let (Some(value), Some(readings), Some([low, high])) =
+            (self.value, self.stderr, self.ci95)
+        {
+            let levers = relative * value.abs();
+            let half = |own: f64| own.hypot(Z95 * levers);
+            self.stderr = Some(readings.hypot(levers));
+            self.ci95 = Some([value - half(value - low), value + half(high - value)]);
+            self.parts = Some(Parts { readings, levers });
+        }
         self
     }
 

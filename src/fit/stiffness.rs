@@ -11,6 +11,8 @@ use crate::experiments::load_cycle::{enclosed, settled_cycle, straight_line};
 use crate::fit::candidates::Candidates;
 use crate::fit::screen::screen;
 use crate::fit::second::log_ratio;
+use crate::fit::suitability::load_cycle::doubts;
+use crate::fit::suitability::{Doubt, is_fatal, is_odd};
 use crate::measurement::load_cycle::{LEVER_REL_STD, LoadCycle};
 
 /// What is identified when nothing else is asked for.
@@ -51,7 +53,12 @@ pub struct Account {
     pub second: Option<(f64, f64)>,
     /// What needs attention, one sentence each.
     pub warnings: Vec<String>,
+    /// What is odd about the data.
+    pub doubts: Vec<Doubt>,
 }
+
+/// A ratio above this says no more than "far".
+const FAR_BEYOND: f64 = 1e4;
 
 /// Share of the deflection that a straight line may miss before it counts as no description.
 const NOT_STRAIGHT: f64 = 0.08;
@@ -62,8 +69,44 @@ pub fn identify(file: &LoadCycle, request: &Request) -> Account {
         true => moved(file),
         false => pressed(file, request),
     };
-    account.warnings = warnings(&account, file);
+    account.take_levers(file);
+    account.doubts = doubts(file);
+    if is_fatal(&account.doubts) {
+        account.withhold();
+    } else {
+        account.warnings = warnings(&account, file);
+    }
+    let said = account.doubts.iter().map(Doubt::sentence);
+    account.warnings.splice(0..0, said);
     account
+}
+
+impl Account {
+    /// Widens what stands over both levers by what is known of them.
+    fn take_levers(&mut self, file: &LoadCycle) {
+        let spread = file.facts.lever_spread();
+        let widened = |p: &Identified| match p.unit == file.port.stiffness_unit() && spread > 0.0 {
+            true => p.clone().with_levers(spread),
+            false => p.clone(),
+        };
+        self.parameters = self.parameters.iter().map(widened).collect();
+    }
+
+    /// Takes back every number: the data cannot carry one.
+    fn withhold(&mut self) {
+        let none = |p: &Identified| p.clone().without_value(Status::NotIdentifiable);
+        self.parameters = self.parameters.iter().map(none).collect();
+        self.parameters.iter_mut().for_each(|p| p.limit95 = None);
+        self.branches = None;
+        self.straight = f64::NAN;
+        self.second = None;
+        self.losses.clear();
+    }
+
+    /// Whether a stiffness is supported and nothing is odd about the data.
+    pub fn is_fine(&self) -> bool {
+        self.parameters[0].status == Status::Identified && !is_odd(&self.doubts)
+    }
 }
 
 /// The account of a test under imposed displacement.
@@ -79,6 +122,7 @@ fn moved(file: &LoadCycle) -> Account {
         straight: straight_line(&file.load, &file.deflection),
         second: None,
         warnings: Vec::new(),
+        doubts: Vec::new(),
         data: fitted.data,
         solution: fitted.solution,
     }
@@ -114,6 +158,7 @@ fn pressed(file: &LoadCycle, request: &Request) -> Account {
         straight,
         second,
         warnings: Vec::new(),
+        doubts: Vec::new(),
     }
 }
 
@@ -173,9 +218,13 @@ fn warnings(account: &Account, file: &LoadCycle) -> Vec<String> {
         ));
     }
     if account.solution.rms > 1.5 * account.noise_rms {
+        let times = account.solution.rms / account.noise_rms;
         said.push(format!(
-            "the model misses the readings by {:.1} times their noise: `ident diagnose {}` names the cause",
-            account.solution.rms / account.noise_rms,
+            "the model misses the readings by {} their noise: `ident diagnose {}` names the cause",
+            match times < FAR_BEYOND {
+                true => format!("{times:.1} times"),
+                false => "far more than".into(),
+            },
             file.path.display()
         ));
     }
@@ -187,18 +236,6 @@ fn warnings(account: &Account, file: &LoadCycle) -> Vec<String> {
                 100.0 * excess
             ));
         }
-    }
-    if !account.data.wild.is_empty() {
-        said.push(format!(
-            "{} lone wild readings were replaced by their neighbours",
-            account.data.wild.len()
-        ));
-    }
-    if file.left_out > 0 {
-        said.push(format!(
-            "{} of {} rows left out for an empty cell",
-            file.left_out, file.rows
-        ));
     }
     if account.parameters[0].status != Status::Identified {
         said.push("these data do not support a stiffness".into());

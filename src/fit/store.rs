@@ -106,7 +106,8 @@ impl StoredFit {
                         card.parameters.len()
                     ),
                     "let `ident stiffness` or `ident diagnose` write this file again",
-                ));
+                )
+                .at_line(1));
             }
             p.extend(own);
         }
@@ -127,13 +128,22 @@ impl StoredFit {
     pub fn read(path: &Path) -> Outcome<Self> {
         let bytes = files::read_bytes(path)?;
         let text = String::from_utf8(bytes).map_err(|_| {
-            Problem::new("is not UTF-8 text", "give a fit that `ident` wrote").in_file(path)
+            Problem::new("is not UTF-8 text", "give a fit that `ident` wrote")
+                .at_line(1)
+                .in_file(path)
         })?;
+        let line = |at: usize| {
+            1 + text.as_bytes()[..at.min(text.len())]
+                .iter()
+                .filter(|b| **b == b'\n')
+                .count()
+        };
         let fit: Self = toml::from_str(&text).map_err(|e| {
             Problem::new(
                 format!("is not a fit: {}", e.message().trim()),
                 "give a file that `ident stiffness` or `ident diagnose` wrote under fits/",
             )
+            .at_line(e.span().map_or(1, |span| line(span.start)))
             .in_file(path)
         })?;
         if fit.schema != SCHEMA {
@@ -144,6 +154,7 @@ impl StoredFit {
                 ),
                 "let this version fit the measurement again",
             )
+            .at_line(1)
             .in_file(path));
         }
         Ok(fit)

@@ -4,8 +4,10 @@
 use super::axis_tests::AxisTest;
 use super::compliance::{Prior, Refit, refit};
 use super::force_steps::{Setup, Stiffness, setups};
-use super::parameter::Z95;
+use super::parameter::{Identified, Status, Z95};
 use super::separability::{Group, groups, with_foundation};
+use super::suitability::workspace::doubts;
+use super::suitability::{Doubt, is_fatal, is_odd};
 use crate::experiments::workspace::Response;
 use crate::ground::problem::Outcome;
 use crate::measurement::workspace_test::{DIRECTIONS, WorkspaceTest};
@@ -38,6 +40,8 @@ pub struct Validation {
     pub groups: Vec<Group>,
     /// What needs attention, one sentence each.
     pub warnings: Vec<String>,
+    /// What is odd about the data.
+    pub doubts: Vec<Doubt>,
 }
 
 /// Spread of a nominal stiffness that nobody stated.
@@ -90,6 +94,7 @@ pub fn validate(test: &WorkspaceTest, robot: &Robot, tests: &[AxisTest]) -> Outc
         rigid_bearings,
         groups,
         warnings: Vec::new(),
+        doubts: doubts(test, Some(robot)),
     };
     validation.warnings = warnings(test, &validation, tests);
     Ok(validation)
@@ -154,6 +159,18 @@ pub fn mean_and_max(errors: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
 }
 
 impl Validation {
+    /// The re-identified stiffnesses; without a value where the data cannot carry one.
+    pub fn parameters(&self) -> Vec<Identified> {
+        let all = self.refit.parameters();
+        match is_fatal(&self.doubts) {
+            false => all,
+            true => all
+                .into_iter()
+                .map(|p| p.without_value(Status::NotIdentifiable))
+                .collect(),
+        }
+    }
+
     /// Mean and largest magnitude of the error of a simulated stiffness, %.
     pub fn errors(&self, of: fn(&Comparison) -> f64) -> Option<(f64, f64)> {
         mean_and_max(
@@ -181,7 +198,7 @@ const CONTRADICTION: f64 = 1e-3;
 const PULL: f64 = 3.5;
 
 fn warnings(test: &WorkspaceTest, found: &Validation, tests: &[AxisTest]) -> Vec<String> {
-    let mut said = Vec::new();
+    let mut said: Vec<String> = found.doubts.iter().map(Doubt::sentence).collect();
     if test.facts.setup_repeatability.is_none() {
         said.push("the file states no `setup_repeatability`: intervals hold the scatter of the readings only".into());
     }
@@ -247,5 +264,5 @@ fn contradictions(found: &Validation) -> Vec<String> {
 
 /// Whether anything needs attention: a contradiction, or a point without a stiffness.
 pub fn needs_attention(found: &Validation) -> bool {
-    unreadable(found).is_some() || !contradictions(found).is_empty()
+    unreadable(found).is_some() || !contradictions(found).is_empty() || is_odd(&found.doubts)
 }

@@ -2,20 +2,53 @@
 
 use super::problem::{Outcome, Problem};
 use sha2::{Digest, Sha256};
-use std::io::Write;
+use std::fs::File;
+use std::io::{Read, Write};
 use std::path::Path;
 use tempfile::NamedTempFile;
 
+/// Largest file that is read whole: robots, fits, universal files.
+const LARGEST: u64 = 1 << 30;
+
+/// Opens a regular file; its length in bytes. Devices and pipes never end, or never begin.
+///
+/// # Errors
+/// No such file, not readable, or not a regular file.
+pub fn open(path: &Path) -> Outcome<(File, u64)> {
+    let opened = || {
+        let about = std::fs::metadata(path)?;
+        if !about.is_file() && !about.is_dir() {
+            let what = "it is a device or a pipe, no regular file";
+            return Err(std::io::Error::new(std::io::ErrorKind::InvalidInput, what));
+        }
+        Ok((File::open(path)?, about.len()))
+    };
+    opened().map_err(|error| unreadable(&error).in_file(path))
+}
+
+fn unreadable(error: &std::io::Error) -> Problem {
+    let remedy = match error.kind() {
+        std::io::ErrorKind::NotFound => "check the path; no such file is there",
+        std::io::ErrorKind::PermissionDenied => "make the file readable for this user",
+        _ => "check that it is a regular, readable file",
+    };
+    Problem::new(format!("cannot be read ({error})"), remedy)
+}
+
 /// The bytes of a file, or a problem naming it.
+///
+/// # Errors
+/// As [`open`], and files above a gibibyte.
 pub fn read_bytes(path: &Path) -> Outcome<Vec<u8>> {
-    std::fs::read(path).map_err(|error| {
-        let remedy = match error.kind() {
-            std::io::ErrorKind::NotFound => "check the path; `ident` reads it from here",
-            std::io::ErrorKind::PermissionDenied => "make the file readable for this user",
-            _ => "check that it is a regular, readable file",
-        };
-        Problem::new(format!("cannot be read ({error})"), remedy).in_file(path)
-    })
+    let (file, bytes) = open(path)?;
+    if bytes > LARGEST {
+        let what = format!("has {bytes} bytes, more than are read at once");
+        return Err(Problem::new(what, "give a file below 1 GiB").in_file(path));
+    }
+    let mut content = Vec::new();
+    let read = file.take(LARGEST).read_to_end(&mut content);
+    read.map_err(|error| unreadable(&error).in_file(path))?;
+    Ok(content)
 }
 
 /// SHA-256 as 64 hex digits.
@@ -56,14 +89,49 @@ fn stage(path: &Path, content: &[u8]) -> std::io::Result<NamedTempFile> {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
     std::fs::create_dir_all(folder)?;
+    sweep(folder);
     let mut file = tempfile::Builder::new()
-        .prefix(".ident-")
+        .prefix(&format!("{TEMPORARY}{}-", std::process::id()))
         .suffix(".tmp")
         .tempfile_in(folder)?;
     file.write_all(content)?;
     file.as_file().sync_all()?;
     set_plain_permissions(file.as_file())?;
     Ok(file)
+}
+
+/// Start of the names of temporary files; the number of the process that writes them follows.
+const TEMPORARY: &str = ".ident-";
+/// Age beyond which a temporary file has no writer any more, where processes cannot be asked.
+const STALE: std::time::Duration = std::time::Duration::from_secs(24 * 3600);
+
+/// Removes what killed runs left in a folder; nothing can be done if that fails.
+fn sweep(folder: &Path) {
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name().to_string_lossy().to_string();
+        let inner = name
+            .strip_prefix(TEMPORARY)
+            .and_then(|n| n.strip_suffix(".tmp"));
+        if inner.is_some_and(|inner| is_abandoned(inner, &entry)) {
+            let _ = std::fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Whether nobody writes a temporary file any more.
+fn is_abandoned(inner: &str, entry: &std::fs::DirEntry) -> bool {
+    let process = inner.split('-').next().and_then(|n| n.parse::<u32>().ok());
+    match process {
+        Some(own) if own == std::process::id() => false,
+        Some(other) if Path::new("/proc/self").exists() => {
+            !Path::new(&format!("/proc/{other}")).exists()
+        }
+        _ => {
+            let written = entry.metadata().and_then(|about| about.modified());
+            let age = written.ok().and_then(|at| at.elapsed().ok());
+            age.is_some_and(|age| age > STALE)
+        }
+    }
 }
 
 #[cfg(unix)]

@@ -4,10 +4,10 @@
 pub mod cholesky;
 pub mod dual;
 pub mod files;
+pub mod nearest;
 pub mod problem;
 pub mod random;
 pub mod spatial;
 pub mod trig;
 pub mod units;
 pub mod vector;
-pub mod words;

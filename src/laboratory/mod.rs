@@ -1,4 +1,4 @@
-//! Floor 7: the virtual laboratory. Campaigns with known truth, hidden effects, blind sets.
+//! Floor 8: the virtual laboratory. Campaigns with known truth, hidden effects, blind sets.
 
 pub mod blind;
 pub mod hammer_blow;

@@ -1,6 +1,9 @@
 //! Front matter: the leading `#` lines of a measurement file, one TOML document.
 
+use super::foreign::Sidecar;
+use crate::ground::nearest::nearest;
 use crate::ground::problem::{Outcome, Problem};
+use std::collections::BTreeSet;
 use toml::{Table, Value};
 
 /// The facts a file carries about itself.
@@ -9,17 +12,36 @@ pub struct Front {
     /// The parsed TOML document.
     pub facts: Table,
     text: String,
+    /// Keys that all files of the folder share.
+    shared: BTreeSet<String>,
 }
 
 /// Magnitudes of facts: beyond them products with measured values leave the numbers.
 const SMALLEST: f64 = 1e-30;
 const LARGEST: f64 = 1e30;
 
+/// Facts that every kind knows.
+const COMMON: &[&str] = &[
+    "kind",
+    "source",
+    "synthetic",
+    "notes",
+    "robot",
+    "role",
+    "columns",
+    "skip_rows",
+    "encoding",
+];
+
 impl Front {
     /// Parses the text behind the `#` signs; line n of `text` is line n of the file.
     pub fn parse(text: String) -> Outcome<Self> {
         match text.parse::<Table>() {
-            Ok(facts) => Ok(Self { facts, text }),
+            Ok(facts) => Ok(Self {
+                facts,
+                text,
+                shared: BTreeSet::new(),
+            }),
             Err(error) => Err(Self::broken(&text, &error)),
         }
     }
@@ -36,6 +58,19 @@ impl Front {
             "write each fact as `# key = value`, text in double quotes",
         )
         .at_line(line)
+    }
+
+    /// Takes over facts from beside the file, where the file does not state them itself.
+    pub fn inherit(&mut self, sidecar: Sidecar) {
+        for (key, value) in sidecar.facts {
+            self.facts.entry(key).or_insert(value);
+        }
+        for (key, value) in sidecar.shared {
+            if !self.facts.contains_key(&key) {
+                self.shared.insert(key.clone());
+                self.facts.insert(key, value);
+            }
+        }
     }
 
     /// 1-based line of the file on which `key` is set.
@@ -60,7 +95,7 @@ impl Front {
         let problem = Problem::new(what, remedy).in_column(key);
         match self.line_of(key) {
             Some(line) => problem.at_line(line),
-            None => problem,
+            None => problem.at_line(1),
         }
     }
 
@@ -141,6 +176,28 @@ impl Front {
             )
             .at_line(1)),
         }
+    }
+
+    /// Refuses facts that the kind does not know: a misspelt fact would count as left out.
+    ///
+    /// # Errors
+    /// The first unknown fact, with the nearest known one.
+    pub fn only(&self, known: &[&str]) -> Outcome<()> {
+        let all = [COMMON, known].concat();
+        let unknown = |key: &&String| !all.contains(&key.as_str()) && !self.shared.contains(*key);
+        let Some(key) = self.facts.keys().find(unknown) else {
+            return Ok(());
+        };
+        let remedy = match nearest(key, &all) {
+            Some(near) => {
+                format!("write `{near}`, or put what is free into `notes = {{ {key} = .. }}`")
+            }
+            None => format!(
+                "put what is free into `notes = {{ {key} = .. }}`; known here: {}",
+                all.join(", ")
+            ),
+        };
+        Err(self.problem(key, "is no fact of this kind", remedy))
     }
 
     /// A list of finite numbers, if given.

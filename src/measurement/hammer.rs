@@ -53,8 +53,23 @@ pub fn read_hammer(path: &Path) -> Outcome<HammerRecord> {
     from_table(&Table::read(path)?).map_err(|problem| problem.in_file(path))
 }
 
+/// The facts of this kind, as they are written.
+const FACTS: &[&str] = &[
+    "joint_angles_deg",
+    "accelerometer_noise_m_s2",
+    "nominal_stiffness_rel_std",
+    "exponential_window_s",
+    "mass_rel_std",
+    "com_std_m",
+    "inertia_rel_std",
+    "damping_rel_std",
+    "gain_rel_std",
+    "condition",
+];
+
 fn from_table(table: &Table) -> Outcome<HammerRecord> {
     check_kind(&table.front)?;
+    table.front.only(FACTS)?;
     let time = required(table, "time_s", Dimension::Time)?;
     let force = required(table, "force_N", Dimension::Force)?;
     let outputs = outputs(table)?;
@@ -108,14 +123,17 @@ fn numbers<'a>(
             format!("does not measure what a hammer test needs in `{stem}`"),
             format!("give this column the unit of `{name}`"),
         )
-        .in_column(&column.name)),
+        .in_column(&column.name)
+        .at_line(table.first_line - 1)),
     }
 }
 
 fn required<'a>(table: &'a Table, name: &str, dimension: Dimension) -> Outcome<&'a [f64]> {
     let found = numbers(table, name, dimension)?.map(|(_, values)| values);
     found.ok_or_else(|| {
-        Problem::new("column is missing", format!("add the column `{name}`")).in_column(name)
+        Problem::new("column is missing", format!("add the column `{name}`"))
+            .in_column(name)
+            .at_line(table.first_line - 1)
     })
 }
 

@@ -7,6 +7,16 @@ use crate::ground::problem::{Outcome, Problem};
 use crate::ground::units::Dimension;
 use std::path::{Path, PathBuf};
 
+/// The facts of this kind, as they are written.
+const FACTS: &[&str] = &[
+    "gear_ratio",
+    "encoder_delay_s",
+    "sensor_delay_s",
+    "nominal_stiffness_Nm_rad",
+    "nominal_stiffness_rel_std",
+    "encoder_zero_std_deg",
+];
+
 /// The facts of a file, SI.
 #[derive(Debug, Clone, Default)]
 pub struct Facts {
@@ -95,6 +105,7 @@ impl JointMotion {
     /// As [`Self::read`].
     pub fn from_table(table: Table) -> Outcome<Self> {
         table.front.expect_kind("joint-motion")?;
+        table.front.only(FACTS)?;
         let numbers = joints_of(&table)?;
         check_time(&table)?;
         let lists = Lists::of(&table.front, numbers.len())?;

@@ -1,9 +1,9 @@
 //! A TOML file read key by key: everything knows its line, and an unknown key is refused with the
 //! nearest known one.
 
+use crate::ground::nearest::nearest;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::vector::V3;
-use crate::ground::words::nearest;
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};

@@ -1,6 +1,8 @@
 //! What the leading lines of a CSV file say, read without its rows.
 
+use super::foreign::Sidecar;
 use super::front::Front;
+use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
@@ -15,15 +17,24 @@ pub fn fact_of(path: &Path, name: &str) -> Outcome<Option<String>> {
     Ok(front_of(path)?.text(name)?.map(str::to_string))
 }
 
-/// The front matter of a CSV file; only its leading lines are read.
+/// The front matter of a CSV file with the facts beside it; only its leading lines are read.
 pub fn front_of(path: &Path) -> Outcome<Front> {
+    let mut front = own_front(path)?;
+    front.inherit(Sidecar::beside(path)?);
+    Ok(front)
+}
+
+fn own_front(path: &Path) -> Outcome<Front> {
     let unreadable = |e: std::io::Error| {
         Problem::new(
             format!("cannot be read ({e})"),
             "make it a readable file, or move it away",
         )
     };
-    let file = std::fs::File::open(path).map_err(unreadable)?;
+    let (file, _) = files::open(path).map_err(|problem| Problem {
+        file: None,
+        ..problem
+    })?;
     let mut text = String::new();
     for line in BufReader::new(file.take(1 << 20)).split(b'\n') {
         let line = String::from_utf8_lossy(&line.map_err(unreadable)?).to_string();

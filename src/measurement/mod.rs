@@ -1,7 +1,11 @@
 //! Floor 1: what a laboratory wrote down. Reads tables with front matter into SI columns, then the
 //! experiment kinds of `measurements/README.md`, refusing with file, line and remedy.
 
+pub mod cubes;
 pub mod cycles;
+mod facts;
+pub mod force_sensor;
+pub mod foreign;
 pub mod front;
 pub mod hammer;
 pub mod hammer_uff;
@@ -10,6 +14,8 @@ pub mod joint_motion;
 pub mod keys;
 pub mod leading;
 pub mod load_cycle;
+pub mod pitch_table;
+pub mod screw;
 pub mod table;
 pub mod toolpath;
 pub mod uff;

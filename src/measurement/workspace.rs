@@ -1,6 +1,7 @@
 //! A workspace on disk: `measurements/<campaign>/`, `fits/<campaign>/`, `reports/<campaign>/`.
 
 use super::leading::kind_of;
+use crate::ground::nearest::nearest;
 use crate::ground::problem::{Outcome, Problem};
 use std::path::{Path, PathBuf};
 
@@ -12,6 +13,11 @@ pub struct Place {
     /// Name of the campaign; empty for a file outside `measurements/`.
     pub campaign: String,
 }
+
+/// Names of results that no measurement may take.
+const RESERVED: &[&str] = &["robot", "extended-robot"];
+/// Endings of files that hold measurements.
+const MEASURED: &[&str] = &["csv", "txt", "dat", "uff", "unv"];
 
 impl Place {
     /// The place of a measurement file: its campaign if it lies under `measurements/`, else the
@@ -105,6 +111,63 @@ impl Place {
     /// Folder of the fits.
     pub fn fits(&self) -> PathBuf {
         self.root.join("fits").join(&self.campaign)
+    }
+
+    /// Refuses a measurement whose results would carry the name of another result: the identified robot,
+    /// or the extended model of another measurement.
+    ///
+    /// # Errors
+    /// Such a name, with what it would overwrite.
+    pub fn nameable(path: &Path) -> Outcome<()> {
+        let stem = path
+            .file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .to_string();
+        let over = match stem.strip_suffix("-extended") {
+            Some(_) => Some("the extended model of another measurement"),
+            None if RESERVED.contains(&stem.as_str()) => Some("the robot of the campaign"),
+            None => None,
+        };
+        match over {
+            None => Ok(()),
+            Some(over) => Err(Problem::new(
+                format!("its fit would overwrite {over}"),
+                "rename the measurement",
+            )
+            .in_file(path)),
+        }
+    }
+
+    /// The CSV files of the campaign that none of these kinds takes, and why.
+    pub fn passed_over(&self, kinds: &[&str]) -> Vec<(PathBuf, String)> {
+        let entries = std::fs::read_dir(self.measurements())
+            .into_iter()
+            .flatten()
+            .flatten();
+        let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+        files.retain(|path| {
+            path.is_file()
+                && path
+                    .extension()
+                    .is_some_and(|e| MEASURED.iter().any(|m| e.eq_ignore_ascii_case(m)))
+        });
+        files.sort();
+        let why = |path: &PathBuf| match kind_of(path) {
+            Ok(Some(kind)) if kinds.contains(&kind.as_str()) => None,
+            Ok(Some(kind)) => Some(match nearest(&kind, kinds) {
+                Some(near) => {
+                    format!("is of kind `{kind}`, which no step takes; perhaps `{near}` is meant")
+                }
+                None => format!("is of kind `{kind}`, which no step takes"),
+            }),
+            Ok(None) => Some("does not say its kind".into()),
+            Err(problem) => Some(problem.what),
+        };
+        files
+            .into_iter()
+            .filter_map(|path| Some((path.clone(), why(&path)?)))
+            .collect()
     }
 
     /// Folder of the reports.

@@ -76,6 +76,7 @@ impl WorkspaceTest {
     /// As [`WorkspaceTest::read`].
     pub fn from_table(table: Table) -> Outcome<Self> {
         table.front.expect_kind("workspace")?;
+        table.front.only(FACTS)?;
         let facts = Facts::of(&table.front)?;
         let steps = Channels::of(&table)?.steps(&table, facts.joint_angles.len())?;
         if steps.is_empty() {
@@ -125,6 +126,14 @@ impl Facts {
         })
     }
 }
+
+/// The facts of this kind, as they are written.
+const FACTS: &[&str] = &[
+    ANGLES,
+    "nominal_stiffness_rel_std",
+    "setup_repeatability",
+    "sensor_noise_mm",
+];
 
 /// A relative standard deviation; 1 and more is a percentage by mistake.
 fn fraction(front: &Front, key: &str) -> Outcome<Option<f64>> {

@@ -1,6 +1,6 @@
 //! The law of time along a path: travels between halts, and turns on the spot.
 
-use super::build::{Path, Part, Piece, Side};
+use super::build::{Part, Path, Piece, Side};
 use super::double_s::{Limits, Phase};
 use super::element::SpotTurn;
 use super::profile::{Step, append, lower, profile};
@@ -194,7 +194,9 @@ fn at(phases: &[Phase], phase: usize, t: f64) -> [f64; 3] {
 }
 
 fn end_of(phases: &[Phase], begin: f64) -> f64 {
-    phases.last().map_or(begin, |last| last.begin + last.duration)
+    phases
+        .last()
+        .map_or(begin, |last| last.begin + last.duration)
 }
 
 /// The steps between two arc lengths.

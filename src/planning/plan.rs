@@ -101,7 +101,9 @@ impl Unreached {
             None => String::new(),
         };
         Problem::new(
-            format!("the robot cannot reach the way to this point, at ({x:.3}, {y:.3}, {z:.3}) mm{far}"),
+            format!(
+                "the robot cannot reach the way to this point, at ({x:.3}, {y:.3}, {z:.3}) mm{far}"
+            ),
             "place the part nearer with [workpiece], or turn the tool another way",
         )
         .at_line(self.line)
@@ -110,7 +112,11 @@ impl Unreached {
     /// The refusal as a limit exceeded.
     pub fn exceeded(&self) -> Exceeded {
         let reach = self.miss.reach.map(|[least, most]| {
-            if self.miss.needed < least { least } else { most }
+            if self.miss.needed < least {
+                least
+            } else {
+                most
+            }
         });
         Exceeded {
             what: "reach",
@@ -154,7 +160,12 @@ pub fn plan(job: &Job, toolpath: &Toolpath, robot: &Robot) -> Outcome<Result<Pla
     };
     let joints = uses(&cell, &rows, job.cycle);
     let exceeded = exceeded(&cell, &rows, &joints, |s| path.line(s));
-    let feed = feed_use(&path, &timeline, &asked, feeds.feed.unwrap_or(feeds.fallback));
+    let feed = feed_use(
+        &path,
+        &timeline,
+        &asked,
+        feeds.feed.unwrap_or(feeds.fallback),
+    );
     Ok(Ok(Plan {
         passages: passages(&cell, &rows),
         cycle: job.cycle,
@@ -295,7 +306,10 @@ fn feed_use(path: &Path, timeline: &Timeline, asked: &[Step], feed: f64) -> Feed
     });
     let (mut held, mut least) = (0.0, f64::INFINITY);
     for phases in travels {
-        held += phases.iter().map(|phase| held_length(phase, asked)).sum::<f64>();
+        held += phases
+            .iter()
+            .map(|phase| held_length(phase, asked))
+            .sum::<f64>();
         least = least.min(lowest(phases));
     }
     FeedUse {

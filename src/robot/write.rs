@@ -9,6 +9,15 @@ use crate::ground::spatial::IDENTITY;
 use crate::ground::units::DEGREE;
 use std::fmt::Write;
 
+/// The same for a robot that measurements extended, labelled where these were simulated.
+pub fn labelled(robot: &Robot, synthetic: bool) -> String {
+    let label = match synthetic {
+        true => "# synthetic: extended from simulated measurements\n",
+        false => "",
+    };
+    format!("{label}{}", write(robot))
+}
+
 /// The robot as TOML text; [`super::file::read`] gives the same robot back (angles to rounding).
 pub fn write(robot: &Robot) -> String {
     let mut out = String::new();

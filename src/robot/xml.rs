@@ -77,10 +77,17 @@ pub(super) fn parse(text: &str) -> Outcome<Document> {
         let line = || line_at(text, reader.buffer_position());
         match event {
             Ok(Event::Start(tag)) => {
+                if open.len() >= DEEPEST {
+                    return Err(too_deep().at_line(line()));
+                }
+                whole(&tag).map_err(|problem| problem.at_line(line()))?;
                 take(&mut document, &open, &tag, &line)?;
                 open.push(tag.name().0.to_string());
             }
-            Ok(Event::Empty(tag)) => take(&mut document, &open, &tag, &line)?,
+            Ok(Event::Empty(tag)) => {
+                whole(&tag).map_err(|problem| problem.at_line(line()))?;
+                take(&mut document, &open, &tag, &line)?;
+            }
             Ok(Event::End(_)) => drop(open.pop()),
             Ok(Event::Comment(comment)) => document.comments.push(comment.trim().to_string()),
             Ok(Event::Eof) => return complete(document, &open),
@@ -88,6 +95,24 @@ pub(super) fn parse(text: &str) -> Outcome<Document> {
             Err(error) => return Err(broken(&error.to_string()).at_line(line())),
         }
     }
+}
+
+/// A URDF nests a handful of elements.
+const DEEPEST: usize = 64;
+
+fn too_deep() -> Problem {
+    Problem::new(
+        format!("elements are nested more than {DEEPEST} deep"),
+        "a URDF is <robot> with <link> and <joint> elements",
+    )
+}
+
+/// Refuses a tag one of whose attributes is malformed or doubled: it would be dropped.
+fn whole(tag: &BytesStart) -> Outcome<()> {
+    for attribute in tag.attributes() {
+        attribute.map_err(|error| broken(&format!("<{}>: {error}", tag.name().0)))?;
+    }
+    Ok(())
 }
 
 fn broken(error: &str) -> Problem {
@@ -103,6 +128,14 @@ fn complete(document: Document, open: &[String]) -> Outcome<Document> {
             format!("the file ends inside <{tag}>"),
             "the URDF is cut off: copy it again",
         ));
+    }
+    let joints = document.joints.iter().map(|j| (&j.name, j.line));
+    let mut seen = std::collections::HashSet::new();
+    for (name, line) in joints {
+        if !seen.insert(name) {
+            let what = format!("the joint `{name}` occurs twice");
+            return Err(Problem::new(what, "give every joint its own name").at_line(line));
+        }
     }
     match document.links.is_empty() {
         true => Err(Problem::new(

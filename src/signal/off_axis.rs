@@ -21,6 +21,9 @@ pub fn angle(hit: &Column, own: &Column, across: &[&Column]) -> Option<(f64, f64
         .collect();
     let target = DVector::from_vec(flattened(hit));
     let basis = DMatrix::from_fn(target.len(), columns.len(), |i, j| columns[j][i]);
+    if basis.is_empty() {
+        return None;
+    }
     let cosines = basis.clone().svd(true, true).solve(&target, 1e-6).ok()?;
     let sideways = cosines.iter().skip(1).map(|c| c * c).sum::<f64>().sqrt();
     let freedom = target.len().checked_sub(columns.len() + 1)? as f64;

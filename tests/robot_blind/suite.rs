@@ -39,18 +39,10 @@ pub fn per_kind(default: u64) -> u64 {
     number("IDENT_BLIND_ROBOT_CASES").unwrap_or(default)
 }
 
-/// True where thresholds are to hold: `IDENT_BLIND_ROBOT_JUDGE=1`.
-pub fn judging() -> bool {
-    number("IDENT_BLIND_ROBOT_JUDGE").unwrap_or(0) > 0
-}
-
-/// Fixed seeds and seeds of the day in turn; `IDENT_BLIND_SEED` stands for the day.
+/// Fixed seeds; `IDENT_BLIND_SEED` asks for others (the evidence is taken with those of a day).
 pub fn seeds(count: u64) -> Vec<u64> {
-    let now = std::time::SystemTime::now();
-    let day = now.duration_since(std::time::UNIX_EPOCH).unwrap().as_secs() / 86_400;
-    let base = number("IDENT_BLIND_SEED").unwrap_or(day) * 10_000;
-    let seed = |i| if i % 2 == 0 { i } else { base + i };
-    (0..count).map(seed).collect()
+    let base = number("IDENT_BLIND_SEED").unwrap_or(0) * 10_000;
+    (0..count).map(|i| base + i).collect()
 }
 
 /// Every kind with its seeds: singles and unknowns `count` times, clean and pairs three times that;
@@ -166,7 +158,7 @@ fn times(all: &[Judged]) {
     ));
 }
 
-/// Prints everything; holds the floors where thresholds are to hold.
+/// Prints everything; holds the floors where every kind was asked.
 pub fn conclude(name: &str, all: &[Judged], floors: &Floors) {
     if all.is_empty() {
         return say(&format!("{name}: no case of this kind"));
@@ -190,14 +182,12 @@ pub fn conclude(name: &str, all: &[Judged], floors: &Floors) {
     failed
         .iter()
         .for_each(|why| say(&format!("first failure: {}", why.trim())));
-    if judging() {
-        assert!(single >= floors.single, "single causes named right");
-        assert!(pair >= floors.pair, "pairs named right");
-        assert!(wrong <= floors.wrong, "wrong causes");
-        assert!(
-            alarms <= floors.alarms && failed.is_none(),
-            "false alarms and failures"
-        );
-        assert!(flagged >= floors.unknown, "effects outside the library");
-    }
+    assert!(single >= floors.single, "single causes named right");
+    assert!(pair >= floors.pair, "pairs named right");
+    assert!(wrong <= floors.wrong, "wrong causes");
+    assert!(
+        alarms <= floors.alarms && failed.is_none(),
+        "false alarms and failures"
+    );
+    assert!(flagged >= floors.unknown, "effects outside the library");
 }

@@ -4,6 +4,8 @@ use super::Arguments;
 use crate::cli::output::tell;
 use crate::experiments::hammer_frf::Settings;
 use crate::fit::damping::{Test, test};
+use crate::fit::suitability::Doubt;
+use crate::fit::suitability::hammer::{doubts, refuse};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::units::DEGREE;
 use crate::measurement::hammer::HammerRecord;
@@ -41,7 +43,7 @@ pub fn read(arguments: &Arguments, settings: &Settings) -> Outcome<Input> {
     let robot = robot(arguments, &place, &taken)?;
     let tests: Vec<Outcome<Test>> = taken
         .into_par_iter()
-        .map(|(record, path)| test(&path, record, settings))
+        .map(|(record, path)| passed(&path, record, settings))
         .collect();
     Ok(Input {
         tests: tests.into_iter().collect::<Outcome<Vec<_>>>()?,
@@ -49,6 +51,16 @@ pub fn read(arguments: &Arguments, settings: &Settings) -> Outcome<Input> {
         place,
         passed_over: left.into_iter().map(|(_, path)| path).collect(),
     })
+}
+
+/// A test that passes the gate: what is odd about it stands among its remarks.
+fn passed(path: &Path, record: HammerRecord, settings: &Settings) -> Outcome<Test> {
+    let doubts = doubts(&record);
+    refuse(&doubts).map_err(|problem| problem.in_file(path))?;
+    let mut test = test(path, record, settings)?;
+    let odd = doubts.iter().map(Doubt::sentence);
+    test.frf.remarks.extend(odd);
+    Ok(test)
 }
 
 type Records = Vec<(HammerRecord, PathBuf)>;

@@ -13,12 +13,16 @@ use super::output::{print, tell};
 use super::{Ending, Verb, arguments, from_words, parsed};
 use crate::experiments::hammer_force::ForceWindow;
 use crate::experiments::hammer_frf::Settings;
-use crate::fit::damping::{Request, identify};
+use crate::fit::damping::{Account, Request, identify};
 use crate::fit::frf_robot::Released;
 use crate::fit::frf_tuning::Residuals;
+use crate::fit::parameter::{Identified, Status};
+use crate::fit::suitability::hammer::doubts;
+use crate::fit::suitability::is_fatal;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::workspace::Place;
 use crate::report::json;
+use crate::robot::Robot;
 use clap::{ArgMatches, Args, ValueEnum};
 use result::Damped;
 use std::path::PathBuf;
@@ -116,13 +120,31 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
 fn act(arguments: &Arguments) -> Outcome<Damped> {
     let request = request(arguments)?;
     let input = input::read(arguments, &request.settings)?;
-    let account = identify(&input.tests, &input.robot.robot, &request)
+    let mut account = identify(&input.tests, &input.robot.robot, &request)
         .map_err(|problem| problem.in_file(&PathBuf::from(&input.robot.path)))?;
+    if input
+        .tests
+        .iter()
+        .any(|test| is_fatal(&doubts(&test.record)))
+    {
+        withhold(&mut account, &input.robot.robot);
+    }
     Ok(Damped {
         input,
         request,
         account,
     })
+}
+
+/// Takes back every number: the records cannot carry one.
+fn withhold(account: &mut Account, robot: &Robot) {
+    let none = |p: Identified| p.without_value(Status::NotIdentifiable);
+    account.parameters = std::mem::take(&mut account.parameters)
+        .into_iter()
+        .map(none)
+        .collect();
+    account.supported = false;
+    account.robot = robot.clone();
 }
 
 /// Tunes the dampings with every hammer test of a campaign, and writes what that found.

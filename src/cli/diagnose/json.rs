@@ -3,6 +3,7 @@
 use crate::findings::Answer;
 use crate::findings::gain::Gain;
 use crate::findings::sentence::sentence;
+use crate::fit::suitability::Doubt;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
@@ -40,8 +41,20 @@ pub fn body(found: &Answer, synthetic: bool, model: Option<&Path>) -> Map<String
         .iter()
         .map(|(c, p, n)| json!({"effects": c, "probability": p, "nats": n}));
     put("candidates", Value::Array(candidates.collect()));
+    put("doubts", doubts_json(&found.doubts));
     put("model", json!(model.map(|path| path.display().to_string())));
     map
+}
+
+/// What is odd about the data.
+pub fn doubts_json(doubts: &[Doubt]) -> Value {
+    let one = |doubt: &Doubt| {
+        json!({
+            "rule": doubt.rule, "weight": doubt.weight.name(),
+            "what": doubt.what, "remedy": doubt.remedy,
+        })
+    };
+    Value::Array(doubts.iter().map(one).collect())
 }
 
 fn gain_json(gain: &Gain) -> Value {

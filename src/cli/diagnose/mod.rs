@@ -1,32 +1,23 @@
 //! `ident diagnose`: what the simulation gets wrong, and why.
 
-mod base;
 mod campaign;
-mod extended;
-mod hammer;
-mod hammer_figures;
-mod joint_motion;
 mod json;
-mod kind;
-mod load_cycle;
 mod next;
 mod page;
 mod tables;
-mod workspace;
-mod workspace_figures;
 
 use super::output::{print, tell};
 use super::progress::Progress;
 use super::run::place;
 use super::{Ending, Verb, arguments, parsed};
-use crate::findings::{Verdict, sentence::sentences};
+use crate::findings::kinds::{Diagnosed, kind, load_cycle};
+use crate::findings::sentence::sentences;
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::workspace::{Place, resolve};
 use crate::report::{folder, html, svg, text};
 use crate::sheet::page::file;
 use clap::{ArgMatches, Args};
-use kind::{Diagnosed, kind};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
@@ -63,6 +54,7 @@ struct Arguments {
 }
 
 pub use campaign::chapter;
+pub use json::doubts_json;
 
 /// One file, diagnosed.
 pub struct One {
@@ -100,7 +92,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
         false => as_text(&results, arguments.dry_run)?,
     };
     print(&said)?;
-    let fine = |one: &One| one.found.answer().verdict == Verdict::Sufficient;
+    let fine = |one: &One| one.found.answer().is_fine();
     Ok(match results.iter().all(fine) {
         true => Ending::Done,
         false => Ending::Attention,
@@ -147,6 +139,9 @@ impl One {
             .place
             .fits()
             .join(format!("{}-extended.toml", self.stem()));
+        if self.found.answer().is_withheld() {
+            return Ok(None);
+        }
         Ok(self.found.model()?.map(|text| (path, text)))
     }
 
@@ -217,6 +212,9 @@ fn whole(place: &Place, arguments: &Arguments) -> Outcome<Ending> {
 }
 
 fn write(results: &[One], more: Vec<(PathBuf, String)>) -> Outcome<()> {
+    results
+        .iter()
+        .try_for_each(|one| Place::nameable(one.path()))?;
     let inked: Vec<Vec<(PathBuf, String)>> =
         results.par_iter().map(One::files).collect::<Outcome<_>>()?;
     let all = [inked.concat(), more].concat();

@@ -1,8 +1,8 @@
 //! The report of an answer: what is wrong, why, how sure, what it gained, what remains, what to
 //! measure next.
 
-use super::kind::Diagnosed;
 use super::tables::{candidates_table, causes_table};
+use crate::findings::kinds::Diagnosed;
 use crate::findings::sentence::{candidates, left, sentences};
 use crate::findings::{Answer, Verdict};
 use crate::sheet::page::{Block, Page, Tone};

@@ -1,6 +1,8 @@
 //! The account of hammer tests.
 
 use super::{Account, degrees, range, span, title};
+use crate::fit::suitability::Doubt;
+use crate::fit::suitability::hammer::doubts;
 use crate::ground::problem::Outcome;
 use crate::measurement::hammer::{HammerRecord, HammerRun};
 use crate::measurement::hammer_uff::read_any;
@@ -176,5 +178,6 @@ fn odd(record: &HammerRecord, directions: &[Direction]) -> Vec<String> {
             odd.push(format!("a record along {} holds no force", own.name));
         }
     }
+    odd.extend(doubts(record).iter().map(Doubt::sentence));
     odd
 }

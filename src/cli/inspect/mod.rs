@@ -2,11 +2,13 @@
 
 mod hammer;
 mod load_cycle;
+mod table;
 mod universal;
 mod workspace;
 
 use super::output::{print, tell};
 use super::{Ending, Verb, arguments, parsed};
+use crate::findings::kinds::KINDS;
 use crate::ground::problem::Outcome;
 use crate::measurement::hammer_uff::is_universal;
 use crate::measurement::leading::{front_of, kind_of};
@@ -26,7 +28,7 @@ pub const VERB: Verb = Verb {
 
 #[derive(Args)]
 struct Arguments {
-    /// A measurement file: load-cycle, workspace or hammer
+    /// A measurement file of any kind
     file: PathBuf,
     /// Print one JSON document
     #[arg(long)]
@@ -45,12 +47,15 @@ struct Account {
 
 type Reader = fn(&Path) -> Outcome<Account>;
 
-/// The kinds that can be looked at.
-const KINDS: &[(&str, Reader)] = &[
+/// The kinds with an account of their own; of every other kind that a verb knows, the columns are told.
+const OWN: &[(&str, Reader)] = &[
     ("load-cycle", load_cycle::account),
     ("workspace", workspace::account),
     ("hammer", hammer::account),
 ];
+
+/// Kinds that `ident` writes, and paths: nothing diagnoses them, and they can be looked at.
+const WRITTEN: &[&str] = &["path", "trajectory", "course"];
 
 fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let arguments: Arguments = parsed(matches);
@@ -80,9 +85,19 @@ fn reader(path: &Path) -> Outcome<Reader> {
     let Some(kind) = kind_of(path).ok().flatten() else {
         return Ok(load_cycle::account);
     };
-    let found = KINDS.iter().find(|(name, _)| *name == kind);
-    found.map(|(_, reader)| *reader).ok_or_else(|| {
-        let known: Vec<&str> = KINDS.iter().map(|(name, _)| *name).collect();
+    let known: Vec<&str> = KINDS
+        .iter()
+        .map(|kind| kind.0)
+        .chain(WRITTEN.iter().copied())
+        .collect();
+    let own = OWN
+        .iter()
+        .find(|(name, _)| *name == kind)
+        .map(|(_, reader)| *reader);
+    let plain = known
+        .contains(&kind.as_str())
+        .then_some(table::account as Reader);
+    own.or(plain).ok_or_else(|| {
         let what = format!("is of kind `{kind}`, which `inspect` does not know");
         let remedy = format!(
             "it knows {}; correct `# kind`, if it is one of them",

@@ -1,9 +1,13 @@
 //! The account of force steps at points of the workspace.
 
 use super::{Account, degrees, range, span, title};
+use crate::experiments::workspace::fits;
+use crate::fit::suitability::Doubt;
+use crate::fit::suitability::workspace::doubts;
 use crate::ground::problem::Outcome;
 use crate::measurement::workspace_test::{DIRECTIONS, Step, WorkspaceTest};
 use crate::report::json;
+use crate::robot::load::load;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -164,5 +168,9 @@ fn odd(test: &WorkspaceTest, setups: &[Setup]) -> Vec<String> {
     );
     say(of(|s| s.steps < FEWEST_STEPS), "fewer than 3 steps");
     say(of(|s| s.force[0] == s.force[1]), "the force never changes");
+    let robot = load(&test.facts.robot, Some(&test.path)).ok();
+    let robot = robot.filter(|r| fits(&r.robot, test).is_ok());
+    let found = doubts(test, robot.as_ref().map(|r| &r.robot));
+    odd.extend(found.iter().map(Doubt::sentence));
     odd
 }

@@ -1,5 +1,6 @@
 //! `ident stiffness`: load/unload cycles become stiffnesses with backlash and hysteresis.
 
+mod cubes;
 mod json;
 mod page;
 mod tables;
@@ -10,7 +11,6 @@ use super::progress::Progress;
 use super::validate;
 use super::{Ending, Verb, arguments, from_words, parsed};
 use crate::effects::Composite;
-use crate::fit::parameter::Status;
 use crate::fit::stiffness::{Account, DEFAULT_EFFECTS, Request, identify};
 use crate::fit::store::{SCHEMA, StoredFit, stored_effects, stored_scale};
 use crate::ground::files;
@@ -27,14 +27,14 @@ use std::path::{Path, PathBuf};
 /// The verb.
 pub const VERB: Verb = Verb {
     name: "stiffness",
-    about: "Identify stiffness, backlash and hysteresis from load/unload cycles",
+    about: "Identify stiffness, backlash and hysteresis from load/unload cycles, or a robot from measuring cubes",
     arguments: arguments::<Arguments>,
     run,
 };
 
 #[derive(Args)]
 struct Arguments {
-    /// Measurement files of kind load-cycle; a bare name is looked up under measurements/
+    /// Measurement files of kind load-cycle, or all of kind cubes; a bare name is looked up under measurements/
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// Print one JSON document instead of the account
@@ -69,6 +69,9 @@ struct Result {
 
 fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let arguments: Arguments = parsed(matches);
+    if let Some(files) = cubes::meant(&arguments.files)? {
+        return cubes::run(&files, arguments.json, arguments.dry_run);
+    }
     let results = act(&arguments)?;
     match arguments.json {
         true => print(&json::as_json(&results))?,
@@ -153,6 +156,9 @@ fn paths(arguments: &Arguments) -> Outcome<Vec<PathBuf>> {
     for name in &arguments.files {
         let (path, said) = resolve(name)?;
         said.iter().for_each(|s| tell(s));
+        if !arguments.dry_run {
+            Place::nameable(&path)?;
+        }
         let same = |other: &&PathBuf| {
             Place::of(other) == Place::of(&path) && other.file_stem() == path.file_stem()
         };
@@ -181,10 +187,9 @@ fn one(path: PathBuf, request: &Request) -> Outcome<Result> {
     })
 }
 
-/// 1 when something needs attention: no stiffness, or a straight line that misleads.
+/// 1 when something needs attention: no stiffness, or data that are odd.
 fn ending(results: &[Result]) -> Ending {
-    let supported = |r: &Result| r.account.parameters[0].status == Status::Identified;
-    match results.iter().all(supported) {
+    match results.iter().all(|r| r.account.is_fine()) {
         true => Ending::Done,
         false => Ending::Attention,
     }

@@ -1,7 +1,7 @@
 //! The tables of `ident stiffness`.
 
 use super::Result;
-use crate::fit::parameter::Identified;
+use crate::fit::parameter::{Identified, Z95};
 use crate::fit::stiffness::Account;
 use crate::measurement::load_cycle::Port;
 use crate::sheet::number::{ABSENT, fixed, prefix, significant};
@@ -61,11 +61,33 @@ fn table(results: &[&Result]) -> Table {
         cells.push(line.map_or(ABSENT.into(), signed_percent));
         table.push(cells);
     }
+    let parts = results.iter().filter_map(|r| parts(r));
+    let parts: Vec<String> = parts.collect();
+    let table = match parts.is_empty() {
+        true => table,
+        false => table.noted(format!(
+            "± % of the stiffness by readings and by levers: {}",
+            parts.join(", ")
+        )),
+    };
     table
         .noted(format!(
-            "± %: half of the 95 % interval; <: 95 % limit of what was not found; {ABSENT}: not known"
+            "± %: half of the 95 % interval, levers included; <: 95 % limit of what was not found; {ABSENT}: not known"
         ))
         .noted("straight line: by how much a line through all readings misses the stiffness")
+}
+
+/// `axis6 0.12 and 0.55`: what the interval of the stiffness is made of.
+fn parts(result: &Result) -> Option<String> {
+    let stiffness = result.account.parameters.first()?;
+    let (value, parts) = (stiffness.value?, stiffness.parts?);
+    let percent = |std: f64| significant(100.0 * Z95 * std / value.abs(), 2);
+    Some(format!(
+        "{} {} and {}",
+        result.file.stem(),
+        percent(parts.readings),
+        percent(parts.levers)
+    ))
 }
 
 /// `+1.2 %`, `-1.2 %`, and `0.0 %` for what rounds to it.

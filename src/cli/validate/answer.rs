@@ -1,6 +1,7 @@
 //! The JSON of `ident validate`.
 
 use super::Validated;
+use crate::cli::diagnose::doubts_json;
 use crate::fit::separability::Group;
 use crate::fit::validation::Comparison;
 use crate::measurement::workspace_test::DIRECTIONS;
@@ -57,6 +58,7 @@ pub fn json(validated: &Validated, dry: bool) -> String {
     put("rows", json!(validated.test.rows));
     put("rows_left_out", json!(validated.test.left_out));
     put("warnings", json!(found.warnings));
+    put("doubts", doubts_json(&found.doubts));
     let model = match dry {
         true => Value::Null,
         false => json!(validated.robot_path().display().to_string()),
@@ -112,7 +114,8 @@ fn point(c: &Comparison) -> Value {
 
 fn parameters(validated: &Validated) -> Value {
     let refit = &validated.found.refit;
-    let list = refit
+    let list = validated
+        .found
         .parameters()
         .into_iter()
         .enumerate()

@@ -8,16 +8,17 @@ mod tables;
 use super::chapter::Chapter;
 use super::output::{print, tell};
 use super::{Ending, Verb, arguments, from_words, parsed};
+use crate::experiments::workspace::fits;
 use crate::fit::axis_tests::{self, AxisTest};
 use crate::fit::identified_robot::{text, with_axis_tests, with_points};
 use crate::fit::validation::{Validation, needs_attention, validate};
 use crate::ground::files;
-use crate::ground::problem::{Outcome, Problem};
+use crate::ground::problem::Outcome;
 use crate::measurement::workspace::{Place, campaign, only_of_kind, resolve};
 use crate::measurement::workspace_test::WorkspaceTest;
 use crate::report::{folder, text as terminal};
+use crate::robot::Robot;
 use crate::robot::load::{Loaded, load};
-use crate::robot::{Robot, check};
 use clap::{ArgMatches, Args};
 use std::path::{Path, PathBuf};
 
@@ -124,7 +125,7 @@ fn ending(validated: &Validated) -> Ending {
 pub fn collect(place: &Place, base: &Loaded, synthetic: bool) -> Outcome<()> {
     let folder = place.measurements();
     let points = only_of_kind(&folder, "workspace").and_then(|path| WorkspaceTest::read(&path));
-    let tests = axis_tests::read(&place.fits(), &folder)?;
+    let tests = known_tests(place, &base.robot)?;
     let robot = with_axis_tests(&base.robot, &tests);
     let usable = points.ok().filter(|test| {
         let same = load(&test.facts.robot, Some(&test.path)).is_ok_and(|l| l.sha256 == base.sha256);
@@ -133,12 +134,34 @@ pub fn collect(place: &Place, base: &Loaded, synthetic: bool) -> Outcome<()> {
     let found = match usable {
         Some(test) => {
             let found = validate(&test, &robot, &tests)?;
-            with_points(&robot, &found.refit.parameters(), &provenance(&test))
+            with_points(&robot, &found.parameters(), &provenance(&test))
         }
         None => robot,
     };
     let path = place.fits().join("robot.toml");
     files::replace(&path, text(&found, &base.path, synthetic).as_bytes())
+}
+
+/// What the axis tests of a campaign found, by the names of this robot's joints; what is not used as it
+/// stands is told.
+///
+/// # Errors
+/// A fit that cannot be read.
+pub fn known_tests(place: &Place, robot: &Robot) -> Outcome<Vec<AxisTest>> {
+    let found = axis_tests::read(&place.fits(), &place.measurements())?;
+    let warn = |remark: &String| tell(&format!("warning: {remark}"));
+    found.remarks.iter().for_each(warn);
+    let tests = axis_tests::named_as(found.tests, robot);
+    for test in &tests {
+        let drive = test.site.trim_end_matches("-tilt");
+        if robot.joints.iter().all(|joint| joint.name != drive) {
+            tell(&format!(
+                "warning: the test of {} is not used: the robot `{}` has no such joint",
+                test.site, robot.name
+            ));
+        }
+    }
+    Ok(tests)
 }
 
 /// The measurement and the start of its hash.
@@ -156,7 +179,7 @@ fn examine(arguments: &Arguments, path: &Path) -> Outcome<Validated> {
         None => load(&test.facts.robot, Some(path)).map_err(|p| p.in_file(path))?,
     };
     fits(&base.robot, &test)?;
-    let tests = axis_tests::read(&place.fits(), &place.measurements())?;
+    let tests = known_tests(&place, &base.robot)?;
     let mut robot = base.robot.clone();
     if arguments.robot.is_none() && !tests.is_empty() {
         robot = with_axis_tests(&robot, &tests);
@@ -178,32 +201,6 @@ fn examine(arguments: &Arguments, path: &Path) -> Outcome<Validated> {
     })
 }
 
-/// Refuses a robot that these points cannot be simulated with.
-///
-/// # Errors
-/// Another number of joints, nothing elastic, bodies that cannot be.
-pub fn fits(robot: &Robot, test: &WorkspaceTest) -> Outcome<()> {
-    let angles = test.facts.joint_angles.first().map_or(0, Vec::len);
-    let refuse = |what: String, remedy: &str| Err(Problem::new(what, remedy).in_file(&test.path));
-    if angles != robot.dof() {
-        return refuse(
-            format!(
-                "gives {angles} joint angles per point, the robot `{}` has {} joints",
-                robot.name,
-                robot.dof()
-            ),
-            "correct `joint_angles_deg`, or name the right robot",
-        );
-    }
-    if !robot.is_elastic() {
-        return refuse(
-            format!("nothing in the robot `{}` is elastic", robot.name),
-            "add `drive = { stiffness_Nm_rad = .. }` to its joints; `ident robot convert FILE` makes an editable copy",
-        );
-    }
-    check::bodies(robot).map_err(|problem| problem.in_file(&test.path))
-}
-
 impl Validated {
     fn robot_path(&self) -> PathBuf {
         self.place.fits().join("robot.toml")
@@ -212,11 +209,7 @@ impl Validated {
     /// The robot with everything found.
     fn identified(&self) -> Robot {
         let known = with_axis_tests(&self.base.robot, &self.tests);
-        with_points(
-            &known,
-            &self.found.refit.parameters(),
-            &provenance(&self.test),
-        )
+        with_points(&known, &self.found.parameters(), &provenance(&self.test))
     }
 }
 

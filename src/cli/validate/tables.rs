@@ -139,7 +139,7 @@ pub fn parameters(validated: &Validated) -> Table {
         header,
     )
     .numeric([1, 3, 4]);
-    for (i, parameter) in refit.parameters().iter().enumerate() {
+    for (i, parameter) in validated.found.parameters().iter().enumerate() {
         let prior = &refit.priors[i];
         table.push([
             parameter.site.clone(),

@@ -237,6 +237,8 @@ impl Case<'_> {
                 "the scatter of {} hits, and 0.45 % of the accelerance, which any linear model of a robot misses",
                 self.frf.screened.iter().filter(|h| h.used()).count()
             ),
+            unstated: false,
+            doubts: Vec::new(),
         };
         Ok(Diagnosis {
             belief: self.belief(posterior),

@@ -11,6 +11,7 @@ use super::suspect::suspects;
 use crate::experiments::hammer_frf::{HammerFrf, Settings, estimate};
 use crate::findings::Answer;
 use crate::findings::belief::Belief;
+use crate::fit::suitability::hammer::{doubts, refuse};
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::hammer::HammerRecord;
 use crate::robot::Robot;
@@ -63,6 +64,18 @@ impl Diagnosis {
 /// # Errors
 /// No usable hit, no pose, a robot that cannot be computed.
 pub fn diagnose(record: &HammerRecord, robot: &Robot) -> Outcome<Diagnosis> {
+    let doubts = doubts(record);
+    refuse(&doubts)?;
+    let mut found = undoubted(record, robot)?;
+    found.answer = found.answer.doubted(doubts);
+    if found.answer.is_withheld() {
+        found.extended = None;
+    }
+    Ok(found)
+}
+
+/// The diagnosis as if the data were beyond doubt.
+fn undoubted(record: &HammerRecord, robot: &Robot) -> Outcome<Diagnosis> {
     let joints = pose(record, robot)?;
     let length = length(record);
     let rate = (-END.ln() / length).max(RATES[1]);

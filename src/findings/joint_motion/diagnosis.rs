@@ -86,11 +86,13 @@ fn answer(joints: &[JointFinding]) -> Answer {
             .map(|j| format!("{} at {}", j.noise, j.site))
             .collect::<Vec<_>>()
             .join(", "),
+        unstated: false,
+        doubts: Vec::new(),
     }
 }
 
 fn place(joints: &[JointFinding]) -> String {
-    let mut places: Vec<&str> = joints.iter().map(|j| j.place).collect();
+    let mut places: Vec<&str> = joints.iter().map(|j| j.place.as_str()).collect();
     places.dedup();
     match places.as_slice() {
         [one] => (*one).into(),

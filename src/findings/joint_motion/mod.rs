@@ -11,7 +11,6 @@ mod columns;
 mod delay;
 mod description;
 mod diagnosis;
-mod evidence;
 mod joint;
 mod named;
 mod next;

@@ -80,6 +80,8 @@ impl Case<'_> {
             candidates: self.table(),
             unit: self.file.port.deflection_unit(),
             noise: self.screen.colour.describe(),
+            unstated: self.present.is_none() && self.file.facts.nominal_stiffness.is_none(),
+            doubts: Vec::new(),
         };
         Diagnosis {
             answer,

@@ -8,6 +8,7 @@ use crate::effects::{Composite, EFFECTS, Effect};
 use crate::findings::answer::Answer;
 use crate::fit::imposed::is_imposed;
 use crate::fit::observation::Observation;
+use crate::fit::suitability::load_cycle::doubts;
 use crate::measurement::load_cycle::LoadCycle;
 
 /// What a diagnosis found: the answer, and the models and data behind it.
@@ -61,6 +62,13 @@ impl Default for Settings {
 
 /// Diagnoses one file.
 pub fn diagnose(file: &LoadCycle, settings: &Settings) -> Diagnosis {
+    let mut found = undoubted(file, settings);
+    found.answer = found.answer.doubted(doubts(file));
+    found
+}
+
+/// The diagnosis as if the data were beyond doubt.
+fn undoubted(file: &LoadCycle, settings: &Settings) -> Diagnosis {
     if is_imposed(file) {
         return diagnose_imposed(file);
     }

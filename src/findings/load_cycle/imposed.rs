@@ -146,6 +146,8 @@ fn conclude(
         candidates: Vec::new(),
         unit: file.port.load_unit(),
         noise: chosen.colour.describe(),
+        unstated: file.facts.nominal_stiffness.is_none(),
+        doubts: Vec::new(),
     };
     Diagnosis {
         answer,

@@ -3,7 +3,7 @@
 use crate::effects::{Composite, Scene};
 use crate::experiments::schedule::SCHEDULES;
 use crate::fit::least_squares::{Problem, Search, minimise};
-use crate::fit::observation::Observation;
+use crate::fit::observation::{Observation, Part};
 use crate::measurement::cycles::Cycles;
 use crate::signal::colour::Colour;
 use crate::signal::cosine::Cosine;
@@ -77,6 +77,7 @@ fn separation(
         cosine: Cosine::new(n),
         block: 1,
         wild: Vec::new(),
+        part: Part::default(),
     };
     let ignored = vec![false; n];
     let problem = Problem {

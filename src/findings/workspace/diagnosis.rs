@@ -5,10 +5,12 @@ use super::case::Case;
 use super::limits::{Limit, limits};
 use super::search::Set;
 use super::seats::Seat;
+use super::thin::thinned;
 use crate::causes::contract::Blame;
 use crate::findings::answer::{Answer, Cause, Group, Verdict};
 use crate::findings::belief::Belief;
 use crate::fit::force_shapes::Shapes;
+use crate::fit::suitability::workspace::doubts;
 use crate::ground::spatial::M3;
 use crate::measurement::workspace_test::WorkspaceTest;
 use crate::robot::Robot;
@@ -48,7 +50,19 @@ const NOT_THE_STORY: f64 = 0.35;
 
 /// Diagnoses a test against the robot that simulates it.
 pub fn diagnose(test: &WorkspaceTest, robot: &Robot) -> WorkspaceDiagnosis {
-    Case::of(test, robot).conclude()
+    let mut doubts = doubts(test, Some(robot));
+    let mut found = match thinned(test) {
+        None => Case::of(test, robot).conclude(),
+        Some((thin, doubt)) => {
+            doubts.push(doubt);
+            Case::of(&thin, robot).conclude()
+        }
+    };
+    found.answer = found.answer.doubted(doubts);
+    if found.answer.is_withheld() {
+        found.extended = robot.clone();
+    }
+    found
 }
 
 impl Case<'_> {
@@ -76,6 +90,8 @@ impl Case<'_> {
             candidates: self.table(),
             unit: "m",
             noise: self.noise(),
+            unstated: false,
+            doubts: Vec::new(),
         };
         if answer.verdict == Verdict::UnknownCause {
             answer.causes.clear();

@@ -16,6 +16,7 @@ mod search;
 mod seats;
 mod smooth;
 mod strangers;
+mod thin;
 mod unseen;
 mod weights;
 

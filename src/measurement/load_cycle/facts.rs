@@ -35,6 +35,22 @@ pub struct Facts {
     pub synthetic: bool,
 }
 
+/// The facts of this kind, as they are written.
+pub(super) const FACTS: &[&str] = &[
+    "joint",
+    "axis",
+    "load_lever_m",
+    "sensor_lever_m",
+    "sensor2_lever_m",
+    "rest_s",
+    "nominal_stiffness_Nm_rad",
+    "nominal_stiffness_N_m",
+    "nominal_stiffness_rel_std",
+    "lever_rel_std",
+    "sensor_noise_mm",
+    "sensor_delay_s",
+];
+
 /// Relative standard deviation of a lever that nobody stated.
 pub const LEVER_REL_STD: f64 = 0.003;
 
@@ -51,6 +67,13 @@ pub fn lever_spread(front: &Front) -> Outcome<f64> {
 }
 
 impl Facts {
+    /// The same for a file at hand.
+    pub fn lever_spread(&self) -> f64 {
+        let each = self.lever_rel_std.unwrap_or(LEVER_REL_STD);
+        let levers = [self.load_lever, self.sensor_lever];
+        each * (levers.iter().flatten().count() as f64).sqrt()
+    }
+
     pub(super) fn of(front: &Front) -> Outcome<Self> {
         Ok(Self {
             robot: front.text("robot")?.map(str::to_string),

@@ -4,6 +4,7 @@ mod channels;
 mod facts;
 mod port;
 
+use facts::FACTS;
 pub use facts::{Facts, LEVER_REL_STD, lever_spread};
 pub use port::{Axis, Port};
 
@@ -53,6 +54,7 @@ impl LoadCycle {
     /// Interprets a table that was read already.
     pub fn from_table(table: Table) -> Outcome<Self> {
         table.front.expect_kind("load-cycle")?;
+        table.front.only(FACTS)?;
         let facts = Facts::of(&table.front)?;
         let ports = Channels::find(&table, &facts)?;
         ports.check_facts(&table.front, &facts)?;

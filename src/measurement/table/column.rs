@@ -53,6 +53,8 @@ const PLAIN: &[(&str, bool)] = &[
     ("hit", false),
     ("cycle", false),
     ("point", false),
+    ("cube", true),
+    ("test", false),
     ("qw", false),
     ("qx", false),
     ("qy", false),

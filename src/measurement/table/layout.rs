@@ -10,12 +10,23 @@ pub(super) struct Layout {
     pub(super) header_line: usize,
 }
 
+/// No kind of measurement has more columns.
+const MOST_COLUMNS: usize = 1024;
+
 impl Layout {
     pub(super) fn of_header(header: &str, line: usize) -> Outcome<Self> {
         let delimiter = [b'\t', b';', b',']
             .into_iter()
             .find(|d| header.bytes().any(|b| b == *d))
             .unwrap_or(b',');
+        let count = header.bytes().filter(|b| *b == delimiter).count() + 1;
+        if count > MOST_COLUMNS {
+            return Err(Problem::new(
+                format!("the header has {count} columns"),
+                format!("keep the columns that the kind knows; at most {MOST_COLUMNS} are read"),
+            )
+            .at_line(line));
+        }
         let columns = header
             .split(delimiter as char)
             .map(|name| column_of(name.trim().trim_matches('"').trim()))

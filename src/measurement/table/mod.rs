@@ -11,12 +11,13 @@ mod source;
 
 pub use column::{Cells, Column};
 
+use super::foreign::{Reading, Sidecar, translated};
 use super::front::Front;
+use crate::ground::files;
 use crate::ground::problem::Outcome;
 use body::Body;
 use layout::Layout;
-use source::{Hashing, read_head, unreadable};
-use std::fs::File;
+use source::{Hashing, read_head};
 use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
 
@@ -44,14 +45,42 @@ pub struct Table {
 }
 
 impl Table {
-    /// Reads a file.
+    /// Reads a file: its own form, or that of another program, with the facts that stand beside it.
+    ///
+    /// # Errors
+    /// Whatever cannot be understood, with file, line, column and remedy.
     pub fn read(path: &Path) -> Outcome<Self> {
-        let open = || {
-            let file = File::open(path)?;
-            let bytes = file.metadata()?.len();
-            Ok((file, bytes))
+        let sidecar = Sidecar::beside(path)?;
+        let foreign = translated(path, &sidecar).map_err(|p| p.in_file(path))?;
+        let mut table = match foreign {
+            Some(reading) => Self::of_foreign(path, &reading)?,
+            None => Self::native(path)?,
         };
-        let (file, bytes) = open().map_err(|e| unreadable(&e).in_file(path))?;
+        table.front.inherit(sidecar);
+        Ok(table)
+    }
+
+    /// A translated file; lines are those of the raw one.
+    fn of_foreign(path: &Path, reading: &Reading) -> Outcome<Self> {
+        let raw = |line: usize| match line > reading.shift {
+            true => line - reading.shift - 1 + reading.first_line,
+            false if line == reading.shift => reading.skipped + 1,
+            false => line,
+        };
+        let text = reading.text.as_bytes();
+        let read = Self::from_reader(path, text, text.len() as u64);
+        let mut table = read.map_err(|mut problem| {
+            problem.line = problem.line.map(raw);
+            problem
+        })?;
+        table.sha256.clone_from(&reading.sha256);
+        table.first_line = raw(table.first_line);
+        table.jumps.iter_mut().for_each(|jump| jump.1 = raw(jump.1));
+        Ok(table)
+    }
+
+    fn native(path: &Path) -> Outcome<Self> {
+        let (file, bytes) = files::open(path)?;
         Self::from_reader(path, file, bytes)
     }
 

@@ -3,10 +3,10 @@
 use super::draft::{Draft, within};
 use super::source::Source;
 use super::{Move, Nurbs, Orientation};
+use crate::ground::nearest::nearest;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::units::Dimension;
 use crate::ground::vector::{V3, norm, roll_pitch_yaw, unit};
-use crate::ground::words::nearest;
 use crate::measurement::front::Front;
 use crate::measurement::table::Table;
 

@@ -1,7 +1,7 @@
 //! The account of a campaign on the terminal.
 
 use super::{Campaign, tables};
-use crate::findings::{Verdict, sentence::sentences};
+use crate::findings::sentence::sentences;
 use crate::report::text;
 
 /// The account on the terminal.
@@ -29,7 +29,7 @@ pub fn account(campaign: &Campaign) -> String {
     }
     for one in &campaign.files {
         let answer = one.found.answer();
-        if answer.verdict == Verdict::Sufficient {
+        if answer.is_fine() {
             continue;
         }
         said.push_str(&format!("\n{}\n", one.stem()));

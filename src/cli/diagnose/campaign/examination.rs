@@ -2,11 +2,12 @@
 
 use super::{Campaign, remarks};
 use crate::cli::diagnose::One;
-use crate::cli::diagnose::kind::{Diagnosed, KINDS, kind};
 use crate::cli::diagnose::next::Proposal;
+use crate::cli::output::tell;
 use crate::cli::progress::Progress;
 use crate::findings::campaign::{Check, verdict};
 use crate::findings::joint::Joint;
+use crate::findings::kinds::{Diagnosed, KINDS, kind};
 use crate::fit::axis_tests::{self, AxisTest};
 use crate::fit::identified_robot::with_axis_tests;
 use crate::ground::problem::{Outcome, Problem};
@@ -38,7 +39,12 @@ pub fn examine(place: &Place, progress: bool) -> Outcome<Campaign> {
                 .in_file(&place.measurements()),
         );
     }
-    let tests = axis_tests::read(&place.fits(), &place.measurements())?;
+    let found = axis_tests::read(&place.fits(), &place.measurements())?;
+    found
+        .remarks
+        .iter()
+        .for_each(|remark| tell(&format!("warning: {remark}")));
+    let tests = found.tests;
     let progress = Progress::new(paths.len(), progress);
     let files = paths.par_iter().map(|path| {
         let one = one(path, place, &tests);
@@ -92,11 +98,14 @@ pub fn one(path: &Path, place: &Place, tests: &[AxisTest]) -> Outcome<One> {
 /// A robot with the stiffness that the axis tests found, their gaps left closed: weight presses each
 /// joint to one side, and whether it does is what a test of the whole robot says.
 fn stiffened(robot: &Robot, tests: &[AxisTest]) -> Robot {
-    let mut informed = with_axis_tests(robot, tests);
-    let gaps = robot.springs().map(|(_, spring)| spring.backlash.clone());
-    let gaps: Vec<Vec<f64>> = gaps.collect();
-    for ((_, spring), own) in informed.springs_mut().zip(gaps) {
-        spring.backlash = own;
+    let mut informed = with_axis_tests(robot, &axis_tests::named_as(tests.to_vec(), robot));
+    let before: Vec<(String, Vec<f64>)> = robot
+        .springs()
+        .map(|(site, spring)| (site, spring.backlash.clone()))
+        .collect();
+    for (site, spring) in informed.springs_mut() {
+        let own = before.iter().find(|(name, _)| *name == site);
+        spring.backlash = own.map_or(Vec::new(), |(_, gaps)| gaps.clone());
     }
     informed
 }

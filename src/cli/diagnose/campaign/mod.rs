@@ -14,8 +14,8 @@ pub use examination::{examine, one};
 pub use json::body;
 pub use page::story;
 
+use super::One;
 use super::next::Proposal;
-use super::{One, extended};
 use crate::cli::Ending;
 use crate::cli::chapter::Chapter;
 use crate::findings::belief;
@@ -23,9 +23,10 @@ use crate::findings::campaign::Check;
 use crate::findings::joint::Joint;
 use crate::findings::sentence::{candidates, place, probability, spoken};
 use crate::findings::{Group, Verdict};
+use crate::fit::suitability::is_odd;
 use crate::ground::problem::Outcome;
 use crate::measurement::workspace::Place;
-use crate::robot::Robot;
+use crate::robot::{Robot, write};
 use std::path::PathBuf;
 
 /// Everything that a campaign's files say together.
@@ -59,7 +60,7 @@ impl Campaign {
         let robot = self
             .robot
             .as_ref()
-            .map(|robot| (self.robot_path(), extended::text(robot, self.synthetic())));
+            .map(|robot| (self.robot_path(), write::labelled(robot, self.synthetic())));
         robot.into_iter().collect()
     }
 
@@ -98,8 +99,12 @@ impl Campaign {
 
     /// How the verb ends.
     pub fn ending(&self) -> Ending {
+        let fine = self
+            .files
+            .iter()
+            .all(|one| !is_odd(&one.found.answer().doubts));
         match self.verdict {
-            Verdict::Sufficient => Ending::Done,
+            Verdict::Sufficient if fine => Ending::Done,
             _ => Ending::Attention,
         }
     }

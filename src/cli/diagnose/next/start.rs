@@ -2,8 +2,9 @@
 
 use crate::cli::output::tell;
 use crate::cli::run::place;
-use crate::cli::validate::fits;
-use crate::fit::axis_tests::{self, AxisTest};
+use crate::cli::validate::known_tests;
+use crate::experiments::workspace::fits;
+use crate::fit::axis_tests::AxisTest;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::leading::{front_of, kind_of};
 use crate::measurement::workspace::{Place, only_of_kind, resolve};
@@ -99,7 +100,7 @@ fn of_points(place: Place, path: &Path) -> Outcome<Start> {
     let base = load(&test.facts.robot, Some(path)).map_err(|p| p.in_file(path))?;
     fits(&base.robot, &test)?;
     Ok(Start {
-        tests: axis_tests::read(&place.fits(), &place.measurements())?,
+        tests: known_tests(&place, &base.robot)?,
         synthetic: test.facts.synthetic,
         points: Some(test),
         place,
@@ -118,7 +119,7 @@ fn of_name(place: Place) -> Outcome<Option<Start>> {
                 let base = load(name, Some(&path)).map_err(|p| p.in_file(&path))?;
                 elastic(&base)?;
                 return Ok(Some(Start {
-                    tests: axis_tests::read(&place.fits(), &place.measurements())?,
+                    tests: known_tests(&place, &base.robot)?,
                     synthetic: front.synthetic(),
                     points: None,
                     place,

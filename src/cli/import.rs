@@ -1,0 +1,244 @@
+//! `ident import`: how the raw files of other programs are read, kept as a sidecar beside each.
+
+use super::output::print;
+use super::{Ending, Verb, arguments, parsed};
+use crate::findings::kinds::KINDS;
+use crate::ground::files;
+use crate::ground::problem::{Outcome, Problem};
+use crate::measurement::foreign::sidecar::{Sidecar, Source, place};
+use crate::measurement::foreign::{Reading, translated};
+use crate::measurement::table::Table;
+use crate::report::json;
+use clap::{ArgMatches, Args};
+use serde_json::{Map, Value, json};
+use std::path::{Path, PathBuf};
+
+/// The verb.
+pub const VERB: Verb = Verb {
+    name: "import",
+    about: "Show how raw files of other programs are read, and keep that beside them",
+    arguments: arguments::<Arguments>,
+    run,
+};
+
+#[derive(Args)]
+struct Arguments {
+    /// Raw files; the same reading is kept for all of them
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// Kind of the measurement, as load-cycle
+    #[arg(long)]
+    kind: Option<String>,
+    /// A fact of the measurement, as joint=2, axis="rotation" or load_lever_m=1.2
+    #[arg(long = "fact", value_name = "KEY=VALUE")]
+    facts: Vec<String>,
+    /// A column, as time_s="Zeit [s]", or by its number from 1: force_N=2
+    #[arg(long = "column", value_name = "NAME=TITLE")]
+    columns: Vec<String>,
+    /// Lines before the titles that do not count
+    #[arg(long)]
+    skip_rows: Option<usize>,
+    /// Encoding: utf-8, utf-16 or windows-1252; left out: by the bytes
+    #[arg(long)]
+    encoding: Option<String>,
+    /// Print one JSON document
+    #[arg(long)]
+    json: bool,
+    /// Write no sidecar
+    #[arg(long)]
+    dry_run: bool,
+}
+
+/// One file and how it is read.
+struct Imported {
+    path: PathBuf,
+    sidecar: Sidecar,
+    reading: Option<Reading>,
+    rows: usize,
+    missing: Vec<String>,
+}
+
+fn run(matches: &ArgMatches) -> Outcome<Ending> {
+    let arguments: Arguments = parsed(matches);
+    let each = arguments
+        .files
+        .iter()
+        .map(|path| imported(path, &arguments));
+    let all = each.collect::<Outcome<Vec<Imported>>>()?;
+    if !arguments.dry_run {
+        let write =
+            |one: &Imported| files::replace(&place(&one.path), one.sidecar.text().as_bytes());
+        all.iter().try_for_each(write)?;
+    }
+    print(&match arguments.json {
+        true => document(&all),
+        false => all.iter().map(account).collect(),
+    })?;
+    Ok(match all.iter().all(|one| one.missing.is_empty()) {
+        true => Ending::Done,
+        false => Ending::Attention,
+    })
+}
+
+fn imported(path: &Path, arguments: &Arguments) -> Outcome<Imported> {
+    let sidecar = asked(Sidecar::beside(path)?, arguments)?;
+    let reading = translated(path, &sidecar).map_err(|p| p.in_file(path))?;
+    let table = match &reading {
+        Some(reading) => {
+            Table::from_reader(path, reading.text.as_bytes(), reading.text.len() as u64)?
+        }
+        None => Table::read(path)?,
+    };
+    let mut facts = table.front.facts.clone();
+    facts.extend(sidecar.shared.clone());
+    facts.extend(sidecar.facts.clone());
+    Ok(Imported {
+        path: path.to_path_buf(),
+        rows: table.rows,
+        missing: missing(&facts),
+        sidecar,
+        reading,
+    })
+}
+
+/// What stands beside the file already, with what was typed.
+fn asked(mut sidecar: Sidecar, arguments: &Arguments) -> Outcome<Sidecar> {
+    if let Some(kind) = &arguments.kind {
+        known_kind(kind)?;
+        sidecar
+            .facts
+            .insert("kind".into(), toml::Value::String(kind.clone()));
+    }
+    for typed in &arguments.facts {
+        let (key, value) = halves(typed, "--fact")?;
+        sidecar.facts.insert(key.to_string(), value_of(value));
+    }
+    for typed in &arguments.columns {
+        let (name, title) = halves(typed, "--column")?;
+        let source = title
+            .parse()
+            .map_or(Source::Title(title.to_string()), Source::Number);
+        sidecar.columns.retain(|c| c.0 != name);
+        sidecar.columns.push((name.to_string(), source));
+    }
+    sidecar.skip_rows = arguments.skip_rows.or(sidecar.skip_rows);
+    sidecar.encoding = arguments.encoding.clone().or(sidecar.encoding);
+    Ok(sidecar)
+}
+
+fn known_kind(kind: &str) -> Outcome<()> {
+    let known: Vec<&str> = KINDS.iter().map(|k| k.0).collect();
+    match known.contains(&kind) {
+        true => Ok(()),
+        false => Err(Problem::new(
+            format!("`{kind}` is no kind"),
+            format!("give one of {}", known.join(", ")),
+        )),
+    }
+}
+
+fn halves<'a>(typed: &'a str, option: &str) -> Outcome<(&'a str, &'a str)> {
+    let halves = typed.split_once('=').map(|(k, v)| (k.trim(), v.trim()));
+    halves
+        .filter(|(k, v)| !k.is_empty() && !v.is_empty())
+        .ok_or_else(|| {
+            Problem::new(
+                format!("`{option} {typed}` is not understood"),
+                format!("write {option} KEY=VALUE"),
+            )
+        })
+}
+
+/// A number, a list or a text as TOML has it; anything else is a text.
+fn value_of(text: &str) -> toml::Value {
+    let document = format!("x = {text}").parse::<toml::Table>();
+    let value = document.ok().and_then(|mut t| t.remove("x"));
+    value.unwrap_or_else(|| toml::Value::String(text.to_string()))
+}
+
+/// Facts that every kind of load cycle and robot test needs and that nobody stated: all at once.
+fn missing(facts: &toml::Table) -> Vec<String> {
+    let kind = facts.get("kind").and_then(|k| k.as_str());
+    let needed: &[&str] = match kind {
+        None => &["kind"],
+        Some("workspace" | "hammer" | "cubes") => &["robot", "joint_angles_deg"],
+        Some("milling-force") => &["diameter_mm", "teeth", "cuts"],
+        Some("milled-part") => &["job"],
+        Some(_) => &[],
+    };
+    needed
+        .iter()
+        .filter(|k| !facts.contains_key(**k))
+        .map(|k| (*k).to_string())
+        .collect()
+}
+
+fn account(one: &Imported) -> String {
+    let mut said = match &one.reading {
+        None => format!(
+            "{}: already in the form of ident, {} rows\n",
+            one.path.display(),
+            one.rows
+        ),
+        Some(reading) => format!(
+            "{}: {} rows below line {}, {}\n",
+            one.path.display(),
+            one.rows,
+            reading.first_line - 1,
+            reading.encoding
+        ),
+    };
+    for (title, name) in one.reading.iter().flat_map(|r| &r.columns) {
+        let became = name.as_deref().unwrap_or("passed over");
+        said.push_str(&format!("  {title}: {became}\n"));
+    }
+    for (key, value) in &one.sidecar.facts {
+        said.push_str(&format!("  {key} = {value}\n"));
+    }
+    if !one.missing.is_empty() {
+        said.push_str(&format!(
+            "  missing: {} (give each with --fact KEY=VALUE, or --kind)\n",
+            one.missing.join(", ")
+        ));
+    }
+    said
+}
+
+fn document(all: &[Imported]) -> String {
+    let inputs: Vec<(PathBuf, String)> = all
+        .iter()
+        .map(|one| {
+            let hash = one
+                .reading
+                .as_ref()
+                .map_or(String::new(), |r| r.sha256.clone());
+            (one.path.clone(), hash)
+        })
+        .collect();
+    let inputs: Vec<(&Path, &str)> = inputs
+        .iter()
+        .map(|(p, h)| (p.as_path(), h.as_str()))
+        .collect();
+    let mut map = json::head("import", &inputs);
+    let results: Vec<Value> = all.iter().map(|one| Value::Object(body(one))).collect();
+    map.insert("results".into(), results.into());
+    json::print(map)
+}
+
+fn body(one: &Imported) -> Map<String, Value> {
+    let columns = one.reading.iter().flat_map(|r| &r.columns);
+    let columns: Vec<Value> = columns
+        .map(|(title, name)| json!({"title": title, "name": name}))
+        .collect();
+    let mut map = Map::new();
+    map.insert("file".into(), json!(one.path.display().to_string()));
+    map.insert("rows".into(), json!(one.rows));
+    map.insert("columns".into(), columns.into());
+    map.insert("facts".into(), json!(one.sidecar.facts));
+    map.insert("missing".into(), json!(one.missing));
+    map.insert(
+        "sidecar".into(),
+        json!(place(&one.path).display().to_string()),
+    );
+    map
+}

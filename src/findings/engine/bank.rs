@@ -1,0 +1,349 @@
+//! Whitened columns with the nuisances integrated out, and the evidence of sets of members.
+//!
+//! With y ~ N(Φz, I + N P Nᵀ) the inner product is aᵀb − (Ua)·(Ub), U = L⁻¹Nᵀ, LLᵀ = NᵀN + P⁻¹
+//! (Woodbury 1950): every product of columns is taken so, and nuisances are never seen again.
+
+use super::statement::{Member, Statement, Suspect};
+use crate::inference::gaussian::{Posterior, Products, Reading, Size, update};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// A set of members (indices into the bank), ascending by suspect.
+pub type Members = Vec<usize>;
+
+/// One member in the bank.
+pub(super) struct Entry {
+    /// Its suspect.
+    pub suspect: usize,
+    /// Which of the suspect's members.
+    pub member: usize,
+    /// Its columns in the bank.
+    pub columns: Range<usize>,
+    /// Its size in units of the bank's columns.
+    pub size: Size,
+    /// Factor from the kind's columns to those of the bank.
+    pub scale: f64,
+    /// Products of its columns with one another.
+    own: DMatrix<f64>,
+}
+
+/// All columns of all suspects.
+pub struct Bank<'a> {
+    /// Who they belong to.
+    pub suspects: &'a [Suspect],
+    pub(super) entries: Vec<Entry>,
+    pub(super) columns: DMatrix<f64>,
+    marginal: DMatrix<f64>,
+    pub(super) right: DVector<f64>,
+    pub(super) reading: Reading,
+    whitened: (DVector<f64>, DVector<f64>),
+    crosses: BTreeMap<usize, DMatrix<f64>>,
+    nuisances: Nuisances,
+}
+
+/// A set with its fit.
+#[derive(Debug, Clone)]
+pub struct Fit {
+    /// The members, ascending.
+    pub members: Members,
+    /// What the data say of their amounts, in units of the bank.
+    pub posterior: Posterior,
+}
+
+/// Columns that are integrated out.
+struct Nuisances {
+    columns: DMatrix<f64>,
+    root: Option<Cholesky<f64, Dyn>>,
+    /// By which the columns were divided.
+    lengths: Vec<f64>,
+    /// How many are without prior.
+    flat: usize,
+}
+
+impl Nuisances {
+    fn of(statement: &Statement) -> Self {
+        let rows = statement.reading.len();
+        let white = |c: &[f64]| DVector::from_vec(statement.noise.whiten(c));
+        let columns: Vec<DVector<f64>> = statement
+            .nuisances
+            .iter()
+            .map(|n| white(&n.column))
+            .collect();
+        // scaled to unit length, so that the products are well conditioned
+        let lengths: Vec<f64> = columns.iter().map(|c| c.norm().max(1e-300)).collect();
+        let each = columns.iter().zip(&lengths);
+        let scaled: Vec<DVector<f64>> = each.map(|(c, length)| c / *length).collect();
+        let matrix = match scaled.is_empty() {
+            true => DMatrix::zeros(rows, 0),
+            false => DMatrix::from_columns(&scaled),
+        };
+        let mut inner = matrix.tr_mul(&matrix);
+        let mut flat = 0;
+        for (k, nuisance) in statement.nuisances.iter().enumerate() {
+            let spread = nuisance.spread * lengths[k];
+            flat += usize::from(spread.is_infinite());
+            inner[(k, k)] += (spread * spread).recip().max(1e-12);
+        }
+        Self {
+            root: inner.cholesky(),
+            columns: matrix,
+            lengths,
+            flat,
+        }
+    }
+
+    /// U of columns, nuisances × columns.
+    fn seen(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut cross = self.columns.tr_mul(columns);
+        if let Some(root) = &self.root {
+            root.l_dirty().solve_lower_triangular_mut(&mut cross);
+        }
+        cross
+    }
+}
+
+impl<'a> Bank<'a> {
+    /// Of a statement.
+    pub fn new(statement: &'a Statement) -> Self {
+        let nuisances = Nuisances::of(statement);
+        let white = |c: &Vec<f64>| DVector::from_vec(statement.noise.whiten(c));
+        let all = statement.suspects.iter().flat_map(|s| &s.members);
+        let columns: Vec<DVector<f64>> = all.flat_map(|m| m.columns.iter().map(white)).collect();
+        let rows = statement.reading.len();
+        let mut columns = match columns.is_empty() {
+            true => DMatrix::zeros(rows, 0),
+            false => DMatrix::from_columns(&columns),
+        };
+        let mut marginal = nuisances.seen(&columns);
+        let entries = entries(&statement.suspects, &mut columns, &mut marginal);
+        let y = DMatrix::from_column_slice(rows, 1, &statement.noise.whiten(&statement.reading));
+        let seen = nuisances.seen(&y);
+        let right = columns.tr_mul(&y) - marginal.tr_mul(&seen);
+        let (y, seen) = (y.column(0).into_owned(), seen.column(0).into_owned());
+        let reading = Reading {
+            square: (y.norm_squared() - seen.norm_squared()).max(0.0),
+            rows: (rows.saturating_sub(nuisances.flat)).max(1) as f64,
+            noise_rows: statement.noise.rows(),
+        };
+        Self {
+            suspects: &statement.suspects,
+            entries,
+            right: right.column(0).into_owned(),
+            columns,
+            marginal,
+            reading,
+            whitened: (y, seen),
+            crosses: BTreeMap::new(),
+            nuisances,
+        }
+    }
+
+    /// The suspect of a member.
+    pub fn suspect(&self, member: usize) -> &Suspect {
+        &self.suspects[self.entries[member].suspect]
+    }
+
+    /// A member as its suspect stated it.
+    pub fn member(&self, member: usize) -> &Member {
+        let entry = &self.entries[member];
+        &self.suspects[entry.suspect].members[entry.member]
+    }
+
+    /// The fit of a set. `None` where an amount has the wrong sign, or nothing is finite.
+    pub fn fit(&self, members: &[usize]) -> Option<Fit> {
+        let blocks = self.blocks(members);
+        let posterior = update(&self.products(members), &self.reading, &blocks)?;
+        let fit = Fit {
+            members: members.to_vec(),
+            posterior,
+        };
+        (fit.posterior.ln_evidence.is_finite() && self.signs_hold(&fit)).then_some(fit)
+    }
+
+    fn blocks(&self, members: &[usize]) -> Vec<(usize, Size)> {
+        let own = members.iter().map(|m| &self.entries[*m]);
+        own.map(|e| (e.columns.len(), e.size)).collect()
+    }
+
+    /// Products of the columns of a set.
+    pub(super) fn products(&self, members: &[usize]) -> Products {
+        let own: Vec<&Entry> = members.iter().map(|m| &self.entries[*m]).collect();
+        let total = own.iter().map(|e| e.columns.len()).sum();
+        let mut gram = DMatrix::zeros(total, total);
+        let mut right = DVector::zeros(total);
+        let mut at = 0;
+        for (i, entry) in own.iter().enumerate() {
+            let p = entry.columns.len();
+            gram.view_mut((at, at), (p, p)).copy_from(&entry.own);
+            right
+                .rows_mut(at, p)
+                .copy_from(&self.right.rows(entry.columns.start, p));
+            let mut other = 0;
+            for (j, before) in own[..i].iter().enumerate() {
+                let q = before.columns.len();
+                let block = self.block(members[i], members[j]);
+                gram.view_mut((other, at), (q, p))
+                    .copy_from(&block.transpose());
+                gram.view_mut((at, other), (p, q)).copy_from(&block);
+                other += q;
+            }
+            at += p;
+        }
+        Products { gram, right }
+    }
+
+    /// Products of the columns of two members, first × second.
+    fn block(&self, a: usize, b: usize) -> DMatrix<f64> {
+        let (ra, rb) = (&self.entries[a].columns, &self.entries[b].columns);
+        if let Some(cross) = self.crosses.get(&b) {
+            return cross.rows(ra.start, ra.len()).into_owned();
+        }
+        if let Some(cross) = self.crosses.get(&a) {
+            return cross.rows(rb.start, rb.len()).transpose();
+        }
+        let full = |m: &DMatrix<f64>| {
+            let (x, y) = (m.columns(ra.start, ra.len()), m.columns(rb.start, rb.len()));
+            x.tr_mul(&y)
+        };
+        full(&self.columns) - full(&self.marginal)
+    }
+
+    /// Takes the products of a member with all columns once, for the sets that will hold it.
+    pub fn keep(&mut self, member: usize) {
+        if self.crosses.contains_key(&member) {
+            return;
+        }
+        let own = self.entries[member].columns.clone();
+        let full = |m: &DMatrix<f64>| m.tr_mul(&m.columns(own.start, own.len()));
+        let cross = full(&self.columns) - full(&self.marginal);
+        self.crosses.insert(member, cross);
+    }
+
+    /// Products of all columns with those of a set that was kept, columns × amounts of the set.
+    pub(super) fn cross(&self, members: &[usize]) -> DMatrix<f64> {
+        let own: Vec<&DMatrix<f64>> = members.iter().filter_map(|m| self.crosses.get(m)).collect();
+        let total = own.iter().map(|c| c.ncols()).sum();
+        let mut all = DMatrix::zeros(self.columns.ncols(), total);
+        let mut at = 0;
+        for cross in own {
+            all.columns_mut(at, cross.ncols()).copy_from(cross);
+            at += cross.ncols();
+        }
+        all
+    }
+
+    /// Square of every column.
+    pub(super) fn square(&self, entry: &Entry) -> f64 {
+        entry.own[(0, 0)]
+    }
+
+    fn signs_hold(&self, fit: &Fit) -> bool {
+        let mut at = 0;
+        fit.members.iter().all(|member| {
+            let first = at;
+            at += self.entries[*member].columns.len();
+            let Some(weights) = &self.member(*member).positive else {
+                return true;
+            };
+            let own = weights.iter().enumerate();
+            own.map(|(k, w)| w * fit.posterior.mean[first + k])
+                .sum::<f64>()
+                > 0.0
+        })
+    }
+
+    /// The most probable amounts of the nuisances in whitened numbers, in the kind's own units.
+    pub(super) fn nuisances_in(&self, whitened: &DVector<f64>) -> Vec<f64> {
+        let Some(root) = &self.nuisances.root else {
+            return vec![0.0; self.nuisances.lengths.len()];
+        };
+        let solved = root.solve(&self.nuisances.columns.tr_mul(whitened));
+        let each = solved.iter().zip(&self.nuisances.lengths);
+        each.map(|(x, length)| x / length).collect()
+    }
+
+    /// The whitened reading.
+    pub(super) fn whitened(&self) -> &DVector<f64> {
+        &self.whitened.0
+    }
+
+    /// What a member adds to the whitened reading at these amounts (units of the bank).
+    pub(super) fn part(&self, member: usize, amounts: &[f64]) -> DVector<f64> {
+        let own = &self.entries[member].columns;
+        self.columns.columns(own.start, own.len()) * DVector::from_column_slice(amounts)
+    }
+
+    /// Whitened extra columns beside those of the bank: their products with one another, with the columns
+    /// of a set, and with the reading.
+    pub(super) fn beside(&self, members: &[usize], extra: &DMatrix<f64>) -> Products {
+        let inside = self.products(members);
+        let ranges = members.iter().map(|m| self.entries[*m].columns.clone());
+        let own: Vec<usize> = ranges.flatten().collect();
+        let (columns, marginal) = (
+            self.columns.select_columns(&own),
+            self.marginal.select_columns(&own),
+        );
+        let seen = self.nuisances.seen(extra);
+        let (n, m) = (own.len(), extra.ncols());
+        let mut gram = DMatrix::zeros(n + m, n + m);
+        gram.view_mut((0, 0), (n, n)).copy_from(&inside.gram);
+        let cross = columns.tr_mul(extra) - marginal.tr_mul(&seen);
+        gram.view_mut((0, n), (n, m)).copy_from(&cross);
+        gram.view_mut((n, 0), (m, n)).copy_from(&cross.transpose());
+        gram.view_mut((n, n), (m, m))
+            .copy_from(&(extra.tr_mul(extra) - seen.tr_mul(&seen)));
+        let mut right = DVector::zeros(n + m);
+        right.rows_mut(0, n).copy_from(&inside.right);
+        let (y, known) = &self.whitened;
+        right
+            .rows_mut(n, m)
+            .copy_from(&(extra.tr_mul(y) - seen.tr_mul(known)));
+        Products { gram, right }
+    }
+}
+
+/// The members in a row; columns of free size are scaled to one noise deviation rms each reading (in the
+/// mean over the member's columns), so that a size is the effect's own.
+fn entries(
+    suspects: &[Suspect],
+    columns: &mut DMatrix<f64>,
+    marginal: &mut DMatrix<f64>,
+) -> Vec<Entry> {
+    let rows = columns.nrows().max(1) as f64;
+    let mut entries = Vec::new();
+    let mut at = 0;
+    for (suspect, own) in suspects.iter().enumerate() {
+        for (member, m) in own.members.iter().enumerate() {
+            let range = at..at + m.columns.len();
+            at = range.end;
+            let product = |c: &DMatrix<f64>, u: &DMatrix<f64>| {
+                let (c, u) = (
+                    c.columns(range.start, range.len()),
+                    u.columns(range.start, range.len()),
+                );
+                c.tr_mul(&c) - u.tr_mul(&u)
+            };
+            let square = product(columns, marginal).trace() / (rows * range.len().max(1) as f64);
+            let scale = match m.size {
+                Size::Free if square > 0.0 => square.sqrt().recip(),
+                _ => 1.0,
+            };
+            columns
+                .columns_mut(range.start, range.len())
+                .scale_mut(scale);
+            marginal
+                .columns_mut(range.start, range.len())
+                .scale_mut(scale);
+            entries.push(Entry {
+                suspect,
+                member,
+                size: m.size,
+                scale,
+                own: product(columns, marginal),
+                columns: range,
+            });
+        }
+    }
+    entries
+}

@@ -1,0 +1,354 @@
+//! The whole way: from a kind's statement to its answer.
+
+use super::bank::{Bank, Fit};
+use super::judgement::Judgement;
+use super::materiality::{is_material, raw_parts};
+use super::posterior::Posterior;
+use super::rest::{Rest, Span};
+use super::search::{Scored, search};
+use super::statement::{Blamed, Experiment, Statement};
+use super::unseen::gain;
+use super::verdict::{Named, name, verdict};
+use crate::findings::answer::{Answer, Candidate, Discrepancy, Structure};
+use crate::findings::gain::Gain;
+use crate::inference::stats::rms;
+use nalgebra::DVector;
+
+/// A finished diagnosis.
+#[derive(Debug, Clone)]
+pub struct Found {
+    /// The answer.
+    pub answer: Answer,
+    /// The chosen causes with their amounts.
+    pub blamed: Vec<Blamed>,
+    /// What the present simulation misses, with the nuisances at their most probable: per row.
+    pub missed: Vec<f64>,
+    /// What the named causes make of it, per row.
+    pub explained: Vec<f64>,
+    /// What they leave, per row.
+    pub left: Vec<f64>,
+    /// Evidence of every set that was compared, over that of no cause, no prior in it: (effect and site of
+    /// each cause, ln E).
+    pub evidence: Vec<(Vec<(&'static str, String)>, f64)>,
+}
+
+/// Rounds in which a kind that is not linear is stated anew about what was found.
+const ROUNDS: usize = 4;
+/// Change of an amount, in its standard deviations, at which a round has arrived.
+const ARRIVED: f64 = 0.05;
+/// Sets below the best by more than this are not tried for materiality, nats.
+const HOPELESS: f64 = 60.0;
+
+/// Diagnoses.
+pub fn diagnose(experiment: &dyn Experiment, judgement: &Judgement) -> Found {
+    let first = experiment.state(&[]);
+    let mut found = about(experiment, &first, judgement);
+    if experiment.is_linear() {
+        return found;
+    }
+    for _ in 0..ROUNDS {
+        let statement = experiment.state(&found.blamed);
+        let next = about(experiment, &statement, judgement);
+        let arrived = is_same(&found.blamed, &next.blamed);
+        let missed = std::mem::take(&mut found.missed);
+        let discrepancy = found.answer.discrepancy;
+        found = next;
+        (found.missed, found.answer.discrepancy) = (missed, discrepancy);
+        if arrived {
+            break;
+        }
+    }
+    found
+}
+
+fn is_same(a: &[Blamed], b: &[Blamed]) -> bool {
+    let near = |(x, y): (&Blamed, &Blamed)| {
+        let close = |k: usize| {
+            let deviation = y.covariance[(k, k)].sqrt();
+            (x.amounts[k] - y.amounts[k]).abs() <= ARRIVED * deviation
+        };
+        x.effect == y.effect
+            && x.site == y.site
+            && x.shape == y.shape
+            && (0..x.amounts.len()).all(close)
+    };
+    a.len() == b.len() && a.iter().zip(b).all(near)
+}
+
+fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgement) -> Found {
+    let mut bank = Bank::new(statement);
+    let compared = search(&mut bank, judgement);
+    let evidence = compared
+        .iter()
+        .map(|s| evidence_of(&bank, s, judgement))
+        .collect();
+    let posterior = Posterior::of(material(statement, &bank, compared, judgement), judgement);
+    let span = Span::of(statement);
+    let mut set = choose(&posterior, judgement);
+    let mut gains = drop_unreal(statement, &bank, &posterior, &mut set);
+    if loses_to_structure(&bank, &posterior, &set, span.as_ref()) {
+        (set, gains) = (nothing(&posterior), Vec::new());
+    }
+    let missed = residual(statement, &bank, &nothing(&posterior).fit);
+    let left = residual(statement, &bank, &set.fit);
+    let whole = rms(&in_noise(statement, &missed));
+    let rest = span.map_or(Rest::default(), |s| {
+        s.rest(&bank, &set.fit, whole, judgement)
+    });
+    let blamed = blamed(&bank, &set.fit);
+    let named = name(
+        experiment,
+        &bank,
+        &posterior,
+        &set,
+        (&blamed, &gains),
+        judgement,
+    );
+    let answer = answer(
+        experiment,
+        statement,
+        &bank,
+        (&posterior, &set),
+        (named, rest),
+        (&missed, &left),
+        judgement,
+    );
+    let explained = missed.iter().zip(&left).map(|(m, l)| m - l).collect();
+    Found {
+        answer,
+        blamed,
+        missed,
+        explained,
+        left,
+        evidence,
+    }
+}
+
+fn evidence_of(
+    bank: &Bank,
+    set: &Scored,
+    judgement: &Judgement,
+) -> (Vec<(&'static str, String)>, f64) {
+    let own = set.suspects.iter().map(|s| &bank.suspects[*s]);
+    let places = own.map(|s| (s.effect, s.site.clone())).collect();
+    // the shapes' and the amounts' prices belong to the evidence; the odds of names do not
+    let names = set.suspects.len() as f64;
+    let shares: f64 = set.suspects.iter().map(|s| bank.suspects[*s].share).sum();
+    let odds = judgement.name * names + judgement.companion * (names - 1.0).max(0.0) - shares;
+    (places, set.score + odds)
+}
+
+/// Sets whose every cause matters; the empty one always does.
+fn material(
+    statement: &Statement,
+    bank: &Bank,
+    sets: Vec<Scored>,
+    judgement: &Judgement,
+) -> Vec<Scored> {
+    let best = sets.first().map_or(0.0, |s| s.score);
+    let holds = |s: &Scored| {
+        s.suspects.is_empty()
+            || (s.score > best - HOPELESS && is_material(statement, bank, &s.fit, judgement))
+    };
+    sets.into_iter().filter(holds).collect()
+}
+
+fn nothing(posterior: &Posterior) -> Scored {
+    let empty = posterior.set(&[]).or(posterior.sets.first().map(|s| &s.0));
+    empty
+        .cloned()
+        .unwrap_or_else(|| unreachable!("the empty set is always compared"))
+}
+
+/// The best set, less companions that are not probable enough.
+fn choose(posterior: &Posterior, judgement: &Judgement) -> Scored {
+    let mut set = posterior
+        .sets
+        .first()
+        .map_or_else(|| nothing(posterior), |s| s.0.clone());
+    while set.suspects.len() > 1 {
+        let probability = |s: &usize| {
+            let swapped: f64 = posterior.stand_ins(&set, *s).iter().map(|r| r.1).sum();
+            let own = posterior.inclusion(*s);
+            // what a stand-in takes is not lost: some companion is there
+            (own * (1.0 + swapped)).min(1.0)
+        };
+        let weakest = set
+            .suspects
+            .iter()
+            .min_by(|a, b| probability(a).total_cmp(&probability(b)));
+        let Some(weakest) = weakest
+            .copied()
+            .filter(|s| probability(s) < judgement.companion_needed)
+        else {
+            break;
+        };
+        let Some(less) = without(posterior, &set, weakest) else {
+            break;
+        };
+        set = less;
+    }
+    set
+}
+
+fn without(posterior: &Posterior, set: &Scored, suspect: usize) -> Option<Scored> {
+    let rest: Vec<usize> = set
+        .suspects
+        .iter()
+        .copied()
+        .filter(|s| *s != suspect)
+        .collect();
+    posterior.set(&rest).cloned()
+}
+
+/// Gains of all causes of the set, after those were dropped that gain nothing on unseen rows.
+fn drop_unreal(
+    statement: &Statement,
+    bank: &Bank,
+    posterior: &Posterior,
+    set: &mut Scored,
+) -> Vec<Gain> {
+    loop {
+        let gains: Vec<Gain> = set
+            .fit
+            .members
+            .iter()
+            .map(|m| gain(statement, bank, &set.fit, *m))
+            .collect();
+        let unreal = gains.iter().enumerate().filter(|(_, g)| !g.is_real());
+        let worst = unreal.min_by(|a, b| a.1.reduction_percent.total_cmp(&b.1.reduction_percent));
+        let Some((at, _)) = worst else {
+            return gains;
+        };
+        let mut members = set.fit.members.clone();
+        members.remove(at);
+        let suspects = members
+            .iter()
+            .map(|m| bank.entries[*m].suspect)
+            .collect::<Vec<_>>();
+        *set = match (posterior.set(&suspects), bank.fit(&members)) {
+            (Some(less), _) => less.clone(),
+            (None, Some(fit)) => Scored {
+                suspects,
+                fit,
+                score: 0.0,
+            },
+            (None, None) => nothing(posterior),
+        };
+    }
+}
+
+/// Several causes must be worth their price beside structure of any kind: else that is the better story.
+fn loses_to_structure(
+    bank: &Bank,
+    posterior: &Posterior,
+    set: &Scored,
+    span: Option<&Span>,
+) -> bool {
+    let Some(span) = span.filter(|_| set.suspects.len() > 1) else {
+        return false;
+    };
+    let empty = nothing(posterior).fit;
+    let price = set.fit.posterior.ln_evidence - empty.posterior.ln_evidence - set.score;
+    span.best(bank, &set.fit) - price < span.best(bank, &empty)
+}
+
+fn in_noise(statement: &Statement, raw: &[f64]) -> Vec<f64> {
+    raw.iter()
+        .zip(statement.noise.spread())
+        .map(|(v, s)| v / s)
+        .collect()
+}
+
+/// What a fit leaves of the readings, nuisances at their most probable.
+fn residual(statement: &Statement, bank: &Bank, fit: &Fit) -> Vec<f64> {
+    let mut left = statement.reading.clone();
+    for part in raw_parts(bank, fit) {
+        left.iter_mut().zip(part).for_each(|(l, p)| *l -= p);
+    }
+    let whitened = DVector::from_vec(statement.noise.whiten(&left));
+    let amounts = bank.nuisances_in(&whitened);
+    for (nuisance, amount) in statement.nuisances.iter().zip(amounts) {
+        left.iter_mut()
+            .zip(&nuisance.column)
+            .for_each(|(l, c)| *l -= amount * c);
+    }
+    left
+}
+
+fn blamed(bank: &Bank, fit: &Fit) -> Vec<Blamed> {
+    let mut at = 0;
+    let variance = fit.posterior.noise_variance;
+    let each = fit.members.iter().map(|member| {
+        let (entry, suspect, own) = (
+            &bank.entries[*member],
+            bank.suspect(*member),
+            bank.member(*member),
+        );
+        let (first, count) = (at, own.columns.len());
+        at += count;
+        let covariance = fit
+            .posterior
+            .covariance
+            .view((first, first), (count, count));
+        Blamed {
+            effect: suspect.effect,
+            site: suspect.site.clone(),
+            shape: own.shape.clone(),
+            amounts: (0..count)
+                .map(|k| fit.posterior.mean[first + k] * entry.scale)
+                .collect(),
+            covariance: covariance * (variance * entry.scale * entry.scale),
+        }
+    });
+    each.collect()
+}
+
+fn answer(
+    experiment: &dyn Experiment,
+    statement: &Statement,
+    bank: &Bank,
+    (posterior, set): (&Posterior, &Scored),
+    (named, rest): (Named, Rest),
+    (missed, left): (&[f64], &[f64]),
+    judgement: &Judgement,
+) -> Answer {
+    let noise = rms(statement.noise.spread()) * set.fit.posterior.noise_variance.sqrt();
+    let before = rms(missed);
+    let share = (rms(left).powi(2) - noise * noise) / before.powi(2).max(f64::MIN_POSITIVE);
+    let remaining = experiment.remaining(left);
+    Answer {
+        verdict: verdict(&named, &rest, judgement),
+        discrepancy: Discrepancy {
+            rms: before,
+            noise_rms: noise,
+            place: experiment.place(missed),
+        },
+        causes: named.causes,
+        groups: named.groups,
+        unexplained: Structure {
+            share_of_variance: share.clamp(0.0, 1.0),
+            shape: remaining.shape,
+            over_time: remaining.over_time,
+            description: remaining.description,
+        },
+        p_value: (-rest.nats).exp(),
+        candidates: posterior
+            .sets
+            .iter()
+            .take(10)
+            .map(|s| candidate(bank, &s.0, s.1, posterior))
+            .collect(),
+        unit: experiment.unit(),
+        noise: statement.noise.describe(),
+        unstated: false,
+        doubts: Vec::new(),
+    }
+}
+
+fn candidate(bank: &Bank, set: &Scored, p: f64, posterior: &Posterior) -> Candidate {
+    let own = set.suspects.iter().map(|s| &bank.suspects[*s]);
+    let names = own.map(|s| format!("{} {}", s.effect, s.site)).collect();
+    let empty = nothing(posterior).fit.posterior.ln_evidence;
+    (names, p, set.fit.posterior.ln_evidence - empty)
+}

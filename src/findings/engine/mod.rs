@@ -1,0 +1,37 @@
+//! One diagnosis for every kind of measurement.
+//!
+//! A kind implements [`Experiment`]: it states its readings less the simulation, the noise, what is
+//! uncertain although nothing is wrong (nuisances), who may be to blame ([`Suspect`], each a *family* of
+//! [`Member`]s: shapes of one mechanism) and how rows are held out. The engine brings the rest, in the
+//! order of [`diagnose`]:
+//!
+//! 1. [`bank`]: columns whitened, nuisances integrated out (Woodbury), products cached;
+//! 2. [`search`]: the evidence of sets of causes, singles by a rank-one scan, then partners, then the
+//!    subsets of what leads;
+//! 3. [`materiality`]: a cause must be of a size that matters before it takes part in the choice;
+//! 4. [`posterior`]: probabilities of sets and of causes, tempered, and who can stand in for whom;
+//! 5. [`unseen`]: the gain on rows that were not fitted;
+//! 6. [`rest`]: whether structure is left that no named cause makes;
+//! 7. [`verdict`]: causes, groups, the verdict.
+//!
+//! Every number that decides stands in [`Judgement`], with its reason.
+
+pub mod bank;
+pub mod diagnosis;
+pub mod judgement;
+pub mod materiality;
+pub mod posterior;
+pub mod rest;
+pub mod search;
+pub mod statement;
+pub mod unseen;
+pub mod verdict;
+
+#[cfg(test)]
+mod tests;
+
+pub use diagnosis::{Found, diagnose};
+pub use judgement::Judgement;
+pub use statement::{
+    Blamed, Experiment, Member, Noise, Nuisance, Remaining, Statement, Suspect, White,
+};

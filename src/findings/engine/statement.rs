@@ -1,0 +1,187 @@
+//! What a kind of measurement brings to its diagnosis.
+
+use crate::inference::gaussian::Size;
+use nalgebra::DMatrix;
+
+/// The noise of the readings.
+pub trait Noise: Send + Sync {
+    /// A column (one entry per row, in the unit of the readings) in independent noise deviations. Linear,
+    /// and as many numbers as rows.
+    fn whiten(&self, column: &[f64]) -> Vec<f64>;
+    /// Standard deviation of every row, in the unit of the readings.
+    fn spread(&self) -> &[f64];
+    /// Rows that the stated deviations are worth: 0 where they are only relative to one another, infinite
+    /// where they are certain.
+    fn rows(&self) -> f64;
+    /// In words, as in "the noise is white".
+    fn describe(&self) -> String;
+}
+
+/// Independent noise.
+#[derive(Debug, Clone, PartialEq)]
+pub struct White {
+    /// Standard deviation of every row, in the unit of the readings, above zero.
+    pub spread: Vec<f64>,
+    /// See [`Noise::rows`].
+    pub rows: f64,
+}
+
+impl Noise for White {
+    fn whiten(&self, column: &[f64]) -> Vec<f64> {
+        column
+            .iter()
+            .zip(&self.spread)
+            .map(|(c, s)| c / s)
+            .collect()
+    }
+
+    fn spread(&self) -> &[f64] {
+        &self.spread
+    }
+
+    fn rows(&self) -> f64 {
+        self.rows
+    }
+
+    fn describe(&self) -> String {
+        "independent from reading to reading".into()
+    }
+}
+
+/// What is uncertain although nothing is wrong.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Nuisance {
+    /// What one unit of it adds to the readings.
+    pub column: Vec<f64>,
+    /// Its standard deviation before the data; infinite: nothing is known.
+    pub spread: f64,
+}
+
+/// One shape in which a suspect may act.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Member {
+    /// What one unit of each amount adds to the readings.
+    pub columns: Vec<Vec<f64>>,
+    /// The amounts' standard deviation before the data: [`Size::Given`] in units of the columns (one for
+    /// all: scale the columns), or [`Size::Free`] where nobody knows how large the effect is.
+    pub size: Size,
+    /// Where physics fixes the sign: weights of the amounts whose sum must come out positive.
+    pub positive: Option<Vec<f64>>,
+    /// What the kind needs to know its shape again (a width, a place, a time constant).
+    pub shape: Vec<f64>,
+}
+
+impl Member {
+    /// One column of free size and either sign.
+    pub fn free(column: Vec<f64>) -> Self {
+        Self {
+            columns: vec![column],
+            size: Size::Free,
+            positive: None,
+            shape: Vec::new(),
+        }
+    }
+
+    /// One column whose amount has this standard deviation before the data.
+    pub fn given(column: Vec<f64>, spread: f64) -> Self {
+        Self {
+            size: Size::Given(spread),
+            ..Self::free(column)
+        }
+    }
+
+    /// The same, known to be positive.
+    #[must_use]
+    pub fn positive(mut self) -> Self {
+        self.positive = Some(vec![1.0; self.columns.len()]);
+        self
+    }
+
+    /// The same with its shape.
+    #[must_use]
+    pub fn shaped(mut self, shape: &[f64]) -> Self {
+        self.shape = shape.to_vec();
+        self
+    }
+}
+
+/// Who may be to blame: an effect at a site, in any of its shapes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Suspect {
+    /// Name of the effect.
+    pub effect: &'static str,
+    /// Where.
+    pub site: String,
+    /// What it is, one sentence.
+    pub summary: &'static str,
+    /// Suspects of one mechanism hardly ever act together: one law of another shape explains both.
+    pub mechanism: &'static str,
+    /// Logarithm of its share among the sites of its effect: 0 for the only one.
+    pub share: f64,
+    /// Its shapes.
+    pub members: Vec<Member>,
+}
+
+/// The linear statement of a diagnosis: reading = nuisances + causes + noise.
+pub struct Statement {
+    /// Measured less simulated. About amounts other than zero: measured less simulated there, plus the
+    /// columns times these amounts, so that amounts are always totals.
+    pub reading: Vec<f64>,
+    /// The noise.
+    pub noise: Box<dyn Noise>,
+    /// What is uncertain although nothing is wrong.
+    pub nuisances: Vec<Nuisance>,
+    /// Who may be to blame.
+    pub suspects: Vec<Suspect>,
+    /// Smooth or local structure of any kind, falling with its order, one unit rms each: what shows that
+    /// something is left. Left out: no test of what is left but the noise's own size.
+    pub span: Vec<Vec<f64>>,
+    /// Ways to hold out rows, coarse first: the fold of every row.
+    pub splits: Vec<Vec<usize>>,
+}
+
+/// A cause in a chosen set.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Blamed {
+    /// Name of the effect.
+    pub effect: &'static str,
+    /// Where.
+    pub site: String,
+    /// The member's shape.
+    pub shape: Vec<f64>,
+    /// Its amounts, in units of its columns.
+    pub amounts: Vec<f64>,
+    /// Their covariance.
+    pub covariance: DMatrix<f64>,
+}
+
+/// What is left, in the words and axes of the kind.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Remaining {
+    /// Over load (or what stands for it): [load, residual].
+    pub shape: Vec<[f64; 2]>,
+    /// Over time: [s, residual].
+    pub over_time: Vec<[f64; 2]>,
+    /// In words.
+    pub description: String,
+}
+
+/// A kind of measurement, as its diagnosis needs it.
+pub trait Experiment: Sync {
+    /// Unit of the readings.
+    fn unit(&self) -> &'static str;
+    /// The linear statement about these causes; linear kinds ignore them.
+    fn state(&self, about: &[Blamed]) -> Statement;
+    /// Whether [`Experiment::state`] depends on the causes.
+    fn is_linear(&self) -> bool {
+        true
+    }
+    /// The parameters of a named cause: name, value SI, unit.
+    fn parameters(&self, blamed: &Blamed) -> Vec<(&'static str, f64, &'static str)>;
+    /// What would tell these rivals (effect, site) apart: a phrase.
+    fn would_tell(&self, rivals: &[(&'static str, String)]) -> String;
+    /// Where a residual is largest: a phrase that ends "the error is ...".
+    fn place(&self, missed: &[f64]) -> String;
+    /// What is left.
+    fn remaining(&self, left: &[f64]) -> Remaining;
+}

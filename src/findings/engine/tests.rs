@@ -1,0 +1,183 @@
+//! Two toy kinds behind the engine: one linear with known sizes, one with free shapes.
+
+use super::*;
+use crate::findings::Verdict;
+
+/// Noise of one deviation by a hash of the row.
+fn noise(seed: u64, row: usize) -> f64 {
+    let mut state = (row as u64 + 1)
+        .wrapping_add(seed << 32)
+        .wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    let mut uniform = || {
+        state ^= state >> 31;
+        state = state.wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        state ^= state >> 27;
+        ((state >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
+    };
+    let (a, b) = (uniform(), uniform());
+    (-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()
+}
+
+/// Columns of a toy kind: its causes by name, each with its shapes.
+struct Toy {
+    reading: Vec<f64>,
+    causes: fn(usize) -> Vec<(&'static str, Vec<Member>)>,
+    nuisance: fn(usize) -> f64,
+}
+
+impl Toy {
+    fn new(
+        seed: u64,
+        rows: usize,
+        causes: fn(usize) -> Vec<(&'static str, Vec<Member>)>,
+        hidden: impl Fn(usize) -> f64,
+    ) -> Self {
+        let nuisance = |i: usize| (i as f64 / 9.0).cos();
+        let reading = (0..rows).map(|i| 0.3 * nuisance(i) + hidden(i) + noise(seed, i));
+        Self {
+            reading: reading.collect(),
+            causes,
+            nuisance,
+        }
+    }
+
+    fn names(&self) -> (Vec<&'static str>, Verdict) {
+        let found = diagnose(self, &Judgement::default());
+        let groups = found.answer.groups.iter().map(|g| g.effects[0]);
+        let mut names: Vec<&str> = found
+            .answer
+            .causes
+            .iter()
+            .map(|c| c.effect)
+            .chain(groups)
+            .collect();
+        names.sort_unstable();
+        (names, found.answer.verdict)
+    }
+}
+
+impl Experiment for Toy {
+    fn unit(&self) -> &'static str {
+        "m"
+    }
+
+    fn state(&self, _: &[Blamed]) -> Statement {
+        let rows = self.reading.len();
+        let suspect = |(effect, members): (&'static str, Vec<Member>)| Suspect {
+            effect,
+            site: "A1".into(),
+            summary: "a toy",
+            mechanism: effect,
+            share: 0.0,
+            members,
+        };
+        let cosine = |k: usize, i: usize| {
+            (std::f64::consts::PI * k as f64 * (i as f64 + 0.5) / rows as f64).cos() / k as f64
+        };
+        Statement {
+            reading: self.reading.clone(),
+            noise: Box::new(White {
+                spread: vec![1.0; rows],
+                rows: 30.0,
+            }),
+            nuisances: vec![Nuisance {
+                column: (0..rows).map(self.nuisance).collect(),
+                spread: 0.5,
+            }],
+            suspects: (self.causes)(rows).into_iter().map(suspect).collect(),
+            span: (1..40)
+                .map(|k| (0..rows).map(|i| cosine(k, i)).collect())
+                .collect(),
+            splits: vec![(0..rows).map(|i| i * 40 / rows % 8).collect()],
+        }
+    }
+
+    fn parameters(&self, blamed: &Blamed) -> Vec<(&'static str, f64, &'static str)> {
+        vec![("amount", blamed.amounts[0], "1")]
+    }
+
+    fn would_tell(&self, _: &[(&'static str, String)]) -> String {
+        "another toy".into()
+    }
+
+    fn place(&self, _: &[f64]) -> String {
+        "everywhere".into()
+    }
+
+    fn remaining(&self, _: &[f64]) -> Remaining {
+        Remaining::default()
+    }
+}
+
+fn steps(rows: usize) -> Vec<(&'static str, Vec<Member>)> {
+    let of = |f: fn(f64) -> f64| {
+        vec![Member::given(
+            (0..rows)
+                .map(|i| 20.0 * f(i as f64 / rows as f64))
+                .collect(),
+            0.5,
+        )]
+    };
+    vec![
+        ("base", of(|t| 1.0 - t)),
+        ("drive", of(|t| t * t)),
+        ("tilt", of(|t| (6.0 * t).sin())),
+    ]
+}
+
+fn load(i: usize) -> f64 {
+    (i as f64 * 0.1).sin()
+}
+
+fn cycle(rows: usize) -> Vec<(&'static str, Vec<Member>)> {
+    let gap = |width: f64| {
+        Member::free((0..rows).map(|i| (load(i) / width).tanh()).collect())
+            .positive()
+            .shaped(&[width])
+    };
+    let power = |p: i32| Member::free((0..rows).map(|i| load(i).powi(p)).collect());
+    let skew = Member::free((0..rows).map(|i| (i as f64 * 0.1 + 0.3).cos()).collect());
+    vec![
+        ("backlash", [0.02, 0.04, 0.08].map(gap).to_vec()),
+        ("cubic", [3, 5].map(power).to_vec()),
+        ("skew", vec![skew]),
+    ]
+}
+
+#[test]
+fn a_linear_kind_names_what_is_hidden_and_nothing_else() {
+    for seed in 0..5 {
+        let toy = |hidden: fn(f64) -> f64| {
+            Toy::new(seed, 90, steps, move |i| hidden(i as f64 / 90.0)).names()
+        };
+        assert_eq!(toy(|_| 0.0), (vec![], Verdict::Sufficient));
+        assert_eq!(
+            toy(|t| 8.0 * (6.0 * t).sin()),
+            (vec!["tilt"], Verdict::Explained)
+        );
+        let pair = toy(|t| 8.0 * (6.0 * t).sin() + 9.0 * (1.0 - t));
+        assert_eq!(pair, (vec!["base", "tilt"], Verdict::Explained));
+    }
+}
+
+#[test]
+fn a_kind_with_free_shapes_does_as_well() {
+    for seed in 0..5 {
+        let toy = |hidden: fn(usize) -> f64| Toy::new(seed, 252, cycle, hidden).names();
+        assert_eq!(toy(|_| 0.0), (vec![], Verdict::Sufficient));
+        assert_eq!(
+            toy(|i| 6.0 * (load(i) / 0.05).tanh()),
+            (vec!["backlash"], Verdict::Explained)
+        );
+        let pair = toy(|i| 6.0 * (load(i) / 0.05).tanh() + 5.0 * (i as f64 * 0.1 + 0.3).cos());
+        assert_eq!(pair, (vec!["backlash", "skew"], Verdict::Explained));
+    }
+}
+
+#[test]
+fn what_nobody_knows_is_called_unknown() {
+    for seed in 0..5 {
+        let toy = Toy::new(seed, 252, cycle, |i| 8.0 * (i as f64 * 0.031).sin());
+        assert_eq!(toy.names().1, Verdict::UnknownCause);
+    }
+}

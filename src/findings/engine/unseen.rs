@@ -1,0 +1,128 @@
+//! What a cause gains on rows that were not fitted.
+
+use super::bank::{Bank, Fit};
+use super::statement::Statement;
+use crate::findings::gain::Gain;
+use crate::inference::gaussian::Size;
+use crate::inference::stats::{Z95, mean, t95};
+use nalgebra::{DMatrix, DVector};
+
+/// The gain of one member of a set: on the first split that shows it, coarse before fine; where none does,
+/// that of the coarsest.
+pub fn gain(statement: &Statement, bank: &Bank, fit: &Fit, member: usize) -> Gain {
+    let rest: Vec<usize> = fit
+        .members
+        .iter()
+        .copied()
+        .filter(|m| *m != member)
+        .collect();
+    let with = Design::of(statement, bank, &fit.members, fit);
+    let without = Design::of(statement, bank, &rest, fit);
+    let mut first = None;
+    for split in &statement.splits {
+        let errors = [&without, &with].map(|d| d.held_out(statement, split));
+        let found = compare(&errors[0], &errors[1], split);
+        if found.is_real() {
+            return found;
+        }
+        first.get_or_insert(found);
+    }
+    first.unwrap_or(Gain::of(1.0, 1.0, f64::INFINITY))
+}
+
+/// Rows in noise deviations, and how stiffly every amount is held by its prior.
+struct Design {
+    matrix: DMatrix<f64>,
+    precision: Vec<f64>,
+}
+
+impl Design {
+    fn of(statement: &Statement, bank: &Bank, members: &[usize], fit: &Fit) -> Self {
+        let spread = statement.noise.spread();
+        let white = |c: &[f64], scale: f64| {
+            let each = c.iter().zip(spread);
+            DVector::from_iterator(c.len(), each.map(|(v, s)| v * scale / s))
+        };
+        let mut columns = Vec::new();
+        let mut precision = Vec::new();
+        for nuisance in &statement.nuisances {
+            let column = white(&nuisance.column, 1.0);
+            let least = 1e-12 * column.norm_squared().max(f64::MIN_POSITIVE);
+            precision.push((nuisance.spread * nuisance.spread).recip().max(least));
+            columns.push(column);
+        }
+        for member in members {
+            let own = bank.member(*member);
+            let scale = bank.entries[*member].scale;
+            let size = match own.size {
+                Size::Given(size) => size,
+                Size::Free => fit
+                    .members
+                    .iter()
+                    .position(|m| m == member)
+                    .map_or(1.0, |i| fit.posterior.sizes[i]),
+            };
+            columns.extend(own.columns.iter().map(|c| white(c, scale)));
+            precision.extend(own.columns.iter().map(|_| (size * size).recip()));
+        }
+        let rows = statement.reading.len();
+        let matrix = match columns.is_empty() {
+            true => DMatrix::zeros(rows, 0),
+            false => DMatrix::from_columns(&columns),
+        };
+        Self { matrix, precision }
+    }
+
+    /// Error of every row in the unit of the readings, each fold predicted from the others.
+    fn held_out(&self, statement: &Statement, split: &[usize]) -> Vec<f64> {
+        let spread = statement.noise.spread();
+        let each = statement.reading.iter().zip(spread);
+        let y = DVector::from_iterator(split.len(), each.map(|(r, s)| r / s));
+        let (gram, right) = (self.matrix.tr_mul(&self.matrix), self.matrix.tr_mul(&y));
+        let folds = split.iter().copied().max().map_or(0, |f| f + 1);
+        let mut error = statement.reading.clone();
+        for fold in 0..folds {
+            let rows: Vec<usize> = (0..split.len()).filter(|i| split[*i] == fold).collect();
+            let (own, held) = (self.matrix.select_rows(&rows), y.select_rows(&rows));
+            let mut rest = &gram - own.tr_mul(&own);
+            let pull = &right - own.tr_mul(&held);
+            for (i, p) in self.precision.iter().enumerate() {
+                rest[(i, i)] += p;
+            }
+            let Some(root) = rest.cholesky() else {
+                continue;
+            };
+            let left = held - own * root.solve(&pull);
+            rows.iter()
+                .zip(left.iter())
+                .for_each(|(i, l)| error[*i] = l * spread[*i]);
+        }
+        error
+    }
+}
+
+/// From errors before and after; the interval by leaving out each fold in turn (jackknife).
+pub fn compare(before: &[f64], after: &[f64], split: &[usize]) -> Gain {
+    let folds = split.iter().copied().max().map_or(0, |f| f + 1);
+    let sums = |errors: &[f64]| {
+        let mut sums = vec![0.0; folds];
+        errors
+            .iter()
+            .zip(split)
+            .for_each(|(e, f)| sums[*f] += e * e);
+        sums
+    };
+    let (b, a) = (sums(before), sums(after));
+    let total = |s: &[f64]| s.iter().sum::<f64>().max(f64::MIN_POSITIVE);
+    let log = |skip: usize| {
+        let less = |s: &[f64]| (total(s) - s[skip]).max(1e-12 * total(s));
+        0.5 * (less(&b) / less(&a)).ln()
+    };
+    let parts: Vec<f64> = (0..folds).map(log).collect();
+    let middle = mean(&parts);
+    let squares: f64 = parts.iter().map(|g| (g - middle) * (g - middle)).sum();
+    let freedom = folds.saturating_sub(1) as f64;
+    let deviation = (squares * freedom / folds.max(1) as f64).sqrt();
+    let root = |s: &[f64]| (total(s) / before.len().max(1) as f64).sqrt();
+    Gain::of(root(&b), root(&a), t95(freedom) / Z95 * deviation)
+}

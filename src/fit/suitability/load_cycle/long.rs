@@ -1,0 +1,25 @@
+//! More cycles than are fitted.
+
+use super::{Course, Rule};
+use crate::fit::observation::Part;
+use crate::fit::suitability::{Said, Weight};
+
+/// The rule.
+pub const RULE: Rule = Rule {
+    name: "long",
+    about: "A record of very many cycles is fitted by its first ones, as averaging would mix cycles.",
+    remedy: "cut the file into pieces to see the later cycles",
+    look,
+};
+
+fn look(on: &Course) -> Said {
+    let part = Part::of_cycles(
+        &on.cycles,
+        on.file.load.len(),
+        crate::fit::observation::MOST_ROWS,
+    );
+    part.sentence()
+        .map(|said| (Weight::Note, said))
+        .into_iter()
+        .collect()
+}

@@ -1,0 +1,80 @@
+//! Units: the measured stiffness beside the nominal one.
+
+use super::{Course, Rule};
+use crate::experiments::load_cycle::straight_line;
+use crate::fit::suitability::magnitude::{explanation, times};
+use crate::fit::suitability::{Said, Weight};
+use crate::measurement::load_cycle::{LEVER_REL_STD, LoadCycle};
+
+/// The rule.
+pub const RULE: Rule = Rule {
+    name: "scale",
+    about: "A stiffness far from the nominal one may be a unit or a lever, not the joint.",
+    remedy: "check the units at the ends of the column names, the levers (metres) and the nominal stiffness",
+    look,
+};
+
+/// Spread of a nominal stiffness that nobody stated.
+const SPREAD: f64 = 0.05;
+/// A line and a joint's stiffness differ by this share for play and friction alone.
+const SHAPE: f64 = 0.15;
+/// Spreads beyond which the nominal value contradicts the measured one.
+const SPREADS: f64 = 5.0;
+/// No joint is off by this factor: a unit is.
+const UNIT: f64 = 30.0;
+/// Levers of robots and rigs, m.
+const LEVERS: std::ops::RangeInclusive<f64> = 0.02..=4.0;
+
+fn look(on: &Course) -> Said {
+    let file = on.file;
+    let mut found = levers(file);
+    let line = straight_line(&file.load, &file.deflection);
+    let Some(nominal) = file.facts.nominal_stiffness else {
+        return found;
+    };
+    if !(line.is_finite() && line > 0.0) || !on.relation.is_real() {
+        return found;
+    }
+    let ratio = line / nominal;
+    let lever = file.facts.lever_rel_std.unwrap_or(LEVER_REL_STD);
+    let spread = file
+        .facts
+        .nominal_rel_std
+        .unwrap_or(SPREAD)
+        .hypot(lever * std::f64::consts::SQRT_2);
+    if ratio.ln().abs() < SPREADS * spread + SHAPE {
+        return found;
+    }
+    let why = explanation(ratio).map_or(String::new(), |why| format!("; {why}"));
+    let what = format!(
+        "the stiffness comes out {} the nominal one, beyond {SPREADS:.0} of its stated spreads{why}",
+        times(ratio)
+    );
+    let weight = match ratio.max(1.0 / ratio) > UNIT {
+        true => Weight::Fatal,
+        false => Weight::Odd,
+    };
+    found.push((weight, what));
+    found
+}
+
+/// Levers that no rig has.
+fn levers(file: &LoadCycle) -> Said {
+    let facts = &file.facts;
+    let stated = [
+        ("load_lever_m", facts.load_lever),
+        ("sensor_lever_m", facts.sensor_lever),
+        ("sensor2_lever_m", facts.sensor2_lever),
+    ];
+    let odd = stated
+        .into_iter()
+        .filter_map(|(key, lever)| Some((key, lever?)));
+    odd.filter(|(_, lever)| !LEVERS.contains(lever))
+        .map(|(key, lever)| {
+            (
+                Weight::Odd,
+                format!("`{key}` is {lever} m, which is no lever of a robot"),
+            )
+        })
+        .collect()
+}

@@ -1,0 +1,114 @@
+//! Whether data can carry a number at all. Every verb passes this gate before it says `identified`,
+//! `explained` or `sufficient`.
+//!
+//! One rule is one file and one line in the table of its kind ([`load_cycle::RULES`],
+//! [`workspace::RULES`], [`hammer::RULES`]): what it looks at, what it finds odd, how grave that is, and
+//! what to do about it. What a rule finds is a [`Doubt`].
+
+pub mod hammer;
+pub mod load_cycle;
+pub mod magnitude;
+pub mod relation;
+pub mod workspace;
+
+/// How grave a doubt is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Weight {
+    /// Worth knowing; no number suffers.
+    Note,
+    /// Needs attention: a number may be another than it seems.
+    Odd,
+    /// No number and no cause follows from these data.
+    Fatal,
+}
+
+impl Weight {
+    /// As in the JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Note => "note",
+            Self::Odd => "odd",
+            Self::Fatal => "fatal",
+        }
+    }
+}
+
+/// One rule of the gate; `L` is the function that looks at a kind of measurement.
+pub struct Rule<L> {
+    /// Its name, as in the JSON.
+    pub name: &'static str,
+    /// What it looks at and why that matters, one sentence.
+    pub about: &'static str,
+    /// What to do about what it finds, imperative.
+    pub remedy: &'static str,
+    /// What it finds: how grave, and one clause each.
+    pub look: L,
+}
+
+/// What a rule found.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Doubt {
+    /// Name of the rule.
+    pub rule: &'static str,
+    /// How grave.
+    pub weight: Weight,
+    /// What is odd, one clause, lower case.
+    pub what: String,
+    /// What to do about it.
+    pub remedy: &'static str,
+}
+
+impl Doubt {
+    /// What is odd and what to do about it.
+    pub fn sentence(&self) -> String {
+        match self.weight {
+            Weight::Note => self.what.clone(),
+            Weight::Odd | Weight::Fatal => format!("{}: {}", self.what, self.remedy),
+        }
+    }
+}
+
+/// What a rule says: how grave, and what is odd.
+pub type Said = Vec<(Weight, String)>;
+
+/// What a table of rules finds when each is called, the gravest first.
+pub fn doubts<L: Copy>(rules: &[Rule<L>], call: impl Fn(L) -> Said) -> Vec<Doubt> {
+    let of = |rule: &Rule<L>| {
+        let (name, remedy) = (rule.name, rule.remedy);
+        let doubt = move |(weight, what)| Doubt {
+            rule: name,
+            weight,
+            what,
+            remedy,
+        };
+        call(rule.look).into_iter().map(doubt).collect::<Vec<_>>()
+    };
+    let mut all: Vec<Doubt> = rules.iter().flat_map(of).collect();
+    all.sort_by_key(|doubt| std::cmp::Reverse(doubt.weight));
+    all
+}
+
+/// Whether no number follows from these data.
+pub fn is_fatal(doubts: &[Doubt]) -> bool {
+    doubts.iter().any(|doubt| doubt.weight == Weight::Fatal)
+}
+
+/// Whether anything needs attention.
+pub fn is_odd(doubts: &[Doubt]) -> bool {
+    doubts.iter().any(|doubt| doubt.weight >= Weight::Odd)
+}
+
+/// Smallest and largest; an empty range is upside down.
+pub(crate) fn range(values: &[f64]) -> (f64, f64) {
+    let start = (f64::INFINITY, f64::NEG_INFINITY);
+    values
+        .iter()
+        .filter(|v| v.is_finite())
+        .fold(start, |(l, h), v| (l.min(*v), h.max(*v)))
+}
+
+/// Largest less smallest; 0 for no values.
+pub(crate) fn extent(values: &[f64]) -> f64 {
+    let (low, high) = range(values);
+    (high - low).max(0.0)
+}

@@ -1,0 +1,227 @@
+//! Whether a response depends on what drives it beyond chance, whatever the colour of the noise.
+//!
+//! A drive that goes to and fro is cut into ramps. Over each ramp the response changes by some slope. The
+//! increments of noise, of a random walk or of an unrelated oscillation over separate ramps are as
+//! often of one sign as of the other relative to the drive; those of a response agree. Student's test on
+//! the slopes of the ramps therefore needs no model of the noise. A second demand, that drive and time
+//! together describe a good share of the response, tells what oscillates faster or slower than the drive.
+
+use crate::fit::observation::reduce;
+use crate::measurement::cycles::Cycles;
+use nalgebra::{DMatrix, DVector};
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+/// How a response depends on a drive.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Relation {
+    /// Mean slope of response over drive, weighed by the squares of the drive.
+    pub slope: f64,
+    /// Probability that chance makes the slopes of the ramps agree so well.
+    pub p_value: f64,
+    /// Share of the variance beyond a slow drift that drive and its history describe.
+    pub share: f64,
+    /// Ramps.
+    pub ramps: usize,
+}
+
+/// Rows beyond which neighbours are averaged.
+const MOST_ROWS: usize = 8000;
+/// Means of neighbouring rows per ramp, for the share.
+const BINS: usize = 24;
+/// Chance below which a dependence counts.
+const CHANCE: f64 = 1e-3;
+/// Least share of the variance.
+const SHARE: f64 = 0.4;
+/// Widths of the play operators, as shares of half the drive's range.
+const PLAYS: [f64; 4] = [0.1, 0.3, 0.6, 0.9];
+
+impl Relation {
+    /// Whether the response depends on the drive.
+    pub fn is_real(&self) -> bool {
+        self.p_value < CHANCE && self.share > SHARE
+    }
+
+    /// The dependence of `response` on `drive`.
+    pub fn of(drive: &[f64], response: &[f64]) -> Self {
+        let turning = Cycles::find(drive).turning.len();
+        let fine = (drive.len() / (turning + 1) / 40).max(1);
+        let block = drive.len().div_ceil(MOST_ROWS).min(fine).max(1);
+        let (drive, response) = (reduce(drive, block), reduce(response, block));
+        let ramps = ramps(&drive);
+        let halves: Vec<(usize, usize)> = ramps.iter().flat_map(|r| halved(*r, &drive)).collect();
+        let (slope, whole) = agreement(&ramps, &drive, &response);
+        let (_, half) = agreement(&halves, &drive, &response);
+        Self {
+            slope,
+            p_value: 2.0 * whole.min(half),
+            share: share(&ramps, &drive, &response),
+            ramps: ramps.len(),
+        }
+    }
+}
+
+/// First and last row of every monotone piece.
+pub fn ramps(drive: &[f64]) -> Vec<(usize, usize)> {
+    let cycles = Cycles::find(drive);
+    let ends = [drive.len().saturating_sub(1)];
+    let first = [cycles.first_loaded];
+    let edges: Vec<usize> = first
+        .into_iter()
+        .chain(cycles.turning)
+        .chain(ends)
+        .collect();
+    let pairs = edges.windows(2).map(|w| (w[0], w[1]));
+    pairs.filter(|(a, b)| b > a).collect()
+}
+
+/// A ramp cut where the drive passes the middle between its ends.
+pub fn halved((a, b): (usize, usize), drive: &[f64]) -> Vec<(usize, usize)> {
+    let middle = 0.5 * (drive[a] + drive[b]);
+    let beyond = |i: &usize| (drive[*i] > middle) == (drive[b] > middle);
+    let cut = (a..b).find(beyond).unwrap_or(b);
+    [(a, cut), (cut, b)]
+        .into_iter()
+        .filter(|(a, b)| b > a)
+        .collect()
+}
+
+/// Slope of the response over the drive in one piece, and the squares of the drive about its mean.
+pub fn slope((a, b): (usize, usize), drive: &[f64], response: &[f64]) -> (f64, f64) {
+    let n = (b - a + 1) as f64;
+    let (x, y) = (&drive[a..=b], &response[a..=b]);
+    let (mx, my) = (x.iter().sum::<f64>() / n, y.iter().sum::<f64>() / n);
+    let (mut xx, mut xy) = (0.0, 0.0);
+    for (x, y) in x.iter().zip(y) {
+        xx += (x - mx) * (x - mx);
+        xy += (x - mx) * (y - my);
+    }
+    (if xx > 0.0 { xy / xx } else { 0.0 }, xx)
+}
+
+/// Mean slope of the pieces and the probability that chance makes it differ so from zero.
+fn agreement(pieces: &[(usize, usize)], drive: &[f64], response: &[f64]) -> (f64, f64) {
+    let slopes: Vec<(f64, f64)> = pieces.iter().map(|p| slope(*p, drive, response)).collect();
+    let total: f64 = slopes.iter().map(|s| s.1).sum();
+    if total <= 0.0 || !total.is_finite() {
+        return (0.0, 1.0);
+    }
+    let mean = slopes.iter().map(|(b, w)| b * w).sum::<f64>() / total;
+    let squares: f64 = slopes.iter().map(|(_, w)| (w / total).powi(2)).sum();
+    let count = 1.0 / squares;
+    let scatter = slopes.iter().map(|(b, w)| (w / total * (b - mean)).powi(2));
+    let error = (scatter.sum::<f64>() * count / (count - 1.0)).sqrt();
+    if count < 1.5 || !mean.is_finite() {
+        return (mean, 1.0);
+    }
+    let p = match StudentsT::new(0.0, 1.0, count - 1.0) {
+        Ok(student) if error > 0.0 => 2.0 * student.sf((mean / error).abs()),
+        _ if mean != 0.0 => 0.0,
+        _ => 1.0,
+    };
+    (mean, p)
+}
+
+/// Share of the response beyond a slow drift that the drive, its cube and its play operators describe.
+fn share(ramps: &[(usize, usize)], drive: &[f64], response: &[f64]) -> f64 {
+    let cells = cells(ramps, drive.len());
+    let half = 0.5 * super::extent(drive);
+    if cells.len() < 8 || half <= 0.0 {
+        return 0.0;
+    }
+    let middle = drive.iter().sum::<f64>() / drive.len() as f64;
+    let mean = |v: &[f64]| -> Vec<f64> {
+        let of = |c: &(usize, usize)| v[c.0..c.1].iter().sum::<f64>() / (c.1 - c.0) as f64;
+        cells.iter().map(of).collect()
+    };
+    let unit: Vec<f64> = drive.iter().map(|d| (d - middle) / half).collect();
+    let mut columns: Vec<Vec<f64>> = (0..4)
+        .map(|k| {
+            (0..cells.len())
+                .map(|i| (i as f64 / cells.len() as f64 - 0.5).powi(k))
+                .collect()
+        })
+        .collect();
+    let slow = columns.len();
+    columns.push(mean(&unit));
+    columns.push(mean(&unit.iter().map(|u| u.powi(3)).collect::<Vec<_>>()));
+    columns.extend(PLAYS.iter().map(|width| mean(&play(&unit, *width))));
+    let scale = super::extent(response).max(f64::MIN_POSITIVE);
+    let y: Vec<f64> = mean(response).iter().map(|v| v / scale).collect();
+    let without = left(&columns[..slow], &y);
+    let with = left(&columns, &y);
+    if without <= 0.0 {
+        0.0
+    } else {
+        1.0 - with / without
+    }
+}
+
+/// Rows to be averaged: some per ramp.
+fn cells(ramps: &[(usize, usize)], rows: usize) -> Vec<(usize, usize)> {
+    let mut found = Vec::new();
+    for (a, b) in ramps {
+        let n = (b - a).min(BINS).max(1);
+        let edge = |k: usize| a + k * (b - a) / n;
+        found.extend((0..n).map(|k| (edge(k), edge(k + 1).min(rows))));
+    }
+    found.retain(|(a, b)| b > a);
+    found
+}
+
+/// Play operator: follows the drive at a distance.
+fn play(drive: &[f64], width: f64) -> Vec<f64> {
+    let mut held = 0.0_f64;
+    let follow = |u: &f64| {
+        held = held.clamp(u - width, u + width);
+        held
+    };
+    drive.iter().map(follow).collect()
+}
+
+/// Sum of squares that the columns leave.
+fn left(columns: &[Vec<f64>], y: &[f64]) -> f64 {
+    let matrix = DMatrix::from_fn(y.len(), columns.len(), |i, j| columns[j][i]);
+    let y = DVector::from_column_slice(y);
+    let q = matrix.qr().q();
+    (&y - &q * q.tr_mul(&y)).norm_squared()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ground::random::Random;
+
+    fn triangle(rows: usize, period: usize) -> Vec<f64> {
+        let at = |i: usize| (i as f64 / period as f64 + 0.25).fract();
+        (0..rows).map(|i| 4.0 * (at(i) - 0.5).abs() - 1.0).collect()
+    }
+
+    #[test]
+    fn a_noisy_spring_with_drift_depends_on_its_load() {
+        let mut random = Random::new(3);
+        let load = triangle(900, 300);
+        let response: Vec<f64> = (0..900)
+            .map(|i| load[i] + 0.001 * i as f64 + 0.3 * random.normal())
+            .collect();
+        let found = Relation::of(&load, &response);
+        assert!(found.is_real(), "{found:?}");
+        assert!((found.slope - 1.0).abs() < 0.1, "{found:?}");
+    }
+
+    #[test]
+    fn a_random_walk_does_not_depend_on_it() {
+        let load = triangle(900, 300);
+        let walks = (0..300).filter(|seed| {
+            let mut random = Random::new(*seed);
+            let mut at = 0.0;
+            let walk: Vec<f64> = (0..900)
+                .map(|_| {
+                    at += random.normal();
+                    at
+                })
+                .collect();
+            Relation::of(&load, &walk).is_real()
+        });
+        assert!(walks.count() <= 1);
+    }
+}

@@ -1,0 +1,104 @@
+//! What every kind asks of its front matter and columns: known keys, columns with the right unit.
+
+use super::front::Front;
+use super::table::{Cells, Table};
+use crate::ground::problem::{Outcome, Problem};
+use crate::ground::units::Dimension;
+
+/// Keys that every kind knows.
+const COMMON: &[&str] = &["kind", "source", "synthetic", "notes", "campaign", "title"];
+
+/// Refuses a key that the kind does not know, with the nearest known one.
+///
+/// # Errors
+/// Names key and line.
+pub(super) fn known_keys(front: &Front, own: &[&str]) -> Outcome<()> {
+    let known: Vec<&str> = COMMON.iter().chain(own).copied().collect();
+    let stranger = front
+        .facts
+        .keys()
+        .find(|key| !known.contains(&key.as_str()));
+    let Some(key) = stranger else { return Ok(()) };
+    let nearest = known.iter().min_by_key(|known| distance(known, key));
+    let nearest = nearest.copied().unwrap_or_default();
+    Err(front.problem(
+        key,
+        "is no fact that this kind knows",
+        format!("did you mean `{nearest}`? What is free goes into `notes = {{ ... }}`"),
+    ))
+}
+
+/// Letters to insert, delete or exchange (Levenshtein 1966).
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut corner = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.iter().enumerate() {
+            let exchanged = corner + usize::from(x != *y);
+            corner = row[j + 1];
+            row[j + 1] = exchanged.min(row[j] + 1).min(corner + 1);
+        }
+    }
+    row[b.len()]
+}
+
+/// The numbers of a column, if the file has it, after a look at its unit.
+///
+/// # Errors
+/// The column holds another quantity.
+pub(super) fn measured<'a>(
+    table: &'a Table,
+    stem: &str,
+    wanted: Dimension,
+) -> Outcome<Option<&'a [f64]>> {
+    let Some(column) = table.column(stem) else {
+        return Ok(None);
+    };
+    match (&column.cells, column.dimension) {
+        (Cells::Numbers(values), Some(found)) if found == wanted => Ok(Some(values)),
+        _ => Err(column.misplaced(wanted, table.first_line - 1)),
+    }
+}
+
+/// [`measured`], refused where it is absent.
+///
+/// # Errors
+/// As [`measured`], or the column is missing: `header` shows what the kind writes.
+pub(super) fn needed<'a>(
+    table: &'a Table,
+    stem: &str,
+    wanted: Dimension,
+    header: &str,
+) -> Outcome<&'a [f64]> {
+    measured(table, stem, wanted)?.ok_or_else(|| missing(table, stem, header))
+}
+
+/// A column that the kind needs and the file does not have.
+pub(super) fn missing(table: &Table, stem: &str, header: &str) -> Problem {
+    Problem::new(
+        format!("has no column `{stem}`"),
+        format!("the header of this kind is `{header}`"),
+    )
+    .at_line(table.first_line - 1)
+}
+
+/// File name without its ending.
+pub(super) fn stem(path: &std::path::Path, otherwise: &str) -> String {
+    let stem = path.file_stem().map(|s| s.to_string_lossy().to_string());
+    stem.unwrap_or_else(|| otherwise.into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_misspelt_key_is_refused_with_the_nearest_one() {
+        let front = Front::parse("kind = \"screw\"\npich_mm = 5\n".into()).unwrap();
+        let problem = known_keys(&front, &["pitch_mm", "scale_noise_um"]).unwrap_err();
+        assert_eq!(problem.line, Some(2));
+        assert!(problem.remedy.contains("`pitch_mm`"), "{}", problem.remedy);
+    }
+}
