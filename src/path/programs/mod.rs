@@ -10,9 +10,9 @@ mod krl;
 mod rapid;
 mod text;
 
+use crate::ground::nearest::nearest;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{M3, Pose, V3};
-use crate::ground::words::nearest;
 use crate::measurement::toolpath::Shape;
 
 /// A path with everything a controller must know. SI, workpiece frame.
