@@ -2,6 +2,8 @@
 //!
 //! `IDENT_FUZZ_SECONDS=600` goes on with other mutations for that long.
 
+mod mutation;
+
 use ident::effects::Composite;
 use ident::fit::inspection::inspect;
 use ident::fit::observation::Observation;
@@ -10,6 +12,7 @@ use ident::ground::problem::Outcome;
 use ident::ground::random::Random;
 use ident::measurement::load_cycle::LoadCycle;
 use ident::measurement::table::Table;
+use mutation::mutate;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -71,38 +74,6 @@ const PIECES: &[&[u8]] = &[
     b"}",
 ];
 
-fn mutate(bytes: &mut Vec<u8>, seeds: &[Vec<u8>], random: &mut Random) {
-    let at = random.below(bytes.len() + 1);
-    let end = (at + 1 + random.below(24)).min(bytes.len());
-    match random.below(12) {
-        0 => bytes.truncate(at),
-        1 => drop(bytes.drain(at..end)),
-        2 if at < bytes.len() => bytes[at] ^= 1 << random.below(8),
-        3 if at < bytes.len() => bytes[at] = random.below(256) as u8,
-        4 => drop(bytes.splice(at..end, PIECES[random.below(PIECES.len())].iter().copied())),
-        5 => {
-            let piece = bytes[at..end].to_vec();
-            drop(bytes.splice(at..at, piece));
-        }
-        6..10 => another_digit(bytes, at, random),
-        10 => {
-            let other = &seeds[random.below(seeds.len())];
-            let from = random.below(other.len());
-            bytes.truncate(at);
-            bytes.extend_from_slice(&other[from..]);
-        }
-        _ => drop(bytes.splice(at..at, PIECES[random.below(PIECES.len())].iter().copied())),
-    }
-}
-
-/// The gentle one: the next digit becomes another.
-fn another_digit(bytes: &mut [u8], at: usize, random: &mut Random) {
-    let digit = bytes[at..].iter_mut().find(|b| b.is_ascii_digit());
-    if let Some(digit) = digit {
-        *digit = b'0' + random.below(10) as u8;
-    }
-}
-
 /// Whatever was read is inspected and fitted: numbers are finite, or not there.
 fn account(file: &LoadCycle) {
     inspect(file);
@@ -147,7 +118,7 @@ fn case(seeds: &[Vec<u8>], number: u64) -> bool {
     let random = &mut Random::new(number);
     let mut bytes = seeds[random.below(seeds.len())].clone();
     for _ in 0..1 + random.below(4) {
-        mutate(&mut bytes, seeds, random);
+        mutate(&mut bytes, seeds, PIECES, random);
     }
     let outcome = std::panic::catch_unwind(|| read(&bytes));
     match outcome.unwrap_or_else(|_| panic!("case {number}: {:?}", String::from_utf8_lossy(&bytes)))

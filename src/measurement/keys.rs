@@ -8,7 +8,8 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// Magnitude beyond which a number is a slip: products of such numbers stay finite.
+/// Magnitudes beyond which a number is a slip: products of such numbers stay numbers.
+const SMALLEST: f64 = 1e-30;
 const LARGEST: f64 = 1e30;
 
 /// A TOML document: its text, and its tables with their places.
@@ -137,7 +138,7 @@ impl<'a> Keys<'a> {
     }
 
     fn finite(&self, key: &str, number: f64) -> Outcome<f64> {
-        if number.abs() <= LARGEST {
+        if number == 0.0 || (SMALLEST..=LARGEST).contains(&number.abs()) {
             return Ok(number);
         }
         let what = match number.is_finite() {
@@ -387,7 +388,16 @@ mod tests {
 
     #[test]
     fn what_is_no_number_is_refused_on_its_line() {
-        for wrong in ["nan", "inf", "1e31", "\"1\"", "[1]", "true", "2020-01-01"] {
+        for wrong in [
+            "nan",
+            "inf",
+            "1e31",
+            "-1e-320",
+            "\"1\"",
+            "[1]",
+            "true",
+            "2020-01-01",
+        ] {
             let text = format!("a = 1\nb = {wrong}\n");
             let problem = refusal(&text, |keys| keys.number("b").map(drop));
             assert_eq!(

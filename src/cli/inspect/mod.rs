@@ -1,8 +1,10 @@
 //! `ident inspect`: what was understood of a measurement file, and what looks odd. One file per kind.
 
 mod hammer;
+mod job;
 mod load_cycle;
 mod table;
+mod toolpath;
 mod universal;
 mod workspace;
 
@@ -28,7 +30,7 @@ pub const VERB: Verb = Verb {
 
 #[derive(Args)]
 struct Arguments {
-    /// A measurement file of any kind
+    /// A measurement file of any kind, a tool path or a job
     file: PathBuf,
     /// Print one JSON document
     #[arg(long)]
@@ -52,10 +54,17 @@ const OWN: &[(&str, Reader)] = &[
     ("load-cycle", load_cycle::account),
     ("workspace", workspace::account),
     ("hammer", hammer::account),
+    ("path", toolpath::account),
 ];
 
 /// Kinds that `ident` writes, and paths: nothing diagnoses them, and they can be looked at.
 const WRITTEN: &[&str] = &["path", "trajectory", "course"];
+
+/// Files that are no tables: who looks at them, and whether it does, by the ending.
+const ENDINGS: &[(Reader, fn(&str) -> bool)] = &[
+    (job::account, |ending| ending == "toml"),
+    (toolpath::account, toolpath::has_ending),
+];
 
 fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let arguments: Arguments = parsed(matches);
@@ -82,6 +91,9 @@ fn reader(path: &Path) -> Outcome<Reader> {
     if is_universal(path) {
         return Ok(universal::account);
     }
+    if let Some(reader) = by_ending(path) {
+        return Ok(reader);
+    }
     let Some(kind) = kind_of(path).ok().flatten() else {
         return Ok(load_cycle::account);
     };
@@ -106,6 +118,12 @@ fn reader(path: &Path) -> Outcome<Reader> {
         let placed = front_of(path).map(|front| front.problem("kind", what, remedy));
         placed.unwrap_or_else(|problem| problem).in_file(path)
     })
+}
+
+fn by_ending(path: &Path) -> Option<Reader> {
+    let ending = path.extension()?.to_string_lossy().to_lowercase();
+    let found = ENDINGS.iter().find(|(_, has)| has(&ending));
+    found.map(|(reader, _)| *reader)
 }
 
 /// The first line of every account, and a second one for what nobody measured.

@@ -24,6 +24,10 @@ const LETTERS: usize = 24;
 /// Most moves of a path: what a file of the largest size can hold, and a stop to programs that call
 /// each other.
 const MOVES: usize = 20_000_000;
+/// Slowest and fastest feed, m/s: others are a slip of the unit or the exponent.
+const FEEDS: std::ops::RangeInclusive<f64> = 1e-9..=1e3;
+/// Fastest spindle, rad/s: a million revolutions a minute.
+const SPINDLE: f64 = 1.1e5;
 /// Farthest coordinate, m: farther ones are a slip of the unit or the exponent.
 const FARTHEST: f64 = 1e4;
 
@@ -48,9 +52,11 @@ impl Draft {
     /// Adds a move.
     ///
     /// # Errors
-    /// A point that is not finite or kilometres away; too many moves.
+    /// A point that is not finite or kilometres away, a feed or speed that no machine has; too many
+    /// moves.
     pub(super) fn push(&mut self, next: Move) -> Outcome<()> {
         within(next.to)?;
+        possible(&next)?;
         if self.moves.len() >= MOVES {
             let remedy = "split the path into several files";
             return Err(Problem::new(format!("has more than {MOVES} moves"), remedy));
@@ -63,6 +69,25 @@ impl Draft {
     pub(super) fn here(&self) -> Option<V3> {
         self.moves.last().map(|last| last.to)
     }
+}
+
+/// Refuses a feed, an approximation distance or a spindle speed that no machine has.
+fn possible(next: &Move) -> Outcome<()> {
+    let feed = next.feed.is_none_or(|feed| FEEDS.contains(&feed));
+    let blend = next
+        .blend
+        .is_none_or(|blend| (0.0..=FARTHEST).contains(&blend));
+    let spindle = next.spindle.is_none_or(|speed| speed.abs() <= SPINDLE);
+    let what = match (feed, blend, spindle) {
+        (true, true, true) => return Ok(()),
+        (false, ..) => "the feed is one that no machine has",
+        (_, false, _) => "the approximation distance is one that no path has",
+        _ => "the speed is one that no spindle has",
+    };
+    Err(Problem::new(
+        what,
+        "check the unit and the exponent of its last statement",
+    ))
 }
 
 /// Refuses a point that is not finite or kilometres away.

@@ -205,7 +205,7 @@ impl Toolpath {
             let reader = Reader::of(source)?;
             Self::of_draft(source, reader.name, (reader.read)(source)?)
         };
-        read().map_err(|problem| problem.in_file(&source.path))
+        read().map_err(|problem: Problem| problem.at_line(1).in_file(&source.path))
     }
 
     fn of_draft(source: &Source, format: &'static str, draft: Draft) -> Outcome<Self> {

@@ -3,27 +3,15 @@
 use super::draft::{Draft, within};
 use super::source::Source;
 use super::{Move, Nurbs, Orientation};
-use crate::ground::nearest::nearest;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::units::Dimension;
 use crate::ground::vector::{V3, norm, roll_pitch_yaw, unit};
 use crate::measurement::front::Front;
 use crate::measurement::table::Table;
 
-/// Facts that the kind knows.
+/// Facts of the kind, beside those that every kind has.
 const FACTS: &[&str] = &[
-    "kind",
-    "robot",
-    "source",
-    "synthetic",
-    "notes",
-    "job",
-    "inputs",
-    "version",
-    "method",
-    "curve",
-    "degree",
-    "knots",
+    "job", "inputs", "version", "method", "curve", "degree", "knots",
 ];
 /// How far the length of `i, j, k` may be from one.
 const UNIT_TOLERANCE: f64 = 1e-3;
@@ -39,7 +27,7 @@ pub(super) fn read(source: &Source) -> Outcome<Draft> {
     let bytes = source.bytes.as_slice();
     let table = Table::from_reader(&source.path, bytes, bytes.len() as u64)?;
     table.front.expect_kind("path")?;
-    known_facts(&table.front)?;
+    table.front.only(FACTS)?;
     let columns = Columns::of(&table)?;
     let mut draft = Draft {
         synthetic: table.front.synthetic(),
@@ -64,23 +52,6 @@ pub(super) fn read(source: &Source) -> Outcome<Draft> {
             "write `# curve = \"nurbs\"`, or leave it out for corner points",
         )),
     }
-}
-
-fn known_facts(front: &Front) -> Outcome<()> {
-    let unknown = front
-        .facts
-        .keys()
-        .find(|key| !FACTS.contains(&key.as_str()));
-    let Some(key) = unknown else {
-        return Ok(());
-    };
-    let remedy = match nearest(key, FACTS) {
-        Some(near) => {
-            format!("write `{near}` if that is meant, or put it into `notes = {{ ... }}`")
-        }
-        None => "put what is free into `notes = { ... }`".into(),
-    };
-    Err(front.problem(key, "is a fact that the kind `path` does not know", remedy))
 }
 
 /// The columns of the kind.

@@ -1,5 +1,6 @@
 //! The two shapes of a move.
 
+use super::draft::within;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::vector::{M3, V3, add, cross, dot, norm, rotate, rotation, scale, sub, unit};
 use std::f64::consts::{PI, TAU};
@@ -35,8 +36,9 @@ impl Arc {
     /// `turns` more. Ends that coincide make a full circle.
     ///
     /// # Errors
-    /// Ends that are not equally far from the centre.
+    /// Ends that are not equally far from the centre; a centre kilometres away.
     pub fn about(from: V3, to: V3, centre: V3, axis: V3, turns: usize) -> Outcome<Self> {
+        within(centre)?;
         let flat = |v: V3| sub(v, scale(dot(v, axis), axis));
         let (start, end) = (flat(sub(from, centre)), flat(sub(to, centre)));
         let (first, last) = (norm(start), norm(end));
