@@ -8,8 +8,8 @@
 //! 8  report       text, HTML, SVG, JSON: ink for a sheet
 //! 7  findings     what the simulation gets wrong, and why    laboratory  known truth, hidden effects
 //! 6  fit          least squares, noise, intervals, stored fits    causes    of the whole robot, ONE FILE EACH
-//! 5  experiments  what a model says that a measurement should have shown
-//! 4  motion       kinematics, dynamics, statics, modes, FRFs
+//! 5  experiments  what a model says that a measurement should have shown    planning  a robot on a path
+//! 4  motion       kinematics, dynamics, statics, modes, FRFs    path  geometry and time of tool paths
 //! 3  robot        chain, springs, bodies, robot files
 //! 2  effects      ONE FILE PER EFFECT
 //! 1  measurement  files and their facts    signal  spectra, noise    sheet  tables and charts as data

@@ -8,6 +8,7 @@ mod frf;
 mod inspect;
 mod lab;
 mod output;
+mod plan;
 mod progress;
 mod report;
 mod robot;
@@ -50,6 +51,7 @@ pub const VERBS: &[Verb] = &[
     report::VERB,
     frf::VERB,
     validate::VERB,
+    plan::VERB,
     robot::VERB,
     simulate::VERB,
     effects::VERB,
