@@ -18,6 +18,7 @@ pub mod element;
 pub mod nurbs;
 pub mod orientation;
 pub mod profile;
+pub mod programs;
 pub mod quaternion;
 pub mod timeline;
 
