@@ -44,10 +44,17 @@ fn a_job_gives_trajectory_report_and_json() {
         rows[0],
         "time_s,x_mm,y_mm,z_mm,a_deg,b_deg,c_deg,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,feed_m_s"
     );
-    assert_eq!(rows.len() as u64 - 1, body["path"]["samples"].as_u64().unwrap());
+    assert_eq!(
+        rows.len() as u64 - 1,
+        body["path"]["samples"].as_u64().unwrap()
+    );
     let cells: Vec<&str> = rows[5].split(',').collect();
     assert_eq!(cells.len(), 14);
-    assert!(cells.iter().all(|c| c.split('.').nth(1).is_some_and(|d| d.len() >= 9)));
+    assert!(
+        cells
+            .iter()
+            .all(|c| c.split('.').nth(1).is_some_and(|d| d.len() >= 9))
+    );
     assert!(text.contains("# kind = \"trajectory\"") && text.contains("part.csv"));
     let page = bench.text("reports/c/part/index.html");
     assert!(page.contains("<canvas") && page.contains("path.svg"));
@@ -84,7 +91,8 @@ fn a_point_out_of_reach_is_named_and_nothing_is_written() {
 fn a_joint_that_is_too_fast_is_named_unless_the_feed_adapts() {
     let bench = Bench::new();
     bench.put("part.csv", POINTS.as_bytes());
-    let fast = job("").replace("3000.0", "300000.0") + "[limits]\npath_acceleration_m_s2 = 200.0\npath_jerk_m_s3 = 20000.0\n";
+    let fast = job("").replace("3000.0", "300000.0")
+        + "[limits]\npath_acceleration_m_s2 = 200.0\npath_jerk_m_s3 = 20000.0\n";
     bench.put("job.toml", fast.as_bytes());
     let ran = bench.run(&["plan", "job.toml", "--json"]);
     assert_eq!(ran.status, 1, "{}", ran.errors);

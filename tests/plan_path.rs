@@ -81,10 +81,20 @@ fn off_line(p: V3, a: V3, b: V3) -> f64 {
 
 #[test]
 fn a_line_takes_the_time_of_the_closed_form() {
-    for (feed, length, seconds) in [(6000.0, 400.0, 4.15), (600.0, 100.0, 10.0 + 2.0 * (0.01_f64 / 20.0).sqrt())] {
+    for (feed, length, seconds) in [
+        (6000.0, 400.0, 4.15),
+        (600.0, 100.0, 10.0 + 2.0 * (0.01_f64 / 20.0).sqrt()),
+    ] {
         let job = job(&format!("feed_mm_min = {feed:?}\ncycle_ms = 12.0"));
-        let plan = kept(&job, &toolpath(vec![to(0.0, 0.0, 0.0), to(length, 0.0, 0.0)]));
-        assert!((plan.timeline.duration - seconds).abs() < 1e-12, "{}", plan.timeline.duration);
+        let plan = kept(
+            &job,
+            &toolpath(vec![to(0.0, 0.0, 0.0), to(length, 0.0, 0.0)]),
+        );
+        assert!(
+            (plan.timeline.duration - seconds).abs() < 1e-12,
+            "{}",
+            plan.timeline.duration
+        );
         let rows = (seconds / 0.012 - 1e-9).ceil() as usize + 1;
         assert_eq!(plan.rows.len(), rows);
         let last = plan.rows.last().unwrap();
@@ -95,7 +105,13 @@ fn a_line_takes_the_time_of_the_closed_form() {
 
 #[test]
 fn a_square_keeps_its_lines_its_feed_and_its_corners() {
-    let corners = [[0.0, 0.0], [100.0, 0.0], [100.0, 80.0], [0.0, 80.0], [0.0, 1.0]];
+    let corners = [
+        [0.0, 0.0],
+        [100.0, 0.0],
+        [100.0, 80.0],
+        [0.0, 80.0],
+        [0.0, 1.0],
+    ];
     let path = toolpath(corners.iter().map(|[x, y]| to(*x, *y, 0.0)).collect());
     let job = job("feed_mm_min = 3000.0\nblend_radius_mm = 2.0\ncycle_ms = 4.0");
     let plan = kept(&job, &path);
@@ -105,7 +121,9 @@ fn a_square_keeps_its_lines_its_feed_and_its_corners() {
     let mut on_lines = 0;
     for row in &plan.rows {
         let near = (1..4).any(|k| norm(sub(row.point, at(k))) < 2.0e-3);
-        let off = (0..4).map(|k| off_line(row.point, at(k), at(k + 1))).fold(1.0, f64::min);
+        let off = (0..4)
+            .map(|k| off_line(row.point, at(k), at(k + 1)))
+            .fold(1.0, f64::min);
         if !near {
             assert!(off < 1e-12, "{off}");
             on_lines += 1;
@@ -158,12 +176,19 @@ fn accelerations_are_continuous_over_every_joint() {
         jump(&kept(&job(&text), &path))
     });
     // A jump of the acceleration would stay; a continuous one falls with the cycle.
-    assert!(jumps[1] < 0.62 * jumps[0] && jumps[2] < 0.62 * jumps[1], "{jumps:?}");
+    assert!(
+        jumps[1] < 0.62 * jumps[0] && jumps[2] < 0.62 * jumps[1],
+        "{jumps:?}"
+    );
 }
 
 #[test]
 fn short_elements_shrink_their_blends_to_half() {
-    let path = toolpath(vec![to(0.0, 0.0, 0.0), to(1.0, 0.0, 0.0), to(1.0, 50.0, 0.0)]);
+    let path = toolpath(vec![
+        to(0.0, 0.0, 0.0),
+        to(1.0, 0.0, 0.0),
+        to(1.0, 50.0, 0.0),
+    ]);
     let plan = kept(&job("feed_mm_min = 1200.0\nblend_radius_mm = 2.0"), &path);
     let corner = &plan.path.corners[0];
     assert!((corner.radius - 0.5e-3).abs() < 1e-15 && corner.is_shrunk());
@@ -188,10 +213,19 @@ fn circles_and_splines_are_true() {
         path: "part.csv".into(),
         curve: Some(Nurbs {
             degree: 2,
-            knots: vec![0.0, 0.0, 0.0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1.0, 1.0, 1.0],
+            knots: vec![
+                0.0, 0.0, 0.0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1.0, 1.0, 1.0,
+            ],
             points: vec![
-                at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0), at(-1.0, 1.0), at(-1.0, 0.0),
-                at(-1.0, -1.0), at(0.0, -1.0), at(1.0, -1.0), at(1.0, 0.0),
+                at(1.0, 0.0),
+                at(1.0, 1.0),
+                at(0.0, 1.0),
+                at(-1.0, 1.0),
+                at(-1.0, 0.0),
+                at(-1.0, -1.0),
+                at(0.0, -1.0),
+                at(1.0, -1.0),
+                at(1.0, 0.0),
             ],
             weights: vec![1.0, w, 1.0, w, 1.0, w, 1.0, w, 1.0],
             orientations: vec![UP; 9],
@@ -207,7 +241,11 @@ fn circles_and_splines_are_true() {
         for row in &plan.rows {
             let angle = row.s / r;
             let exact = [r * angle.cos(), r * angle.sin(), 0.0];
-            assert!(norm(sub(row.point, exact)) < 1e-13, "{}", norm(sub(row.point, exact)));
+            assert!(
+                norm(sub(row.point, exact)) < 1e-13,
+                "{}",
+                norm(sub(row.point, exact))
+            );
         }
     }
     assert_eq!(round.rows.len(), spline.rows.len());
@@ -240,7 +278,9 @@ fn orientations_turn_where_the_job_says() {
     let base = "feed_mm_min = 1200.0\nspin = \"fixed\"\nblend_radius_mm = 4.0\n";
     let blend = kept(&job(&format!("{base}orientation = \"blend\"")), &path);
     let radius = kept(
-        &job(&format!("{base}orientation = \"radius\"\norientation_radius_mm = 9.0")),
+        &job(&format!(
+            "{base}orientation = \"radius\"\norientation_radius_mm = 9.0"
+        )),
         &path,
     );
     let whole = kept(&job(&format!("{base}orientation = \"whole\"")), &path);
@@ -283,9 +323,15 @@ fn orientations_turn_where_the_job_says() {
 /// No rotation about the spindle from row to row.
 fn untwisted(plan: &Plan) {
     for k in 1..plan.rows.len() {
-        let way = plan.rows[k - 1].orientation.way_to(plan.rows[k].orientation);
+        let way = plan.rows[k - 1]
+            .orientation
+            .way_to(plan.rows[k].orientation);
         let twist = dot(way, plan.cell.spindle);
-        assert!(twist.abs() < 2e-5 * norm(way) + 1e-12, "{k} {twist} {}", norm(way));
+        assert!(
+            twist.abs() < 2e-5 * norm(way) + 1e-12,
+            "{k} {twist} {}",
+            norm(way)
+        );
     }
 }
 
@@ -386,7 +432,11 @@ fn a_smooth_spin_moves_the_joints_less_than_a_fixed_one_or_any_steady_one() {
     assert!(missed(&smooth)[0] < 1e-10);
     let largest = |plan: &Plan| {
         let pairs = plan.rows.windows(2);
-        let step = |w: &[ident::planning::plan::Row]| (0..6).map(|i| (w[1].q[i] - w[0].q[i]).abs()).fold(0.0, f64::max);
+        let step = |w: &[ident::planning::plan::Row]| {
+            (0..6)
+                .map(|i| (w[1].q[i] - w[0].q[i]).abs())
+                .fold(0.0, f64::max)
+        };
         pairs.map(step).fold(0.0, f64::max)
     };
     assert!(largest(&smooth) < 0.1);
@@ -394,7 +444,11 @@ fn a_smooth_spin_moves_the_joints_less_than_a_fixed_one_or_any_steady_one() {
 
 #[test]
 fn a_point_out_of_reach_is_named() {
-    let path = toolpath(vec![to(0.0, 0.0, 0.0), to(100.0, 0.0, 0.0), to(3000.0, 0.0, 0.0)]);
+    let path = toolpath(vec![
+        to(0.0, 0.0, 0.0),
+        to(100.0, 0.0, 0.0),
+        to(3000.0, 0.0, 0.0),
+    ]);
     let unreached = planned(&job("feed_mm_min = 30000.0"), &path).unwrap_err();
     assert_eq!(unreached.line, 3);
     let text = unreached.problem().to_string();
@@ -437,7 +491,10 @@ fn a_straight_passage_changes_the_sign_of_a5_and_adapt_slows_a_near_one() {
     let beside = toolpath(vec![pose(level, 0.5, -80.0), pose(level, 0.5, 80.0)]);
     let fast = planned(&of(""), &beside).unwrap();
     let named: Vec<_> = fast.exceeded.iter().map(|e| e.what).collect();
-    assert!(named.contains(&"joint-speed") && named.contains(&"singularity"), "{named:?}");
+    assert!(
+        named.contains(&"joint-speed") && named.contains(&"singularity"),
+        "{named:?}"
+    );
     let slow = planned(&of("feed = \"adapt\""), &beside).unwrap();
     assert!(slow.exceeded.is_empty(), "{:?}", slow.exceeded);
     assert!(slow.timeline.duration > fast.timeline.duration);

@@ -19,7 +19,9 @@ pub struct Place {
 pub fn job_results(job: &Path) -> PathBuf {
     let folder = job.parent().unwrap_or(Path::new(""));
     let found = folder.ancestors().find_map(|measurements| {
-        let named = measurements.file_name().is_some_and(|n| n == "measurements");
+        let named = measurements
+            .file_name()
+            .is_some_and(|n| n == "measurements");
         let root = measurements.parent().filter(|_| named)?;
         let inside = folder.strip_prefix(measurements).ok()?;
         Some(root.join("reports").join(inside))

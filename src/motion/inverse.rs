@@ -261,7 +261,10 @@ impl SphericalWrist {
 }
 
 /// The solutions of the wanted branches with their numbers, counted among those that exist.
-fn branches<T>(all: [Option<T>; 2], wanted: impl Fn(usize) -> bool) -> impl Iterator<Item = (usize, T)> {
+fn branches<T>(
+    all: [Option<T>; 2],
+    wanted: impl Fn(usize) -> bool,
+) -> impl Iterator<Item = (usize, T)> {
     let there = all.into_iter().flatten().enumerate();
     there.filter(move |(k, _)| wanted(*k))
 }

@@ -60,9 +60,8 @@ impl Bezier {
 impl Parametric for Bezier {
     fn derivatives(&self, u: f64) -> [V3; 3] {
         let [a, b, c, d, e] = &self.powers;
-        let at = |i: usize| {
-            self.start[i] + u * (a[i] + u * (b[i] + u * (c[i] + u * (d[i] + u * e[i]))))
-        };
+        let at =
+            |i: usize| self.start[i] + u * (a[i] + u * (b[i] + u * (c[i] + u * (d[i] + u * e[i]))));
         let bend = |i: usize| 2.0 * b[i] + u * (6.0 * c[i] + u * (12.0 * d[i] + u * 20.0 * e[i]));
         [
             [at(0), at(1), at(2)],

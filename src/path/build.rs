@@ -11,8 +11,8 @@ use rayon::prelude::*;
 /// How a path is drawn through its points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drawing {
-    /// Distance from the corner at which a blend begins, m, where the file does not say; 0: stops.
-    pub blend_radius: f64,
+    /// Distance from the corner at which a blend begins, m; 0: stops. `None`: the file's own, else 0.
+    pub blend_radius: Option<f64>,
     /// Where the tool turns.
     pub turning: Turning,
 }
@@ -104,7 +104,10 @@ impl Path {
         for (k, blend) in blends.into_iter().chain([None]).enumerate() {
             let rounded = blend.is_some();
             let corner = self.corners.get_mut(k);
-            let gone = corner.as_ref().filter(|_| rounded).map_or(0.0, |c| c.radius);
+            let gone = corner
+                .as_ref()
+                .filter(|_| rounded)
+                .map_or(0.0, |c| c.radius);
             let length = elements[k].curve.length() - cut - gone;
             if length > 1e-12 {
                 self.pieces.push(Piece {
@@ -202,7 +205,7 @@ impl Piece {
     }
 }
 
-fn corners(programme: &Programme, asked: f64) -> Vec<Corner> {
+fn corners(programme: &Programme, asked: Option<f64>) -> Vec<Corner> {
     let elements = &programme.elements;
     let halted = |k: usize| {
         let turns = &programme.turns;
@@ -270,13 +273,15 @@ impl Path {
             return match corner.passage {
                 Passage::Stop => [corner.begin; 2],
                 Passage::Blend => [corner.begin, corner.end],
-                Passage::Through => {
-                    [corner.begin - corner.radius, corner.end + corner.radius]
-                }
+                Passage::Through => [corner.begin - corner.radius, corner.end + corner.radius],
             };
         };
         let elements = &self.programme.elements;
-        let room = 0.5 * elements[k].curve.length().min(elements[k + 1].curve.length());
+        let room = 0.5
+            * elements[k]
+                .curve
+                .length()
+                .min(elements[k + 1].curve.length());
         let radius = match self.turns_on_the_spot(k + 1) {
             true => 0.0,
             false => radius.min(room),
@@ -289,14 +294,19 @@ impl Path {
             let more = radius - rounded;
             return [corner.begin - more, corner.end + more];
         }
-        let (middle, half) = (0.5 * (corner.begin + corner.end), 0.5 * (corner.end - corner.begin));
+        let (middle, half) = (
+            0.5 * (corner.begin + corner.end),
+            0.5 * (corner.end - corner.begin),
+        );
         let share = radius / rounded * half;
         [middle - share, middle + share]
     }
 
     fn turns_on_the_spot(&self, index: usize) -> bool {
         let turns = &self.programme.turns;
-        turns.binary_search_by_key(&index, |turn| turn.before).is_ok()
+        turns
+            .binary_search_by_key(&index, |turn| turn.before)
+            .is_ok()
     }
 
     fn lay_halts(&mut self, laws: &[Law], zones: &[[f64; 2]]) {

@@ -68,9 +68,7 @@ impl<C: Parametric> ByLength<C> {
     }
 
     fn end(&self, s: f64) -> End {
-        let [point, v, a] = self
-            .curve
-            .derivatives(self.table.parameter(&self.curve, s));
+        let [point, v, a] = self.curve.derivatives(self.table.parameter(&self.curve, s));
         let speed = norm(v);
         let tangent = scale(1.0 / speed, v);
         let across = sub(a, scale(dot(a, tangent), tangent));
@@ -171,6 +169,16 @@ impl Line {
 }
 
 impl Circle {
+    /// Centre, axis and angle, as a file states them.
+    pub fn arc(&self) -> Arc {
+        let [first, second] = self.spokes;
+        Arc {
+            centre: self.centre,
+            axis: unit(cross(first, second)).unwrap_or([0.0, 0.0, 1.0]),
+            angle: self.angle,
+        }
+    }
+
     fn point(&self, s: f64) -> V3 {
         let share = s / self.length;
         let (sin, cos) = (share * self.angle).sin_cos();
@@ -214,7 +222,10 @@ mod tests {
         let rate = 3.0 * PI / length;
         assert!((norm(end.curvature) - 2.0 * rate * rate).abs() < 1e-14);
         let h = 1e-6;
-        let ahead = scale(0.5 / h, sub(curve.point(0.3 * length + h), curve.point(0.3 * length - h)));
+        let ahead = scale(
+            0.5 / h,
+            sub(curve.point(0.3 * length + h), curve.point(0.3 * length - h)),
+        );
         assert!(norm(sub(ahead, end.tangent)) < 1e-9);
     }
 }

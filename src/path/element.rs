@@ -105,7 +105,10 @@ fn of_moves(toolpath: &Toolpath, holding: &Holding) -> Programme {
     let Some(first) = toolpath.moves.first() else {
         return programme;
     };
-    let mut at = (first.to, holding.orientation(&first.orientation, holding.start));
+    let mut at = (
+        first.to,
+        holding.orientation(&first.orientation, holding.start),
+    );
     for step in &toolpath.moves[1..] {
         let turned = holding.orientation(&step.orientation, at.1);
         let curve = match &step.shape {
@@ -125,7 +128,11 @@ fn of_moves(toolpath: &Toolpath, holding: &Holding) -> Programme {
             }),
             None => programme.stay(ends, step.line),
         }
-        let place = if programme.elements.is_empty() { at.0 } else { step.to };
+        let place = if programme.elements.is_empty() {
+            at.0
+        } else {
+            step.to
+        };
         at = (place, turned);
     }
     programme
@@ -196,4 +203,3 @@ fn stretches(curve: &NurbsCurve) -> Vec<Vec<f64>> {
     }
     all
 }
-

@@ -40,7 +40,10 @@ impl<const N: usize> Spline<N> {
     fn derivative(&self) -> Self {
         if self.degree == 0 {
             let points = vec![[0.0; N]; self.points.len()];
-            return Self { points, ..self.clone() };
+            return Self {
+                points,
+                ..self.clone()
+            };
         }
         let p = self.degree;
         let leg = |i: usize| {
@@ -127,11 +130,7 @@ impl Parametric for NurbsCurve {
         let place = scale(1.0 / w, part(a));
         let first = scale(1.0 / w, sub(part(b), scale(w1, place)));
         let rest = sub(part(c), scale(2.0 * w1, first));
-        [
-            place,
-            first,
-            scale(1.0 / w, sub(rest, scale(w2, place))),
-        ]
+        [place, first, scale(1.0 / w, sub(rest, scale(w2, place)))]
     }
 
     fn velocity(&self, u: f64) -> V3 {
@@ -203,7 +202,13 @@ mod tests {
 
     #[test]
     fn derivatives_are_those_of_differences() {
-        let points = [[0.0, 0.0, 0.0], [1.0, 2.0, 0.5], [3.0, -1.0, 1.0], [4.0, 0.0, 2.0], [5.0, 3.0, 0.0]];
+        let points = [
+            [0.0, 0.0, 0.0],
+            [1.0, 2.0, 0.5],
+            [3.0, -1.0, 1.0],
+            [4.0, 0.0, 2.0],
+            [5.0, 3.0, 0.0],
+        ];
         let knots = [0.0, 0.0, 0.0, 0.0, 0.4, 1.0, 1.0, 1.0, 1.0];
         let weights = [1.0, 2.0, 0.7, 1.5, 1.0];
         let curve = NurbsCurve::new(3, &knots, &points, &weights, &[Quaternion::IDENTITY; 5]);

@@ -111,7 +111,10 @@ pub fn turns_at(
 ) -> Vec<SpotTurn> {
     let first = programme.turns.partition_point(|turn| turn.before < index);
     let own = programme.turns[first..].iter();
-    let mut turns: Vec<SpotTurn> = own.take_while(|turn| turn.before == index).copied().collect();
+    let mut turns: Vec<SpotTurn> = own
+        .take_while(|turn| turn.before == index)
+        .copied()
+        .collect();
     let at = turns.last().map(|turn| turn.ends[1]).or(before);
     if let (Some(at), Some(after)) = (at, after) {
         if norm(at.way_to(after)) > SAME_ORIENTATION {

@@ -29,7 +29,11 @@ pub fn profile(steps: &[Step], limits: &Limits, begin: f64) -> Vec<Phase> {
 /// Speeds where steps meet, m/s: as high as the neighbours allow and the way to slow down.
 fn joints(steps: &[Step], limits: &Limits) -> Vec<f64> {
     let mut joints = vec![0.0];
-    joints.extend(steps.windows(2).map(|pair| pair[0].speed.min(pair[1].speed)));
+    joints.extend(
+        steps
+            .windows(2)
+            .map(|pair| pair[0].speed.min(pair[1].speed)),
+    );
     joints.push(0.0);
     for (k, step) in steps.iter().enumerate() {
         joints[k + 1] = limits.reachable(joints[k], step.end - step.begin, joints[k + 1]);
@@ -133,7 +137,10 @@ mod tests {
                 for i in 0..=20 {
                     let [s, v, a] = phase.at(phase.begin + phase.duration * f64::from(i) / 20.0);
                     let step = steps.iter().find(|step| s <= step.end + 1e-12).unwrap();
-                    let next = steps.iter().find(|step| s <= step.end - 1e-12).unwrap_or(step);
+                    let next = steps
+                        .iter()
+                        .find(|step| s <= step.end - 1e-12)
+                        .unwrap_or(step);
                     assert!(v <= step.speed.max(next.speed) + 1e-9 && v > -1e-9);
                     assert!(a.abs() <= limits.acceleration * (1.0 + 1e-9));
                 }

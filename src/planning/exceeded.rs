@@ -68,7 +68,12 @@ pub fn uses(cell: &Cell, rows: &[Row], cycle: f64) -> Vec<JointUse> {
 }
 
 /// The worst of every kind and site, in the order speeds, angles, singularities.
-pub fn exceeded(cell: &Cell, rows: &[Row], uses: &[JointUse], line: impl Fn(f64) -> usize) -> Vec<Exceeded> {
+pub fn exceeded(
+    cell: &Cell,
+    rows: &[Row],
+    uses: &[JointUse],
+    line: impl Fn(f64) -> usize,
+) -> Vec<Exceeded> {
     let mut all = Vec::new();
     for own in uses {
         let limit = own.speed_limit.unwrap_or(f64::INFINITY);
@@ -91,7 +96,12 @@ pub fn exceeded(cell: &Cell, rows: &[Row], uses: &[JointUse], line: impl Fn(f64)
     all
 }
 
-fn beyond(rows: &[Row], i: usize, own: &JointUse, line: &impl Fn(f64) -> usize) -> Option<Exceeded> {
+fn beyond(
+    rows: &[Row],
+    i: usize,
+    own: &JointUse,
+    line: &impl Fn(f64) -> usize,
+) -> Option<Exceeded> {
     let [low, high] = own.limits;
     let over = |row: &Row| (low - row.q[i]).max(row.q[i] - high);
     let worst = rows.iter().max_by(|a, b| over(a).total_cmp(&over(b)))?;
@@ -113,9 +123,9 @@ fn singular(
     line: &impl Fn(f64) -> usize,
 ) -> Option<Exceeded> {
     cell.wrist.as_ref()?;
-    let too_fast = uses.iter().filter(|own| {
-        own.max_speed > own.speed_limit.unwrap_or(f64::INFINITY) * (1.0 + SLACK)
-    });
+    let too_fast = uses
+        .iter()
+        .filter(|own| own.max_speed > own.speed_limit.unwrap_or(f64::INFINITY) * (1.0 + SLACK));
     let from_line = |row: &Row| straightness(cell, &row.q);
     let rows = too_fast.map(|own| &rows[own.fastest]);
     let worst = rows.min_by(|a, b| from_line(a).total_cmp(&from_line(b)))?;

@@ -45,7 +45,10 @@ impl SpinLaw {
         let goal = goal.filter(|_| path.programme.free_spin);
         let stations = stations(path);
         let found = goal.and_then(|goal| turn_search::search(cell, path, &stations, goal));
-        found.map_or_else(|| Self::none(cell), |turns| Self::through(cell, stations, &turns))
+        found.map_or_else(
+            || Self::none(cell),
+            |turns| Self::through(cell, stations, &turns),
+        )
     }
 
     fn through(cell: &Cell, stations: Vec<f64>, turns: &[f64]) -> Self {
@@ -99,7 +102,9 @@ pub fn mean_compliance(cell: &Cell, path: &Path, law: &SpinLaw) -> Option<f64> {
     let mut sum = 0.0;
     for s in &stations {
         let orientation = law.apply(*s, path.orientation(*s, Side::Before));
-        let q = follower.next(&cell.in_base(path.point(*s), orientation)).ok()?;
+        let q = follower
+            .next(&cell.in_base(path.point(*s), orientation))
+            .ok()?;
         let normal = normal(cell, path, *s, orientation)?;
         sum += compliance_along(&chain, &mut work, &q, normal);
     }

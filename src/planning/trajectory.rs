@@ -106,7 +106,16 @@ mod tests {
 
     #[test]
     fn numbers_are_those_of_the_formatter() {
-        for value in [0.0, -0.0, 1.0, -1.5, 1234.567_891_234_56, 1e-10, -179.999_999_999_97, 3.2e8] {
+        for value in [
+            0.0,
+            -0.0,
+            1.0,
+            -1.5,
+            1234.567_891_234_56,
+            1e-10,
+            -179.999_999_999_97,
+            3.2e8,
+        ] {
             let mut out = String::new();
             number(&mut out, value);
             let back: f64 = out.parse().unwrap();

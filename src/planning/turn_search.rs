@@ -89,9 +89,12 @@ impl Grid {
             let turned = frames[k].turned(scale(j as f64 * GRID, cell.spindle));
             cell.in_base(path.point(stations[k]), turned)
         };
-        let mut first = Follower::new(cell);
-        let begin = first.next(&pose(0, 0)).ok()?;
-        let arm = first.arm()?;
+        let begin = |j: usize| {
+            let mut first = Follower::new(cell);
+            let q = first.next(&pose(0, j)).ok()?;
+            Some((q, first.arm()?))
+        };
+        let (begin, arm) = (0..ANGLES).find_map(begin)?;
         let node = |k: usize, j: usize| {
             let mut node: Node = [None; 2];
             let postures = wrist.solve_arm(&pose(k, j), &begin, arm);
@@ -231,7 +234,10 @@ impl Grid {
 /// At the first station only the posture counts that the start angles pick.
 fn keep_start(cell: &Cell, node: &mut Node, pose: &crate::ground::spatial::Pose, arm: [bool; 2]) {
     let mut follower = Follower::new(cell);
-    let picked = follower.next(pose).ok().filter(|_| follower.arm() == Some(arm));
+    let picked = follower
+        .next(pose)
+        .ok()
+        .filter(|_| follower.arm() == Some(arm));
     for hand in node.iter_mut() {
         let same = |q: &[f64; JOINTS]| picked.is_some_and(|p| wrapped_squares(q, &p) < 1e-12);
         *hand = hand.filter(same);
@@ -242,7 +248,11 @@ fn keep_start(cell: &Cell, node: &mut Node, pose: &crate::ground::spatial::Pose,
 fn wrapped_squares(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> f64 {
     let part = |(a, b): (&f64, &f64)| {
         let d = a - b;
-        let d = if d.abs() > PI { d - TAU * (d / TAU).round() } else { d };
+        let d = if d.abs() > PI {
+            d - TAU * (d / TAU).round()
+        } else {
+            d
+        };
         d * d
     };
     a.iter().zip(b).map(part).sum()
@@ -313,7 +323,9 @@ impl Descent<'_> {
     fn at(&self, k: usize, turn: f64, near: &[f64; JOINTS]) -> Option<[f64; JOINTS]> {
         let turned = self.frames[k].turned(scale(turn, self.cell.spindle));
         let pose = self.cell.in_base(self.path.point(self.stations[k]), turned);
-        Follower::from(self.cell, Some(self.arm), *near).next(&pose).ok()
+        Follower::from(self.cell, Some(self.arm), *near)
+            .next(&pose)
+            .ok()
     }
 
     /// ∂q/∂turn at every station.
@@ -329,14 +341,19 @@ impl Descent<'_> {
 }
 
 fn cost(angles: &[[f64; JOINTS]]) -> f64 {
-    angles.windows(2).map(|pair| squares(&pair[1], &pair[0])).sum()
+    angles
+        .windows(2)
+        .map(|pair| squares(&pair[1], &pair[0]))
+        .sum()
 }
 
 /// Solves the tridiagonal normal equations of the differences of neighbours.
 fn step(angles: &[[f64; JOINTS]], slopes: &[[f64; JOINTS]], brake: f64) -> Vec<f64> {
     let n = angles.len();
-    let dot = |a: &[f64; JOINTS], b: &[f64; JOINTS]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-    let gap = |k: usize| -> [f64; JOINTS] { std::array::from_fn(|i| angles[k + 1][i] - angles[k][i]) };
+    let dot =
+        |a: &[f64; JOINTS], b: &[f64; JOINTS]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+    let gap =
+        |k: usize| -> [f64; JOINTS] { std::array::from_fn(|i| angles[k + 1][i] - angles[k][i]) };
     let (mut upper, mut right) = (vec![0.0; n], vec![0.0; n]);
     for k in 0..n {
         let own = dot(&slopes[k], &slopes[k]);

@@ -75,7 +75,9 @@ impl Tool {
     /// Unit vector from the tip into the spindle in the tool frame; `None`: the file does not say,
     /// and the tool centre point lies in the flange.
     pub fn spindle_in_tool(&self) -> Option<V3> {
-        let axis = self.spindle_axis.or_else(|| unit(sub(self.flange, self.tcp)))?;
+        let axis = self
+            .spindle_axis
+            .or_else(|| unit(sub(self.flange, self.tcp)))?;
         Some(rotate_back(&self.rotation, axis))
     }
 }

@@ -54,6 +54,13 @@ pub fn sentences(planned: &Planned) -> Vec<String> {
             significant(share, 3)
         ));
     }
+    if let Some([carried, chosen]) = plan.compliance {
+        said.push(format!(
+            "Normal to the path the robot gives way by {} µm/N on average with the chosen turn about the spindle, by {} with the fixed one.",
+            significant(chosen * 1e6, 4),
+            significant(carried * 1e6, 4)
+        ));
+    }
     said
 }
 
@@ -71,7 +78,9 @@ pub fn told(exceeded: &Exceeded) -> String {
     let site = &exceeded.site;
     match exceeded.what {
         "joint-speed" => format!("{site} is too fast {place}: {value} deg/s, {limit} are allowed."),
-        "joint-angle" => format!("{site} leaves its range {place}: {value} deg, the limit is {limit}."),
+        "joint-angle" => {
+            format!("{site} leaves its range {place}: {value} deg, the limit is {limit}.")
+        }
         _ => format!(
             "The {site} is {value} deg from its singularity {place}, where joints are too fast."
         ),

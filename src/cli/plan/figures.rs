@@ -30,7 +30,9 @@ pub fn path(planned: &Planned) -> Chart {
     let all = KINDS.into_iter().zip(&kinds).zip(marks);
     let panel = all
         .filter(|((_, points), _)| !points.is_empty())
-        .fold(panel, |panel, ((name, points), mark)| panel.with(mark(name, flat(points))));
+        .fold(panel, |panel, ((name, points), mark)| {
+            panel.with(mark(name, flat(points)))
+        });
     let panel = panel.with(Series::dotted("tool axes", flat(&axes(planned))));
     chart(
         planned,
@@ -49,7 +51,9 @@ pub fn scene(planned: &Planned) -> Scene {
         thin,
     };
     let kinds = KINDS.into_iter().zip(kinds(planned));
-    let mut strands: Vec<Strand> = kinds.map(|(name, points)| strand(name, points, false)).collect();
+    let mut strands: Vec<Strand> = kinds
+        .map(|(name, points)| strand(name, points, false))
+        .collect();
     strands.push(strand("tool axes", axes(planned), true));
     Scene {
         title: "The path in space".into(),
@@ -136,8 +140,8 @@ pub fn feed(planned: &Planned) -> Chart {
         pairs.iter().map(speed).collect::<Vec<_>>()
     };
     let time = || Axis::new("Time", "s");
-    let feed = Panel::new(time(), Axis::new("Feed", "mm/s"))
-        .with(Series::line("feed", whole.collect()));
+    let feed =
+        Panel::new(time(), Axis::new("Feed", "mm/s")).with(Series::line("feed", whole.collect()));
     let speeds = Panel::new(time(), Axis::new("Components", "mm/s"))
         .with(Series::line("x", component(0)))
         .with(Series::line("y", component(1)))
@@ -156,9 +160,8 @@ pub fn feed(planned: &Planned) -> Chart {
 pub fn joints(planned: &Planned) -> Chart {
     let joints = &planned.plan.joints;
     let sites: Vec<String> = joints.iter().map(|joint| joint.site.clone()).collect();
-    let speed = |joint: &JointUse| {
-        100.0 * joint.max_speed / joint.speed_limit.unwrap_or(f64::INFINITY)
-    };
+    let speed =
+        |joint: &JointUse| 100.0 * joint.max_speed / joint.speed_limit.unwrap_or(f64::INFINITY);
     let range = |joint: &JointUse| {
         let [low, high] = joint.limits;
         let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
@@ -189,6 +192,17 @@ pub fn angles(planned: &Planned) -> Chart {
         Series::line(joint.site.clone(), points)
     };
     let panel = Panel::new(Axis::new("Time", "s"), Axis::new("Angle", "deg"));
-    let panel = plan.joints.iter().enumerate().map(series).fold(panel, Panel::with);
-    chart(planned, "angles", "Joint angles", "Over time, without jumps of 360 degrees.").with(panel)
+    let panel = plan
+        .joints
+        .iter()
+        .enumerate()
+        .map(series)
+        .fold(panel, Panel::with);
+    chart(
+        planned,
+        "angles",
+        "Joint angles",
+        "Over time, without jumps of 360 degrees.",
+    )
+    .with(panel)
 }

@@ -13,9 +13,8 @@ use std::path::PathBuf;
 pub fn body(planned: &Planned, written: &Written) -> Value {
     let plan = &planned.plan;
     let passages = plan.passages.iter();
-    let passed = passages.map(|[t, s]| {
-        json!({"site": "wrist", "at_s": number(*t), "line": plan.path.line(*s)})
-    });
+    let passed = passages
+        .map(|[t, s]| json!({"site": "wrist", "at_s": number(*t), "line": plan.path.line(*s)}));
     json!({
         "path": path(planned),
         "feed": {
@@ -25,6 +24,10 @@ pub fn body(planned: &Planned, written: &Written) -> Value {
         },
         "joints": plan.joints.iter().map(joint).collect::<Value>(),
         "exceeded": plan.exceeded.iter().map(exceeded).collect::<Value>(),
+        "spin": plan.compliance.map(|[carried, chosen]| json!({
+            "mean_normal_compliance_m_N": number(chosen),
+            "fixed_mean_normal_compliance_m_N": number(carried),
+        })),
         "singularities_passed": passed.collect::<Value>(),
         "trajectory": named(&written.trajectory),
         "program": named(&written.program),
@@ -42,7 +45,8 @@ pub fn unreached(unreached: &Unreached) -> Value {
 }
 
 fn named(path: &Option<PathBuf>) -> Value {
-    path.as_ref().map_or(Value::Null, |path| json!(path.display().to_string()))
+    path.as_ref()
+        .map_or(Value::Null, |path| json!(path.display().to_string()))
 }
 
 fn path(planned: &Planned) -> Value {
@@ -86,7 +90,9 @@ pub fn tangential(plan: &Plan) -> usize {
 
 fn joint(joint: &JointUse) -> Value {
     let [low, high] = joint.range.map(|q| q / DEGREE);
-    let share = joint.speed_limit.map(|limit| 100.0 * joint.max_speed / limit);
+    let share = joint
+        .speed_limit
+        .map(|limit| 100.0 * joint.max_speed / limit);
     json!({
         "site": joint.site,
         "min_deg": number(low),

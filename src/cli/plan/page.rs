@@ -55,7 +55,11 @@ fn joints(planned: &Planned) -> Table {
         "limit deg/s",
     ];
     let table = Table::new("Ranges and speeds", header).numeric([1, 2, 4, 5]);
-    planned.plan.joints.iter().fold(table, |table, joint| table.with(row(joint)))
+    planned
+        .plan
+        .joints
+        .iter()
+        .fold(table, |table, joint| table.with(row(joint)))
 }
 
 fn row(joint: &JointUse) -> [String; 6] {
