@@ -9,6 +9,7 @@ mod import;
 mod inspect;
 mod lab;
 mod output;
+mod plan;
 mod progress;
 mod report;
 mod robot;
@@ -58,6 +59,7 @@ pub const VERBS: &[Verb] = &[
     report::VERB,
     frf::VERB,
     validate::VERB,
+    plan::VERB,
     robot::VERB,
     simulate::VERB,
     effects::VERB,

@@ -3,7 +3,7 @@
 use super::chapter::Chapter;
 use super::output::print;
 use super::progress::Progress;
-use super::{Ending, Verb, arguments, damping, diagnose, parsed, stiffness, validate};
+use super::{Ending, Verb, arguments, damping, diagnose, parsed, plan, stiffness, validate};
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::workspace::Place;
 use crate::report::{folder, json};
@@ -42,6 +42,7 @@ const STEPS: &[Step] = &[
     ("validate", validate::chapter),
     ("damping", damping::chapter),
     ("diagnose", diagnose::chapter),
+    ("plan", plan::chapter),
 ];
 
 fn run(matches: &ArgMatches) -> Outcome<Ending> {

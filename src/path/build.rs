@@ -11,8 +11,8 @@ use rayon::prelude::*;
 /// How a path is drawn through its points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drawing {
-    /// Distance from the corner at which a blend begins, m, where the file does not say; 0: stops.
-    pub blend_radius: f64,
+    /// Distance from the corner at which a blend begins, m; 0: stops. `None`: the file's own, else 0.
+    pub blend_radius: Option<f64>,
     /// Where the tool turns.
     pub turning: Turning,
 }
@@ -205,7 +205,7 @@ impl Piece {
     }
 }
 
-fn corners(programme: &Programme, asked: f64) -> Vec<Corner> {
+fn corners(programme: &Programme, asked: Option<f64>) -> Vec<Corner> {
     let elements = &programme.elements;
     let halted = |k: usize| {
         let turns = &programme.turns;

@@ -169,6 +169,16 @@ impl Line {
 }
 
 impl Circle {
+    /// Centre, axis and angle, as a file states them.
+    pub fn arc(&self) -> Arc {
+        let [first, second] = self.spokes;
+        Arc {
+            centre: self.centre,
+            axis: unit(cross(first, second)).unwrap_or([0.0, 0.0, 1.0]),
+            angle: self.angle,
+        }
+    }
+
     fn point(&self, s: f64) -> V3 {
         let share = s / self.length;
         let (sin, cos) = (share * self.angle).sin_cos();

@@ -2,7 +2,7 @@
 
 use super::build::{Part, Path, Piece, Side};
 use super::double_s::{Limits, Phase};
-use super::element::SpotTurn;
+use super::element::{Element, SpotTurn};
 use super::profile::{Step, append, lower, profile};
 use super::quaternion::Quaternion;
 use crate::ground::vector::{V3, norm, scale};
@@ -56,14 +56,18 @@ pub struct State {
 impl Feeds {
     /// The speed asked for on a piece, m/s: on a blend the lower of its two elements.
     pub fn of(&self, path: &Path, piece: &Piece) -> f64 {
-        let elements = &path.programme.elements;
-        let own = |k: usize| match elements[k].rapid {
-            true => self.rapid,
-            false => self.feed.or(elements[k].feed).unwrap_or(self.fallback),
-        };
+        let own = |k: usize| self.of_element(&path.programme.elements[k]);
         match piece.part {
             Part::Element(k, _) => own(k),
             Part::Blend(k, _) => own(k).min(own(k + 1)),
+        }
+    }
+
+    /// The speed asked for on an element, m/s.
+    pub fn of_element(&self, element: &Element) -> f64 {
+        match element.rapid {
+            true => self.rapid,
+            false => self.feed.or(element.feed).unwrap_or(self.fallback),
         }
     }
 
@@ -86,7 +90,8 @@ impl Timeline {
         for (k, halt) in path.halts.iter().enumerate() {
             for turn in &halt.turns {
                 let way = norm(turn.ends[0].way_to(turn.ends[1])) * TURN_LEVER;
-                let speed = steps.iter().find(|step| step.end >= halt.at);
+                let here = steps.partition_point(|step| step.end < halt.at);
+                let speed = steps.get(here);
                 let speed = speed.map_or(0.01, |step| step.speed) * slow.next().unwrap_or(&1.0);
                 let whole = Step {
                     begin: 0.0,

@@ -6,6 +6,7 @@ pub mod cell;
 pub mod exceeded;
 pub mod follow;
 pub mod plan;
+pub mod program;
 pub mod spin;
 pub mod trajectory;
 pub mod turn_search;

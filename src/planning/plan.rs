@@ -4,7 +4,7 @@ use super::adapt::caps;
 use super::cell::{Cell, JOINTS};
 use super::exceeded::{Exceeded, JointUse, exceeded, passages, uses};
 use super::follow::{Follower, Miss};
-use super::spin::SpinLaw;
+use super::spin::{SpinLaw, mean_compliance};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::V3;
 use crate::measurement::job::{self, Job};
@@ -20,6 +20,8 @@ use crate::robot::Robot;
 
 /// Rapid motions run at this multiple of the feed if the job does not say.
 const RAPID: f64 = 5.0;
+/// More rows than this are refused.
+const MOST_ROWS: f64 = 1e7;
 /// Feeds are lowered again at most this often.
 const ROUNDS: usize = 40;
 
@@ -62,6 +64,8 @@ pub struct Plan {
     pub spin: SpinLaw,
     /// The law of time.
     pub timeline: Timeline,
+    /// The speeds asked for.
+    pub feeds: Feeds,
     /// Controller cycle, s.
     pub cycle: f64,
     /// One row per cycle.
@@ -74,6 +78,9 @@ pub struct Plan {
     pub exceeded: Vec<Exceeded>,
     /// Passages through the wrist's singularity: time (s), arc length (m).
     pub passages: Vec<[f64; 2]>,
+    /// Mean compliance normal to the path with the turn about the spindle carried along without
+    /// twist, and with the turn chosen, m/N; `None`: no free turn, or a rigid robot.
+    pub compliance: Option<[f64; 2]>,
 }
 
 /// A place of the path that the robot does not reach.
@@ -137,7 +144,7 @@ pub fn plan(job: &Job, toolpath: &Toolpath, robot: &Robot) -> Outcome<Result<Pla
     let cell = Cell::of(job, robot)?;
     let programme = programme(toolpath, &cell.holding())?;
     let drawing = Drawing {
-        blend_radius: job.blend_radius.unwrap_or(0.0),
+        blend_radius: job.blend_radius,
         turning: match job.orientation {
             job::Turning::Blend => Turning::Blend,
             job::Turning::Radius(radius) => Turning::Radius(radius),
@@ -154,6 +161,7 @@ pub fn plan(job: &Job, toolpath: &Toolpath, robot: &Robot) -> Outcome<Result<Pla
         spin: &spin,
     };
     let asked = feeds.steps(&path);
+    ride.bounded(&asked)?;
     let (timeline, rows) = match ride.within_speeds(&asked) {
         Ok(run) => run,
         Err(unreached) => return Ok(Err(unreached)),
@@ -167,8 +175,10 @@ pub fn plan(job: &Job, toolpath: &Toolpath, robot: &Robot) -> Outcome<Result<Pla
         feeds.feed.unwrap_or(feeds.fallback),
     );
     Ok(Ok(Plan {
+        compliance: compared(&cell, &path, &spin),
         passages: passages(&cell, &rows),
         cycle: job.cycle,
+        feeds,
         feed,
         joints,
         exceeded,
@@ -178,6 +188,13 @@ pub fn plan(job: &Job, toolpath: &Toolpath, robot: &Robot) -> Outcome<Result<Pla
         cell,
         path,
     }))
+}
+
+/// Compliance with the turn carried along, and with the one chosen.
+fn compared(cell: &Cell, path: &Path, spin: &SpinLaw) -> Option<[f64; 2]> {
+    let free = path.programme.free_spin;
+    let carried = free.then(|| mean_compliance(cell, path, &SpinLaw::none(cell)))?;
+    Some([carried?, mean_compliance(cell, path, spin)?])
 }
 
 /// The speeds of the job.
@@ -208,11 +225,29 @@ struct Ride<'a> {
 }
 
 impl Ride<'_> {
-    fn within_speeds(&self, asked: &[Step]) -> Result<(Timeline, Vec<Row>), Unreached> {
-        let limits = Limits {
+    fn limits(&self) -> Limits {
+        Limits {
             acceleration: self.job.limits.path_acceleration,
             jerk: self.job.limits.path_jerk,
-        };
+        }
+    }
+
+    /// Refuses what would take more rows than anybody can use.
+    fn bounded(&self, asked: &[Step]) -> Outcome<()> {
+        let timeline = Timeline::run(self.path, asked, &self.limits(), &[]);
+        let rows = timeline.duration / self.job.cycle;
+        match rows <= MOST_ROWS {
+            true => Ok(()),
+            false => Err(Problem::new(
+                format!("would take {:.3e} s, {rows:.1e} cycles", timeline.duration),
+                "check the units of path, feed and limits, or choose a longer cycle_ms",
+            )
+            .in_file(&self.job.path)),
+        }
+    }
+
+    fn within_speeds(&self, asked: &[Step]) -> Result<(Timeline, Vec<Row>), Unreached> {
+        let limits = self.limits();
         let turns = self.path.halts.iter().map(|halt| halt.turns.len()).sum();
         let (mut steps, mut slow) = (asked.to_vec(), vec![1.0; turns]);
         let mut run = self.run(&steps, &limits, &slow)?;

@@ -89,9 +89,12 @@ impl Grid {
             let turned = frames[k].turned(scale(j as f64 * GRID, cell.spindle));
             cell.in_base(path.point(stations[k]), turned)
         };
-        let mut first = Follower::new(cell);
-        let begin = first.next(&pose(0, 0)).ok()?;
-        let arm = first.arm()?;
+        let begin = |j: usize| {
+            let mut first = Follower::new(cell);
+            let q = first.next(&pose(0, j)).ok()?;
+            Some((q, first.arm()?))
+        };
+        let (begin, arm) = (0..ANGLES).find_map(begin)?;
         let node = |k: usize, j: usize| {
             let mut node: Node = [None; 2];
             let postures = wrist.solve_arm(&pose(k, j), &begin, arm);

@@ -1,11 +1,13 @@
-//! A page as one HTML file that needs nothing else: no network, no scripts.
+//! A page as one HTML file that needs nothing else: no network, and no scripts but those of a view in
+//! space, which it carries.
 
 use super::escape::escape;
 use super::prose::{bound, is_long, is_word, prose};
-use super::svg;
+use super::{scene, svg};
 use crate::ground::problem::Outcome;
 use crate::sheet::chart::Chart;
 use crate::sheet::page::{Block, Page, Tone, file};
+use crate::sheet::scene::Scene;
 use crate::sheet::table::Table;
 use std::fmt::Write as _;
 
@@ -25,6 +27,7 @@ pub fn ink(page: &Page) -> Outcome<String> {
         out: String::new(),
         figures: figures.collect::<Vec<_>>().into_iter(),
         tables: 0,
+        scenes: 0,
     };
     writer.blocks(&page.blocks)?;
     Ok(document(page, &writer.out))
@@ -84,6 +87,7 @@ struct Writer {
     out: String,
     figures: std::vec::IntoIter<String>,
     tables: usize,
+    scenes: usize,
 }
 
 impl Writer {
@@ -120,6 +124,7 @@ impl Writer {
             Block::Text(text) => self.line(&format!("<p>{}</p>", prose(text))),
             Block::Table(table) => self.table(table),
             Block::Chart(chart) => return self.figure(chart),
+            Block::Scene(scene) => self.scene(scene),
             Block::Details { summary, blocks } => {
                 self.line(&format!(
                     "<details>\n<summary>{}</summary>",
@@ -130,6 +135,11 @@ impl Writer {
             }
         }
         Ok(())
+    }
+
+    fn scene(&mut self, inner: &Scene) {
+        self.scenes += 1;
+        self.line(&scene::ink(inner, &format!("scene-{}", self.scenes)));
     }
 
     fn line(&mut self, text: &str) {

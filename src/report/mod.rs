@@ -5,6 +5,7 @@ pub mod folder;
 pub mod html;
 pub mod json;
 mod prose;
+mod scene;
 pub mod svg;
 pub mod text;
 mod wrap;

@@ -76,6 +76,7 @@ fn blocks(blocks: &[Block], figures: &mut std::slice::Iter<String>, out: &mut St
             }
             Block::Text(text) => paragraph(text, out),
             Block::Table(inner) => out.push_str(&table(inner)),
+            Block::Scene(scene) => paragraph(&format!("In space: {}", scene.title), out),
             Block::Chart(chart) => figure(chart, figures.next(), out),
             Block::Details {
                 summary,

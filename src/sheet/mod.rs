@@ -4,4 +4,5 @@
 pub mod chart;
 pub mod number;
 pub mod page;
+pub mod scene;
 pub mod table;

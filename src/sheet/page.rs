@@ -1,6 +1,7 @@
 //! A page: the story in the order a reader needs it.
 
 use super::chart::Chart;
+use super::scene::Scene;
 use super::table::Table;
 use std::collections::BTreeSet;
 
@@ -48,6 +49,8 @@ pub enum Block {
     Table(Table),
     /// A figure.
     Chart(Chart),
+    /// A view in space, beside a figure that shows the same on paper.
+    Scene(Scene),
     /// Folded away until asked for.
     Details {
         /// What is inside.
