@@ -11,7 +11,7 @@
 //! 5  experiments  what a model says that a measurement should have shown
 //! 4  motion       kinematics, dynamics, statics, modes, FRFs
 //! 3  robot        chain, springs, bodies, robot files
-//! 2  effects      ONE FILE PER EFFECT
+//! 2  effects      ONE FILE PER EFFECT    cutting  tools, chips, ONE FILE PER FORCE LAW, stability
 //! 1  measurement  files and their facts    signal  spectra, noise    sheet  tables and charts as data
 //! 0  ground       units, dual numbers, spatial algebra, files, problems with a remedy
 //! ```
@@ -36,6 +36,7 @@
 
 pub mod causes;
 pub mod cli;
+pub mod cutting;
 pub mod effects;
 pub mod experiments;
 pub mod findings;
