@@ -5,8 +5,10 @@
 //!
 //! A force law is one file and one line in [`LAWS`].
 
+pub mod chip;
 pub mod law;
 pub mod tool;
+pub mod wave;
 
 mod kienzle;
 mod linear_edge;
