@@ -21,34 +21,13 @@ pub enum Stock<S: Scalar = f64> {
 }
 
 impl<S: Scalar> Stock<S> {
-    /// The piece of the ray at cos φ that lies in the stock: nearest and farthest distance, m.
-    fn reach(&self, cos: S) -> [S; 2] {
-        let (border, cos) = match *self {
-            Self::Full => return [S::constant(0.0), S::constant(FAR)],
-            Self::Left(y) => (y, cos),
-            Self::Right(y) => (-y, -cos),
-        };
-        beyond(border, cos)
-    }
-}
-
-/// Farther than any tool reaches, m.
-const FAR: f64 = 1e3;
-/// A ray this near to the border runs along it.
-const ALONG: f64 = 1e-12;
-
-/// Where r cos > border.
-fn beyond<S: Scalar>(border: S, cos: S) -> [S; 2] {
-    let (zero, far) = (S::constant(0.0), S::constant(FAR));
-    let c = cos.value();
-    if c.abs() < ALONG {
-        let inside = border.value() < 0.0;
-        return [if inside { zero } else { far }, far];
-    }
-    let crossing = border / cos;
-    match c > 0.0 {
-        true => [crossing.max(zero), far],
-        false => [zero, crossing.max(zero)],
+    /// Where the border stands across the ray of a tooth: its y and cos φ, both counted into the stock.
+    fn border(&self, cos: S) -> Option<[S; 2]> {
+        match *self {
+            Self::Full => None,
+            Self::Left(y) => Some([y, cos]),
+            Self::Right(y) => Some([-y, -cos]),
+        }
     }
 }
 
@@ -61,36 +40,51 @@ pub struct Steady<S: Scalar = f64> {
     pub stock: Stock<S>,
 }
 
+/// Least cosine with which a chip is taken to grow over the angle.
+const FLAT: f64 = 1e-3;
+
 /// What a tooth meets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bite<S: Scalar = f64> {
-    /// Length of the ray in material, m; at most 0: none.
+    /// Length of the ray in material, m; meant only where `depth_rad` is above zero.
     pub thickness: S,
     /// How far the tooth is within the cut, as an angle, rad: negative outside. To first order; it
     /// spreads an entry or exit over an edge that lags within its disc.
     pub depth_rad: S,
 }
 
+impl<S: Scalar> Bite<S> {
+    /// The part of it behind a border.
+    fn within(self, own: S, border: S, into: S, sin: S) -> Self {
+        let ahead = own * into - border;
+        let across = (own * sin).value().abs().max(FLAT * own.value());
+        let before = match into.value() > 0.0 && border.value() > 0.0 {
+            true => ahead / into,
+            false => self.thickness,
+        };
+        Self {
+            thickness: self.thickness.min(before),
+            depth_rad: self.depth_rad.min(ahead / across),
+        }
+    }
+}
+
 impl<S: Scalar> Steady<S> {
     /// What tooth `tooth` meets at tooth angle φ (`[sin φ, cos φ]`), all teeth with their real radii.
+    /// An edge cuts while its tip is in the stock; what of its ray lies before the border is no chip.
     pub fn bite(&self, direction: [S; 2], tooth: usize, radii: &[S]) -> Bite<S> {
         let [sin, cos] = direction;
         let own = radii[tooth];
         let surface = self.surface(direction, tooth, radii);
-        let [near, far] = self.stock.reach(cos);
-        let (bottom, top) = (near.max(surface), far.min(own));
-        let thickness = top - bottom;
         let feed = self.feed_per_radian * TAU / radii.len() as f64;
-        // what one radian more changes: the feed's share, or the way across the border
-        let stock_limits = near.value() > surface.value() || far.value() < own.value();
-        let slope = match stock_limits {
-            true => (own * sin).value().abs() / cos.value().abs().max(ALONG),
-            false => feed * cos.value().abs(),
+        let slope = feed * cos.value().abs().max(FLAT);
+        let bite = Bite {
+            thickness: own - surface,
+            depth_rad: (own - surface) / slope.max(f64::MIN_POSITIVE),
         };
-        let least = 1e-3 * feed;
-        Bite {
-            thickness,
-            depth_rad: thickness / slope.max(least).max(f64::MIN_POSITIVE),
+        match self.stock.border(cos) {
+            None => bite,
+            Some([border, into]) => bite.within(own, border, into, sin),
         }
     }
 

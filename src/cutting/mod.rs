@@ -7,6 +7,7 @@
 
 pub mod chip;
 pub mod law;
+pub mod mean;
 pub mod tool;
 pub mod wave;
 

@@ -5,6 +5,7 @@ pub mod bootstrap;
 pub mod candidates;
 pub mod compliance;
 pub mod convex;
+pub mod cut_force;
 pub mod damping;
 pub mod damping_statement;
 pub mod damping_store;
