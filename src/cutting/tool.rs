@@ -11,7 +11,7 @@ pub struct Tool {
     pub radius_m: f64,
     /// Number of teeth, evenly spaced.
     pub teeth: usize,
-    /// Helix angle, right-handed.
+    /// Helix angle, positive right-handed.
     pub helix_rad: f64,
     /// Radius of the corner: 0 a square end, the tool's radius a ball end.
     pub corner_radius_m: f64,
@@ -94,7 +94,7 @@ impl Tool {
     }
 
     fn count_over(&self, height_m: f64) -> usize {
-        ((self.lag_rad(height_m) / FINE).ceil() as usize).clamp(1, 1000)
+        ((self.lag_rad(height_m).abs() / FINE).ceil() as usize).clamp(1, 1000)
     }
 
     fn round_discs(&self, height_m: f64) -> Vec<Disc> {
@@ -117,7 +117,7 @@ impl Tool {
                 edge_m: rc * (high - low),
                 normal: [sin, cos],
                 lag_rad: self.lag_rad(z),
-                lag_width_rad: self.lag_rad(height),
+                lag_width_rad: self.lag_rad(height).abs(),
             }
         };
         (0..steps).map(of).collect()
@@ -132,7 +132,7 @@ impl Tool {
             edge_m: height_m / sin,
             normal: [sin, cos],
             lag_rad: self.lag_rad(z_m),
-            lag_width_rad: self.lag_rad(height_m),
+            lag_width_rad: self.lag_rad(height_m).abs(),
         }
     }
 
@@ -172,7 +172,7 @@ impl Tool {
 
     /// Whether the corner is no larger than the tool.
     pub fn is_possible(&self) -> bool {
-        let angles = (0.0..FRAC_PI_2).contains(&self.helix_rad);
+        let angles = self.helix_rad.abs() < FRAC_PI_2;
         let lengths = self.radius_m > 0.0 && self.flute_m > 0.0 && self.runout_m >= 0.0;
         angles && lengths && self.teeth > 0 && (0.0..=self.radius_m).contains(&self.corner_radius_m)
     }

@@ -1,6 +1,7 @@
 //! Keys that a kind knows; any other is an error that names the nearest.
 
 use crate::ground::problem::{Outcome, Problem};
+use crate::ground::words::nearest;
 use crate::measurement::front::Front;
 
 /// Facts that every kind knows.
@@ -15,7 +16,7 @@ pub fn refuse_unknown(front: &Front, keys: &[&str]) -> Outcome<()> {
     match front.facts.keys().find(|key| !known(key)) {
         None => Ok(()),
         Some(key) => {
-            let unknown = unknown_key(key, ALWAYS.iter().chain(keys).copied());
+            let unknown = unknown_key(key, &[ALWAYS, keys].concat());
             Err(match front.line_of(key) {
                 Some(line) => unknown.at_line(line),
                 None => unknown,
@@ -25,29 +26,13 @@ pub fn refuse_unknown(front: &Front, keys: &[&str]) -> Outcome<()> {
 }
 
 /// A problem with a key that is not among `known`.
-pub fn unknown_key<'a>(key: &str, known: impl Iterator<Item = &'a str>) -> Problem {
-    let nearest = known.min_by_key(|k| distance(key, k)).unwrap_or("notes");
-    Problem::new(
-        "is not a fact of this kind",
-        format!("did you mean `{nearest}`? What is free goes into `notes = {{ ... }}`"),
-    )
-    .in_column(key)
-}
-
-/// Letters to change, add or drop (Levenshtein 1966).
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut corner = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let changed = corner + usize::from(x != *y);
-            corner = row[j + 1];
-            row[j + 1] = changed.min(row[j] + 1).min(corner + 1);
-        }
-    }
-    row[b.len()]
+pub fn unknown_key(key: &str, known: &[&str]) -> Problem {
+    let free = "what is free goes into `notes = { ... }`";
+    let remedy = match nearest(key, known) {
+        Some(near) => format!("write `{near}` if that is meant; {free}"),
+        None => format!("take it out; {free}; known: {}", known.join(", ")),
+    };
+    Problem::new("is not a fact of this kind", remedy).in_column(key)
 }
 
 #[cfg(test)]

@@ -185,7 +185,7 @@ const CUT_KEYS: [&str; 5] = ["spindle_rpm", "feed_mm_min", "depth_mm", "width_mm
 
 fn cut(table: &Table, diameter_mm: f64) -> Outcome<CutFacts> {
     if let Some(key) = table.keys().find(|k| !CUT_KEYS.contains(&k.as_str())) {
-        return Err(unknown_key(key, CUT_KEYS.into_iter()));
+        return Err(unknown_key(key, &CUT_KEYS));
     }
     let width_mm = number(table, "width_mm")?;
     if width_mm > diameter_mm * (1.0 + 1e-9) {
