@@ -80,6 +80,17 @@ fn recording(bandwidth_hz: Option<f64>, noise: f64, colour: f64) -> Recording {
     }
 }
 
+const RECORDS: u64 = 14;
+
+/// Cases of several seeds, side by side.
+fn together(seeds: std::ops::Range<u64>, recording: &Recording) -> Vec<Case> {
+    std::thread::scope(|scope| {
+        let spawn = |seed| scope.spawn(move || case(seed, recording));
+        let running: Vec<_> = seeds.map(spawn).collect();
+        running.into_iter().map(|t| t.join().unwrap()).collect()
+    })
+}
+
 /// Intervals that hold the truth, intervals given, and the mean square of their errors in standard errors.
 fn coverage(cases: &[Case]) -> (usize, usize, f64) {
     let (mut hit, mut given, mut square) = (0, 0, 0.0);
@@ -105,8 +116,8 @@ fn intervals_of_the_coefficients_hold_what_they_claim() {
         ("coloured, 800 Hz", Some(800.0), 0.6),
         ("ideal", None, 0.0),
     ] {
-        let recording = recording(bandwidth, 2.0, colour);
-        let cases: Vec<Case> = (0..14).map(|seed| case(100 + seed, &recording)).collect();
+        let recording = recording(bandwidth, 4.0, colour);
+        let cases = together(100..100 + RECORDS, &recording);
         let (hit, given, square) = coverage(&cases);
         println!(
             "{name}: {hit} of {given}, χ² {square:.2}, {:.1?}",

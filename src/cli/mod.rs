@@ -4,6 +4,7 @@ mod chapter;
 mod damping;
 mod diagnose;
 mod effects;
+mod force;
 mod frf;
 mod inspect;
 mod lab;
@@ -45,6 +46,7 @@ pub const VERBS: &[Verb] = &[
     inspect::VERB,
     stiffness::VERB,
     damping::VERB,
+    force::VERB,
     diagnose::VERB,
     run::VERB,
     report::VERB,

@@ -38,8 +38,8 @@ pub struct Recording {
     pub clipped: bool,
 }
 
-const SLICES: usize = 16;
-const AROUND: usize = 2160;
+const SLICES: usize = 12;
+const AROUND: usize = 1440;
 
 /// Force on the tool around one revolution, N; coefficients in N/mm² and N/mm.
 pub fn around(cutter: &Cutter, pass: &Pass, k: &[f64; 6], clipped: bool) -> Vec<[f64; 3]> {
@@ -196,7 +196,7 @@ struct Filter {
     state: [[f64; 2]; 3],
 }
 
-const FINE: usize = 24;
+const FINE: usize = 12;
 
 impl Filter {
     fn new(corner: Option<f64>, step: f64) -> Self {

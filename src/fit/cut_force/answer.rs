@@ -2,7 +2,7 @@
 
 use super::descent::{Descent, Optimum};
 use super::layout::Layout;
-use super::start::start;
+use super::start::{improve_teeth, start};
 use super::whitening::Whitening;
 use super::{Averaged, CutData, averaged, cuts, remarks};
 use crate::cutting::LINEAR_EDGE;
@@ -50,7 +50,7 @@ pub struct Account {
 }
 
 /// Rounds of noise and descent.
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 4;
 /// A coefficient counts as fixed when its standard error is below this share of the size of its kind.
 const FIXED: f64 = 0.25;
 /// A runout counts as seen when it stands out of its standard error by this factor.
@@ -120,8 +120,11 @@ fn descend(cuts: &[CutData], layout: &Layout) -> Optimum {
         if round == ROUNDS {
             return found;
         }
-        whitening = Whitening::of(cuts, &found.residuals);
         p = found.p;
+        if round == 1 && improve_teeth(cuts, layout, &mut p) {
+            continue;
+        }
+        whitening = Whitening::of(cuts, &found.residuals);
     }
 }
 

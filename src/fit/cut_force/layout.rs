@@ -8,6 +8,8 @@ use crate::experiments::milling_force::{BANDWIDTH, PHASE, RUNOUT, SPEED, UNKNOWN
 const BANDWIDTH_STD: f64 = 0.2;
 /// Spread of a stated spindle speed.
 const SPEED_STD: f64 = 1e-3;
+/// Spread of either part of the runout, m: no clamped tool runs worse. It closes what two teeth leave open.
+pub(super) const RUNOUT_STD: f64 = 5e-5;
 /// Spread of a stated width of cut, m.
 const WIDTH_STD: f64 = 2e-5;
 
@@ -44,8 +46,9 @@ impl Layout {
             fixed: Vec::new(),
         };
         let teeth = cuts.first().map_or(1, |c| c.scene.tool.teeth);
-        let runout = (teeth > 1).then(|| layout.add(free(RUNOUT)));
-        let second = (teeth > 1).then(|| layout.add(free(RUNOUT + 1)));
+        let part = || known(RUNOUT, 0.0, RUNOUT_STD);
+        let runout = (teeth > 1).then(|| layout.add(part()));
+        let second = (teeth > 1).then(|| layout.add(part()));
         let stated = cuts.iter().find_map(|c| c.bandwidth_hz);
         let bandwidth = stated.map(|hz| layout.add(known(BANDWIDTH, hz.ln(), BANDWIDTH_STD)));
         for cut in cuts {

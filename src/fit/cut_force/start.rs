@@ -2,7 +2,7 @@
 //! coefficients, then which tooth of one cut is which tooth of another, from the runout they show.
 
 use super::CutData;
-use super::layout::Layout;
+use super::layout::{Layout, RUNOUT_STD};
 use crate::experiments::milling_force::{PHASE, Predicted, RUNOUT, UNKNOWNS};
 use crate::ground::spatial::V3;
 use nalgebra::{DMatrix, DVector};
@@ -14,6 +14,8 @@ const PLACES: usize = 360;
 const REVOLUTIONS: f64 = 8.0;
 /// How often angles and coefficients are improved in turn.
 const ROUNDS: usize = 4;
+/// Weight of the runout's prior here: what is left still holds the runout itself.
+const PRIOR: f64 = 10.0;
 /// Share of a coefficient's information added so that it never blows up.
 const RIDGE: f64 = 1e-6;
 
@@ -184,45 +186,107 @@ fn agree_on_teeth(cuts: &[CutData], layout: &Layout, folded: &mut [Folded], p: &
     for (i, one) in folded.iter_mut().enumerate() {
         one.predicted = revolution(&cuts[i], &layout.of_one(i, p));
     }
-    let shown: Vec<([f64; 2], f64)> = folded.iter().map(|one| shown(one, &coefficients)).collect();
-    let strongest = |a: &&([f64; 2], f64), b: &&([f64; 2], f64)| a.1.total_cmp(&b.1);
-    let Some((lead, _)) = shown.iter().max_by(strongest).copied() else {
+    let shown: Vec<Shown> = folded.iter().map(|one| shown(one, &coefficients)).collect();
+    let strength = |s: &Shown| s.solution().dot(&s.right);
+    let strongest = shown
+        .iter()
+        .max_by(|a, b| strength(a).total_cmp(&strength(b)));
+    let Some(lead) = strongest.map(Shown::solution) else {
         return;
     };
-    let teeth = cuts[0].scene.tool.teeth;
-    let turned = |v: [f64; 2], m: usize| {
-        let (sin, cos) = (TAU * m as f64 / teeth as f64).sin_cos();
-        [v[0] * cos + v[1] * sin, v[1] * cos - v[0] * sin]
-    };
-    let (mut sum, mut weight) = ([0.0; 2], 0.0);
-    for (i, (own, strength)) in shown.iter().enumerate() {
-        let along = |m: &usize| {
-            let v = turned(*own, *m);
-            v[0] * lead[0] + v[1] * lead[1]
-        };
-        let m = (0..teeth).max_by(|a, b| along(a).total_cmp(&along(b)));
-        let m = m.unwrap_or(0);
-        if let Some(place) = layout.of_cut[i][PHASE] {
-            p[place] += TAU * m as f64 / teeth as f64;
+    let pitch = cuts[0].scene.tool.pitch_rad();
+    let mut joint = Shown::nothing();
+    for (places, own) in layout.of_cut.iter().zip(&shown) {
+        let along = |m: &usize| own.turned(*m as f64 * pitch).right.dot(&lead);
+        let m = (0..cuts[0].scene.tool.teeth).max_by(|a, b| along(a).total_cmp(&along(b)));
+        let turn = m.unwrap_or(0) as f64 * pitch;
+        if let Some(place) = places[PHASE] {
+            p[place] += turn;
         }
-        let v = turned(*own, m);
-        (0..2).for_each(|k| sum[k] += strength * v[k]);
-        weight += strength;
+        joint.add(&own.turned(turn));
     }
+    let runout = joint.solution();
     for k in 0..2 {
         if let Some(place) = layout.of_cut[0][RUNOUT + k] {
-            p[place] = sum[k] / weight.max(f64::MIN_POSITIVE);
+            p[place] = runout[k];
         }
     }
 }
 
-/// The runout that a cut shows by itself, and how strongly.
-fn shown(one: &Folded, coefficients: &[f64; 6]) -> ([f64; 2], f64) {
+/// Turns the names of the teeth of single cuts where that leaves less; true if any was turned.
+pub fn improve_teeth(cuts: &[CutData], layout: &Layout, p: &mut [f64]) -> bool {
+    let mut any = false;
+    for (i, cut) in cuts.iter().enumerate() {
+        let Some(place) = layout.of_cut[i][PHASE] else {
+            continue;
+        };
+        let (first, pitch) = (p[place], cut.scene.tool.pitch_rad());
+        let mut left = |m: usize| {
+            p[place] = first + m as f64 * pitch;
+            let predicted = cut.scene.predict(&layout.of_one(i, p)).force;
+            let pairs = cut.force.iter().zip(&predicted);
+            let square = |(a, b): (&V3, &V3)| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>();
+            pairs.map(square).sum::<f64>()
+        };
+        let all: Vec<f64> = (0..cut.scene.tool.teeth).map(&mut left).collect();
+        let best = (0..all.len()).min_by(|a, b| all[*a].total_cmp(&all[*b]));
+        let best = best.unwrap_or(0);
+        p[place] = first + best as f64 * pitch;
+        any |= best > 0;
+    }
+    any
+}
+
+/// What a cut shows of the runout by itself: normal equations, the prior apart.
+struct Shown {
+    normal: DMatrix<f64>,
+    right: DVector<f64>,
+    prior: f64,
+}
+
+impl Shown {
+    fn nothing() -> Self {
+        Self {
+            normal: DMatrix::zeros(2, 2),
+            right: DVector::zeros(2),
+            prior: 0.0,
+        }
+    }
+
+    fn solution(&self) -> DVector<f64> {
+        let mut normal = self.normal.clone();
+        (0..2).for_each(|k| normal[(k, k)] += self.prior);
+        solved(normal, &self.right)
+    }
+
+    /// The same with tooth 1 a turn further in the sense of rotation.
+    fn turned(&self, turn: f64) -> Self {
+        let (sin, cos) = turn.sin_cos();
+        let back = DMatrix::from_row_slice(2, 2, &[cos, sin, -sin, cos]);
+        Self {
+            normal: &back * &self.normal * back.transpose(),
+            right: &back * &self.right,
+            prior: self.prior,
+        }
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.normal += &other.normal;
+        self.right += &other.right;
+        self.prior = self.prior.max(other.prior);
+    }
+}
+
+fn shown(one: &Folded, coefficients: &[f64; 6]) -> Shown {
     let left = |f: &V3, at: usize| {
         let model = modelled(one, at, coefficients);
         std::array::from_fn(|k| f[k] - model[k])
     };
-    let (normal, right, _) = one.normal(&[RUNOUT, RUNOUT + 1], one.shift, left);
-    let solution = solved(normal, &right);
-    ([solution[0], solution[1]], solution.dot(&right).max(1e-30))
+    let (normal, right, total) = one.normal(&[RUNOUT, RUNOUT + 1], one.shift, left);
+    let readings = 3.0 * one.seen(one.shift).count() as f64;
+    Shown {
+        normal,
+        right,
+        prior: PRIOR * total / readings.max(1.0) / RUNOUT_STD.powi(2),
+    }
 }
