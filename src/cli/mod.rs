@@ -8,6 +8,7 @@ mod force;
 mod frf;
 mod inspect;
 mod lab;
+mod lobes;
 mod output;
 mod progress;
 mod report;
@@ -47,6 +48,7 @@ pub const VERBS: &[Verb] = &[
     stiffness::VERB,
     damping::VERB,
     force::VERB,
+    lobes::VERB,
     diagnose::VERB,
     run::VERB,
     report::VERB,

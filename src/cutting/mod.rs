@@ -5,9 +5,12 @@
 //!
 //! A force law is one file and one line in [`LAWS`].
 
+mod chebyshev;
 pub mod chip;
+pub mod directional;
 pub mod law;
 pub mod mean;
+pub mod stability;
 pub mod tool;
 pub mod wave;
 

@@ -12,6 +12,7 @@ pub mod known_keys;
 pub mod leading;
 pub mod load_cycle;
 pub mod milling_force;
+pub mod modal;
 pub mod table;
 pub mod toolpath;
 pub mod uff;
