@@ -3,7 +3,7 @@
 //! x(t) answers to F = w A(t) (x(t) - x(t - τ)), A from the teeth in cut. Over one tooth passing the
 //! force is a polynomial at Chebyshev nodes of each stretch in which A is smooth; modes are carried over
 //! such a stretch by collocation of their own equation, over idle stretches exactly. Spectral accuracy
-//! needs about 4.5 nodes per oscillation and 8 more (Butcher and others 2009; Bobrenkov and others 2010).
+//! needs about 4.5 nodes per oscillation of the fastest mode and, for the teeth, a dozen more (Butcher and others 2009; Bobrenkov and others 2010).
 
 use super::chebyshev::{Stretch, differentiation, nodes};
 use super::directional::Directional;
@@ -26,7 +26,7 @@ pub struct TipMode {
 
 /// Nodes per oscillation of the fastest mode, and nodes besides.
 const PER_OSCILLATION: f64 = 4.5;
-const BESIDES: f64 = 8.0;
+const BESIDES: f64 = 14.0;
 /// A mode that swings more often than this within a tooth passing answers as a spring.
 const QUASI_STATIC: f64 = 60.0;
 
