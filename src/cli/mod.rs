@@ -4,10 +4,12 @@ mod chapter;
 mod damping;
 mod diagnose;
 mod effects;
+mod force;
 mod frf;
 mod import;
 mod inspect;
 mod lab;
+mod lobes;
 mod output;
 mod plan;
 mod progress;
@@ -54,6 +56,8 @@ pub const VERBS: &[Verb] = &[
     damping::VERB,
     screw::VERB,
     sensor::VERB,
+    force::VERB,
+    lobes::VERB,
     diagnose::VERB,
     run::VERB,
     report::VERB,

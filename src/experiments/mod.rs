@@ -10,5 +10,6 @@ pub mod hammer_modes;
 pub mod hammer_screen;
 pub mod hammer_variance;
 pub mod load_cycle;
+pub mod milling_force;
 pub mod schedule;
 pub mod workspace;

@@ -6,6 +6,7 @@ pub mod candidates;
 pub mod compliance;
 pub mod convex;
 pub mod cubes;
+pub mod cut_force;
 pub mod damping;
 pub mod damping_statement;
 pub mod damping_store;

@@ -333,6 +333,27 @@ impl<'a> Keys<'a> {
     }
 }
 
+impl<'a> Keys<'a> {
+    /// The tables under a key, as `[[key]]` writes them; none if left out. Their keys must be among `known`.
+    ///
+    /// # Errors
+    /// Another type, or an unknown key.
+    pub fn tables(&self, key: &str, known: &[&str]) -> Outcome<Vec<Keys<'a>>> {
+        let Some(value) = self.get(key) else {
+            return Ok(Vec::new());
+        };
+        let wrong = || self.wrong_type(key, value, "a list of tables", "[{ ... }]");
+        let members = value.as_array().ok_or_else(wrong)?;
+        let one = |member: &'a Spanned<DeValue<'a>>| {
+            let table = member.get_ref().as_table().ok_or_else(wrong)?;
+            let line = line_of(self.text, Some(member.span()));
+            let prefix = format!("{}{key}.", self.prefix);
+            Keys::of(self.text, table, prefix, line, known)
+        };
+        members.iter().map(one).collect()
+    }
+}
+
 fn number_of(value: &DeValue<'_>) -> Option<f64> {
     match value {
         DeValue::Float(float) => float.as_str().parse().ok(),

@@ -1,5 +1,6 @@
 //! Floor 1: what can be said about samples without knowing what they measure.
 
+pub mod autoregression;
 pub mod clipping;
 pub mod coherence;
 pub mod colour;
@@ -11,6 +12,7 @@ pub mod frf;
 pub mod jackknife;
 pub mod judge;
 pub mod line_noise;
+pub mod low_pass;
 pub mod lscf;
 pub mod modal_fit;
 pub mod modal_grid;

@@ -52,6 +52,7 @@ const PLAIN: &[(&str, bool)] = &[
     ("run", false),
     ("hit", false),
     ("cycle", false),
+    ("cut", false),
     ("point", false),
     ("cube", true),
     ("test", false),

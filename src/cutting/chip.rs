@@ -1,0 +1,187 @@
+//! The chip: what a tooth finds along its radius between the surface that the teeth before it left on
+//! their trochoids and its own edge, in stock of a given width.
+//!
+//! Not c sin φ, which is its first order (Martellotti 1941): earlier teeth have their own radii, and
+//! their centres stood elsewhere. A tooth that came k pitches earlier crossed the ray at tooth angle
+//! φ + ε, when the axis lay δ = q (2πk/N - ε) behind, q the feed per radian: R_i sin ε = δ cos φ, and its
+//! surface lies R_i cos ε - δ sin φ from the axis.
+
+use crate::ground::dual::Scalar;
+use std::f64::consts::TAU;
+
+/// Where stock stands beside the tool: the half plane on one side of a line along the feed, or both.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stock<S: Scalar = f64> {
+    /// On either side: a full slot.
+    Full,
+    /// Left of the feed, beyond this y (m): teeth enter at φ = 0, up milling.
+    Left(S),
+    /// Right of the feed, below this y (m): teeth leave at φ = 180°, down milling.
+    Right(S),
+}
+
+impl<S: Scalar> Stock<S> {
+    /// Where the border stands across the ray of a tooth: its y and cos φ, both counted into the stock.
+    fn border(&self, cos: S) -> Option<[S; 2]> {
+        match *self {
+            Self::Full => None,
+            Self::Left(y) => Some([y, cos]),
+            Self::Right(y) => Some([-y, -cos]),
+        }
+    }
+}
+
+/// A steady cut of one disc: constant feed and spindle speed, all revolutions alike.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Steady<S: Scalar = f64> {
+    /// Feed per radian of the spindle, m/rad.
+    pub feed_per_radian: f64,
+    /// The stock.
+    pub stock: Stock<S>,
+}
+
+/// Least cosine with which a chip is taken to grow over the angle.
+const FLAT: f64 = 1e-3;
+
+/// What a tooth meets.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bite<S: Scalar = f64> {
+    /// Length of the ray in material, m; meant only where `depth_rad` is above zero.
+    pub thickness: S,
+    /// How far the tooth is within the cut, as an angle, rad: negative outside. To first order; it
+    /// spreads an entry or exit over an edge that lags within its disc.
+    pub depth_rad: S,
+}
+
+impl<S: Scalar> Bite<S> {
+    /// The part of it behind a border.
+    fn within(self, own: S, border: S, into: S, sin: S) -> Self {
+        let ahead = own * into - border;
+        let across = (own * sin).value().abs().max(FLAT * own.value());
+        let before = match into.value() > 0.0 && border.value() > 0.0 {
+            true => ahead / into,
+            false => self.thickness,
+        };
+        Self {
+            thickness: self.thickness.min(before),
+            depth_rad: self.depth_rad.min(ahead / across),
+        }
+    }
+}
+
+impl<S: Scalar> Steady<S> {
+    /// What tooth `tooth` meets at tooth angle φ (`[sin φ, cos φ]`), all teeth with their real radii.
+    /// An edge cuts while its tip is in the stock; what of its ray lies before the border is no chip.
+    pub fn bite(&self, direction: [S; 2], tooth: usize, radii: &[S]) -> Bite<S> {
+        let [sin, cos] = direction;
+        let own = radii[tooth];
+        let surface = self.surface(direction, tooth, radii);
+        let feed = self.feed_per_radian * TAU / radii.len() as f64;
+        let slope = feed * cos.value().abs().max(FLAT);
+        let bite = Bite {
+            thickness: own - surface,
+            depth_rad: (own - surface) / slope.max(f64::MIN_POSITIVE),
+        };
+        match self.stock.border(cos) {
+            None => bite,
+            Some([border, into]) => bite.within(own, border, into, sin),
+        }
+    }
+
+    /// Distance along the ray to the surface that all earlier teeth left, m.
+    fn surface(&self, direction: [S; 2], tooth: usize, radii: &[S]) -> S {
+        let teeth = radii.len();
+        let left = |k: usize| self.left_by(direction, k, teeth, radii[(tooth + k) % teeth]);
+        (2..=teeth).fold(left(1), |far, k| far.max(left(k)))
+    }
+
+    /// Distance along the ray to the surface that the tooth k pitches earlier left, m.
+    fn left_by(&self, [sin, cos]: [S; 2], k: usize, teeth: usize, radius: S) -> S {
+        let q = self.feed_per_radian;
+        let turn = TAU * k as f64 / teeth as f64;
+        let lean = radius + cos * q;
+        let first = cos * (q * turn) / lean;
+        // R sin ε = q (turn - ε) cos φ; sin ε to third order, exact to ε⁵
+        let angle = first + radius * first * first * first / 6.0 / lean;
+        let behind = (S::constant(turn) - angle) * q;
+        let square = angle * angle;
+        let fall = square * 0.5 - square * square / 24.0;
+        radius - radius * fall - behind * sin
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    const R: f64 = 8e-3;
+
+    fn bite(steady: &Steady, phi: f64, radii: &[f64]) -> f64 {
+        steady.bite([phi.sin(), phi.cos()], 0, radii).thickness
+    }
+
+    #[test]
+    fn a_slow_feed_leaves_the_first_order() {
+        let c = 1e-6;
+        let steady = Steady {
+            feed_per_radian: c * 2.0 / TAU,
+            stock: Stock::Full,
+        };
+        for phi in [0.3, 1.2, 2.5] {
+            let h = bite(&steady, phi, &[R, R]);
+            assert!((h / (c * phi.sin()) - 1.0).abs() < 1e-3, "{h} at {phi}");
+        }
+    }
+
+    #[test]
+    fn a_tooth_stands_where_its_surface_is() {
+        // the earlier tooth's position, straight from its trochoid, lies on the ray
+        let (q, teeth, k, phi) = (0.1e-3, 3.0, 2.0, 0.9_f64);
+        let steady = Steady::<f64> {
+            feed_per_radian: q,
+            stock: Stock::Full,
+        };
+        let rho = steady.left_by([phi.sin(), phi.cos()], 2, 3, R);
+        let point = [rho * phi.sin(), rho * phi.cos()];
+        let nearest = (0..2_000_000)
+            .map(|i| {
+                let eps = -0.1 + 1e-7 * f64::from(i);
+                let x = -q * (TAU * k / teeth - eps) + R * (phi + eps).sin();
+                (x - point[0]).hypot(R * (phi + eps).cos() - point[1])
+            })
+            .fold(f64::MAX, f64::min);
+        assert!(nearest < 2e-9, "{nearest}");
+    }
+
+    #[test]
+    fn a_higher_tooth_takes_what_the_lower_one_left() {
+        let steady = Steady {
+            feed_per_radian: 0.1e-3 * 2.0 / TAU,
+            stock: Stock::Full,
+        };
+        let radii = [R + 5e-6, R - 5e-6];
+        let of = |tooth: usize| steady.bite([1.0, 0.0], tooth, &radii).thickness;
+        assert!((of(0) - 110e-6).abs() < 1e-9 && (of(1) - 90e-6).abs() < 1e-9);
+        let deep = [R + 80e-6, R - 80e-6];
+        assert!((steady.bite([1.0, 0.0], 0, &deep).thickness - 200e-6).abs() < 1e-9);
+        assert!(steady.bite([1.0, 0.0], 1, &deep).thickness < 0.0);
+    }
+
+    #[test]
+    fn stock_on_one_side_is_met_there_only() {
+        let q = 0.1e-3 / TAU;
+        let left = Steady {
+            feed_per_radian: q,
+            stock: Stock::Left(R - 2e-3),
+        };
+        let right = Steady {
+            stock: Stock::Right(-(R - 2e-3)),
+            ..left
+        };
+        let reach = (0.75_f64).acos();
+        assert!(bite(&left, 0.5 * reach, &[R]) > 0.0 && bite(&left, 1.1 * reach, &[R]) < 0.0);
+        assert!(bite(&right, PI - 0.5 * reach, &[R]) > 0.0);
+        assert!(bite(&right, PI - 1.1 * reach, &[R]) < 0.0);
+    }
+}

@@ -1,0 +1,325 @@
+//! Stability of milling: the delay equation of regenerative chatter, collocated at Chebyshev nodes.
+//!
+//! x(t) answers to F = w A(t) (x(t) - x(t - τ)), A from the teeth in cut. Over one tooth passing the
+//! force is a polynomial at Chebyshev nodes of each stretch in which A is smooth; modes are carried over
+//! such a stretch by collocation of their own equation, over idle stretches exactly. Spectral accuracy
+//! needs about 4.5 nodes per oscillation of the fastest mode and, for the teeth, a dozen more (Butcher and others 2009; Bobrenkov and others 2010).
+
+use super::chebyshev::{Stretch, differentiation, nodes};
+use super::directional::Directional;
+use crate::ground::spatial::V3;
+use nalgebra::{Complex, DMatrix};
+use std::f64::consts::TAU;
+
+/// One mode of the tool tip against the workpiece.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TipMode {
+    /// Unit vector along which the tip moves, cut frame; its length scales the mode.
+    pub direction: V3,
+    /// Undamped circular frequency, rad/s; infinite: a spring without mass.
+    pub omega: f64,
+    /// Damping ratio.
+    pub damping_ratio: f64,
+    /// Modal stiffness, N/m.
+    pub stiffness: f64,
+}
+
+/// Nodes per oscillation of the fastest mode, and nodes besides.
+const PER_OSCILLATION: f64 = 4.5;
+const BESIDES: f64 = 14.0;
+/// A mode that swings more often than this within a tooth passing answers as a spring.
+const QUASI_STATIC: f64 = 60.0;
+
+/// A cut at one spindle speed, ready for any depth that keeps its teeth where they are.
+#[derive(Debug, Clone)]
+pub struct Passing {
+    /// Displacements at the nodes per state at the start.
+    start: DMatrix<f64>,
+    /// Displacements at the nodes per depth and displacement difference at the nodes.
+    nodes: DMatrix<f64>,
+    /// State at the end per state at the start.
+    carry: DMatrix<f64>,
+    /// State at the end per depth and difference at the nodes.
+    kick: DMatrix<f64>,
+    period_s: f64,
+    omegas: Vec<f64>,
+}
+
+/// The largest multiplier of a tooth passing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Multiplier {
+    /// Its size: below 1 chatter dies out.
+    pub radius: f64,
+    /// Frequency at which the strongest mode swings with it, Hz.
+    pub frequency_hz: f64,
+}
+
+/// What is carried along one mode: its two states and its answers, as functions of the states at the start
+/// and of the forces at all nodes.
+struct Carried {
+    state: DMatrix<f64>,
+    answers: DMatrix<f64>,
+}
+
+impl Passing {
+    /// Prepares the cut of one tooth passing. `refine` multiplies the number of nodes.
+    pub fn new(modes: &[TipMode], cut: &Directional, passing_s: f64, refine: f64) -> Self {
+        let (swinging, springs): (Vec<TipMode>, Vec<TipMode>) = modes
+            .iter()
+            .partition(|m| m.omega * passing_s / TAU < QUASI_STATIC);
+        let fastest = swinging.iter().map(|m| m.omega).fold(0.0, f64::max);
+        let stretches = cut.stretches(passing_s);
+        let grid: Vec<(Stretch, Vec<f64>)> = stretches
+            .iter()
+            .map(|s| (*s, places(s, fastest, refine)))
+            .collect();
+        let total: usize = grid.iter().map(|g| g.1.len()).sum();
+        let axes: Vec<usize> = (0..2)
+            .filter(|k| modes.iter().any(|m| m.direction[*k] != 0.0))
+            .collect();
+        let force = Self::forces(cut, &grid, passing_s, &axes);
+        let mut passing = Self {
+            start: DMatrix::zeros(axes.len() * total, 2 * swinging.len()),
+            nodes: DMatrix::zeros(axes.len() * total, axes.len() * total),
+            carry: DMatrix::zeros(2 * swinging.len(), 2 * swinging.len()),
+            kick: DMatrix::zeros(2 * swinging.len(), axes.len() * total),
+            period_s: passing_s,
+            omegas: swinging.iter().map(|m| m.omega).collect(),
+        };
+        for (i, mode) in swinging.iter().enumerate() {
+            passing.add(i, mode, &carried(mode, &grid, total), &force, &axes);
+        }
+        for mode in &springs {
+            passing.add_spring(mode, &force, &axes, total);
+        }
+        passing
+    }
+
+    /// Force per difference of displacement at every node: rows node·3, columns node·axes.
+    fn forces(
+        cut: &Directional,
+        grid: &[(Stretch, Vec<f64>)],
+        passing_s: f64,
+        axes: &[usize],
+    ) -> Vec<Vec<V3>> {
+        let pitch = cut.pitch_rad();
+        let at = |(stretch, times): &(Stretch, Vec<f64>)| -> Vec<Vec<V3>> {
+            let of = |t: &f64| {
+                let matrix = cut.at(t / passing_s * pitch, stretch.middle_s / passing_s * pitch);
+                axes.iter().map(|k| matrix[*k]).collect()
+            };
+            times.iter().map(of).collect()
+        };
+        grid.iter().flat_map(at).collect()
+    }
+
+    fn add(
+        &mut self,
+        i: usize,
+        mode: &TipMode,
+        carried: &Carried,
+        force: &[Vec<V3>],
+        axes: &[usize],
+    ) {
+        let d = axes.len();
+        for (row, k) in (0..force.len()).flat_map(|n| (0..d).map(move |k| (n, k))) {
+            let along = mode.direction[axes[k]];
+            for s in 0..2 {
+                self.start[(row * d + k, 2 * i + s)] = along * carried.answers[(row, s)];
+            }
+            for (node, columns) in force.iter().enumerate() {
+                let answer = along * carried.answers[(row, 2 + node)];
+                for (c, column) in columns.iter().enumerate() {
+                    self.nodes[(row * d + k, node * d + c)] += answer * drive(mode, column);
+                }
+            }
+        }
+        for s in 0..2 {
+            for q in 0..2 {
+                self.carry[(2 * i + s, 2 * i + q)] = carried.state[(s, q)];
+            }
+            for (node, columns) in force.iter().enumerate() {
+                for (c, column) in columns.iter().enumerate() {
+                    self.kick[(2 * i + s, node * d + c)] =
+                        carried.state[(s, 2 + node)] * drive(mode, column);
+                }
+            }
+        }
+    }
+
+    fn add_spring(&mut self, mode: &TipMode, force: &[Vec<V3>], axes: &[usize], total: usize) {
+        let d = axes.len();
+        for node in 0..total {
+            for (k, axis) in axes.iter().enumerate() {
+                let answer = mode.direction[*axis] / mode.stiffness;
+                for (c, column) in force[node].iter().enumerate() {
+                    self.nodes[(node * d + k, node * d + c)] += answer * drive(mode, column);
+                }
+            }
+        }
+    }
+
+    /// The map from one tooth passing to the next at a depth of cut, m.
+    pub fn map(&self, depth_m: f64) -> Option<DMatrix<f64>> {
+        let (n, s) = (self.nodes.nrows(), self.carry.nrows());
+        let own = &self.nodes * depth_m;
+        let solved = (DMatrix::identity(n, n) - &own).lu();
+        let from_before = solved.solve(&(-&own))?;
+        let from_start = solved.solve(&self.start)?;
+        let kick = &self.kick * depth_m;
+        let mut map = DMatrix::zeros(n + s, n + s);
+        let last = &kick * (&from_before - DMatrix::identity(n, n));
+        let carried = &self.carry + &kick * &from_start;
+        map.view_mut((0, 0), (n, n)).copy_from(&from_before);
+        map.view_mut((0, n), (n, s)).copy_from(&from_start);
+        map.view_mut((n, 0), (s, n)).copy_from(&last);
+        map.view_mut((n, n), (s, s)).copy_from(&carried);
+        Some(map)
+    }
+
+    /// The multiplier that decides at a depth of cut, m. A map that cannot be made counts as unstable.
+    pub fn multiplier(&self, depth_m: f64) -> Multiplier {
+        let unstable = Multiplier {
+            radius: f64::INFINITY,
+            frequency_hz: 0.0,
+        };
+        let Some(map) = self
+            .map(depth_m)
+            .filter(|m| m.iter().all(|v| v.is_finite()))
+        else {
+            return unstable;
+        };
+        let values = map.complex_eigenvalues();
+        let largest = values
+            .iter()
+            .copied()
+            .max_by(|a, b| a.norm().total_cmp(&b.norm()).then(a.im.total_cmp(&b.im)));
+        largest.map_or(unstable, |value| Multiplier {
+            radius: value.norm(),
+            frequency_hz: self.frequency(value),
+        })
+    }
+
+    /// The frequency k/τ ± arg/2πτ that is nearest above a mode, relative to that mode.
+    fn frequency(&self, value: Complex<f64>) -> f64 {
+        let base = value.arg().abs() / (TAU * self.period_s);
+        let comb = |omega: &f64| {
+            let natural = omega / TAU;
+            let near = |sign: f64| {
+                let k = (natural * self.period_s - sign * base * self.period_s).ceil();
+                (k / self.period_s + sign * base).abs()
+            };
+            [near(1.0), near(-1.0)].map(|f| (f, (f - natural).abs() / natural))
+        };
+        let all = self.omegas.iter().flat_map(comb);
+        all.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(base, |f| f.0)
+    }
+}
+
+/// What a force column does to a mode: its part along it.
+fn drive(mode: &TipMode, column: &V3) -> f64 {
+    (0..3).map(|k| mode.direction[k] * column[k]).sum()
+}
+
+fn places(stretch: &Stretch, fastest: f64, refine: f64) -> Vec<f64> {
+    if !stretch.cutting {
+        return Vec::new();
+    }
+    let swings = fastest * stretch.length_s / TAU;
+    let count = (refine * (PER_OSCILLATION * swings + BESIDES)).ceil() as usize;
+    let start = stretch.middle_s - 0.5 * stretch.length_s;
+    let at = |u: f64| start + stretch.length_s * u;
+    nodes(count).into_iter().map(at).collect()
+}
+
+/// One mode through the whole tooth passing.
+fn carried(mode: &TipMode, grid: &[(Stretch, Vec<f64>)], total: usize) -> Carried {
+    let mut state = DMatrix::zeros(2, 2 + total);
+    (state[(0, 0)], state[(1, 1)]) = (1.0, 1.0);
+    let mut answers = DMatrix::zeros(total, 2 + total);
+    let mut first = 0;
+    for (stretch, times) in grid {
+        if times.is_empty() {
+            state = free(mode, stretch.length_s) * state;
+            continue;
+        }
+        let solved = collocated(mode, stretch.length_s, times.len());
+        let n = times.len();
+        let mut from = DMatrix::zeros(2 + n, 2 + total);
+        from.view_mut((0, 0), (2, 2 + total)).copy_from(&state);
+        (0..n).for_each(|j| from[(2 + j, 2 + first + j)] = 1.0);
+        let all = solved * from;
+        answers
+            .view_mut((first, 0), (n, 2 + total))
+            .copy_from(&all.view((0, 0), (n, 2 + total)));
+        state.row_mut(0).copy_from(&all.row(n - 1));
+        state.row_mut(1).copy_from(&all.row(2 * n - 1));
+        first += n;
+    }
+    Carried { state, answers }
+}
+
+/// The mode without a force over a time, states η and η'/ω.
+fn free(mode: &TipMode, time_s: f64) -> DMatrix<f64> {
+    let z = mode.damping_ratio.clamp(0.0, 0.999_999);
+    let damped = (1.0 - z * z).sqrt();
+    let angle = mode.omega * damped * time_s;
+    let decay = (-z * mode.omega * time_s).exp();
+    let (s, c) = (angle.sin() / damped, angle.cos());
+    DMatrix::from_row_slice(
+        2,
+        2,
+        &[
+            decay * (c + z * s),
+            decay * s,
+            -decay * s,
+            decay * (c - z * s),
+        ],
+    )
+}
+
+/// η at all nodes, then η'/ω, as functions of both at the first node and of the modal force at the nodes.
+fn collocated(mode: &TipMode, length_s: f64, n: usize) -> DMatrix<f64> {
+    let slope = differentiation(n);
+    let w = mode.omega * length_s;
+    let mut system = DMatrix::zeros(2 * n, 2 * n);
+    let mut right = DMatrix::zeros(2 * n, 2 + n);
+    for i in 1..n {
+        for j in 0..n {
+            system[(i, j)] = slope[(i, j)];
+            system[(n + i, n + j)] = slope[(i, j)];
+        }
+        system[(i, n + i)] -= w;
+        system[(n + i, i)] += w;
+        system[(n + i, n + i)] += 2.0 * mode.damping_ratio * w;
+        right[(n + i, 2 + i)] = w / mode.stiffness;
+    }
+    (system[(0, 0)], system[(n, n)]) = (1.0, 1.0);
+    (right[(0, 0)], right[(n, 1)]) = (1.0, 1.0);
+    let fallback = DMatrix::zeros(2 * n, 2 + n);
+    system.lu().solve(&right).unwrap_or(fallback)
+}
+
+/// The first depth, m, from `least` up to `most`, at which chatter no longer dies out; `None`: not up to there.
+pub fn limit(radius: impl Fn(f64) -> f64, least: f64, most: f64) -> Option<f64> {
+    let steps = ((most / least).ln() / STEP.ln()).ceil().max(1.0) as usize;
+    let at = |i: usize| least * (most / least).powf(i as f64 / steps as f64);
+    let first = (0..=steps).find(|i| radius(at(*i)) >= 1.0)?;
+    if first == 0 {
+        return Some(least);
+    }
+    let (mut low, mut high) = (at(first - 1), at(first));
+    for _ in 0..BISECTIONS {
+        let middle = 0.5 * (low + high);
+        match radius(middle) >= 1.0 {
+            true => high = middle,
+            false => low = middle,
+        }
+    }
+    Some(0.5 * (low + high))
+}
+
+/// Factor from depth to depth of the search.
+const STEP: f64 = 1.25;
+/// Halvings of the interval found: 0.1 % of the depth.
+const BISECTIONS: usize = 8;

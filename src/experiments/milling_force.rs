@@ -1,0 +1,329 @@
+//! What a dynamometer should have read in a straight cut: the wave form of the force at every sample,
+//! with its slopes over all that may be unknown.
+
+use crate::cutting::tool::Tool;
+use crate::cutting::wave::{Basis, Cut, Side, Wave, force};
+use crate::ground::dual::{Dual, Scalar};
+use crate::ground::spatial::V3;
+use crate::measurement::milling_force::{CutFacts, CutSide, Facts};
+use crate::signal::low_pass::{butterworth2, butterworth2_slope};
+use rustfft::num_complex::Complex64;
+use rustfft::{Fft, FftPlanner};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Unknowns of one cut, in the order of the slopes: six coefficients (Ktc, Krc, Kac, Kte, Kre, Kae; SI),
+/// runout along tooth 1 and a quarter turn on (m), logarithm of the bandwidth, angle of tooth 1 at the
+/// first sample (rad), relative error of the spindle speed, width (m).
+pub const UNKNOWNS: usize = 12;
+/// Place of the first part of the runout.
+pub const RUNOUT: usize = 6;
+/// Place of the logarithm of the bandwidth.
+pub const BANDWIDTH: usize = 8;
+/// Place of the angle of tooth 1 at the first sample.
+pub const PHASE: usize = 9;
+/// Place of the relative error of the spindle speed.
+pub const SPEED: usize = 10;
+/// Place of the width.
+pub const WIDTH: usize = 11;
+
+/// Samples of a revolution that is low-passed.
+const GRID: usize = 1440;
+
+/// One cut with its samples.
+#[derive(Debug, Clone)]
+pub struct CutScene {
+    /// The tool, without runout.
+    pub tool: Tool,
+    /// The cut as the file states it.
+    pub cut: Cut,
+    /// Times of the samples from the first, s.
+    pub time: Vec<f64>,
+    /// Whether a low pass stands between the force and the file.
+    pub low_pass: bool,
+}
+
+/// Forces at the samples, N, and their slopes over the [`UNKNOWNS`].
+#[derive(Debug, Clone)]
+pub struct Predicted {
+    /// On the tool, cut frame.
+    pub force: Vec<V3>,
+    /// Per unknown and sample; empty if not asked for.
+    pub slopes: Vec<Vec<V3>>,
+}
+
+/// The tool of a file, without runout.
+pub fn tool(facts: &Facts) -> Tool {
+    Tool::square(0.5 * facts.diameter_m, facts.teeth, facts.helix_rad)
+}
+
+/// A cut of a file.
+pub fn cut(facts: &CutFacts) -> Cut {
+    Cut {
+        spindle_rad_s: facts.spindle_rad_s,
+        feed_m_s: facts.feed_m_s,
+        depth_m: facts.depth_m,
+        width_m: facts.width_m,
+        side: match facts.side {
+            CutSide::Slot => Side::Slot,
+            CutSide::Up => Side::Up,
+            CutSide::Down => Side::Down,
+        },
+    }
+}
+
+type D = Dual<4>;
+
+impl CutScene {
+    /// Forces and slopes at `p`, in the order of [`UNKNOWNS`].
+    pub fn predict(&self, p: &[f64; UNKNOWNS]) -> Predicted {
+        match self.low_pass {
+            true => self.filtered(p),
+            false => self.ideal(p),
+        }
+    }
+
+    /// Angle of tooth 1 at every sample, rad.
+    pub fn angles(&self, p: &[f64; UNKNOWNS]) -> Vec<f64> {
+        let rate = self.cut.spindle_rad_s * (1.0 + p[SPEED]);
+        self.time.iter().map(|t| p[PHASE] + rate * t).collect()
+    }
+
+    fn wave(&self, p: &[f64; UNKNOWNS]) -> Wave<'_, D> {
+        let runout = [0, 1].map(|k| D::variable(p[RUNOUT + k], k));
+        Wave::new(&self.tool, &self.cut, runout, D::variable(p[WIDTH], 2))
+    }
+
+    fn ideal(&self, p: &[f64; UNKNOWNS]) -> Predicted {
+        let wave = self.wave(p);
+        let rate = self.cut.spindle_rad_s;
+        let mut predicted = Predicted::zeros(self.time.len());
+        for (i, angle) in self.angles(p).into_iter().enumerate() {
+            let basis = wave.basis(D::variable(angle, 3), 0.0);
+            let f = force(&basis, &p[..6]);
+            predicted.set(i, &basis, &f);
+            for k in 0..3 {
+                predicted.slopes[PHASE][i][k] = f[k].eps[3];
+                predicted.slopes[SPEED][i][k] = f[k].eps[3] * rate * self.time[i];
+            }
+        }
+        predicted
+    }
+
+    fn filtered(&self, p: &[f64; UNKNOWNS]) -> Predicted {
+        let wave = self.wave(p);
+        let step = TAU / GRID as f64;
+        let mut around = Predicted::zeros(GRID);
+        for i in 0..GRID {
+            let basis = wave.basis(D::constant(i as f64 * step), step);
+            around.set(i, &basis, &force(&basis, &p[..6]));
+        }
+        let hertz = self.cut.spindle_rad_s / TAU;
+        let passed = LowPass::new(hertz, p[BANDWIDTH].exp()).pass(&around);
+        let rate = self.cut.spindle_rad_s;
+        let mut predicted = Predicted::zeros(self.time.len());
+        for (i, angle) in self.angles(p).into_iter().enumerate() {
+            let place = Place::of(angle);
+            predicted.force[i] = place.read(&passed.force);
+            for (own, from) in predicted.slopes.iter_mut().zip(&passed.slopes) {
+                own[i] = place.read(from);
+            }
+            predicted.slopes[SPEED][i] =
+                predicted.slopes[PHASE][i].map(|s| s * rate * self.time[i]);
+        }
+        predicted
+    }
+}
+
+impl Predicted {
+    fn zeros(samples: usize) -> Self {
+        Self {
+            force: vec![[0.0; 3]; samples],
+            slopes: vec![vec![[0.0; 3]; samples]; UNKNOWNS],
+        }
+    }
+
+    fn set(&mut self, i: usize, basis: &Basis<D>, f: &[D; 3]) {
+        for k in 0..3 {
+            self.force[i][k] = f[k].re;
+            for (j, sums) in basis.iter().enumerate() {
+                self.slopes[j][i][k] = sums[k].re;
+            }
+            self.slopes[RUNOUT][i][k] = f[k].eps[0];
+            self.slopes[RUNOUT + 1][i][k] = f[k].eps[1];
+            self.slopes[WIDTH][i][k] = f[k].eps[2];
+        }
+    }
+}
+
+/// The second-order low pass of the dynamometer on what repeats with every revolution.
+struct LowPass {
+    forward: Arc<dyn Fft<f64>>,
+    back: Arc<dyn Fft<f64>>,
+    spindle_hz: f64,
+    corner_hz: f64,
+}
+
+impl LowPass {
+    fn new(spindle_hz: f64, corner_hz: f64) -> Self {
+        let mut planner = FftPlanner::new();
+        Self {
+            forward: planner.plan_fft_forward(GRID),
+            back: planner.plan_fft_inverse(GRID),
+            spindle_hz,
+            corner_hz,
+        }
+    }
+
+    fn pass(&self, around: &Predicted) -> Predicted {
+        let mut passed = Predicted::zeros(GRID);
+        for k in 0..3 {
+            let lines = self.spectrum(&around.force, k);
+            let through = |h: &dyn Fn(f64, Complex64) -> Complex64| self.turned(&lines, h);
+            let corner = self.corner_hz;
+            let plain = through(&|f, _| butterworth2(f, corner));
+            let slower = through(&|f, _| butterworth2_slope(f, corner));
+            let turned = through(&|f, order| order * butterworth2(f, corner));
+            for i in 0..GRID {
+                passed.force[i][k] = plain[i];
+                passed.slopes[BANDWIDTH][i][k] = slower[i];
+                passed.slopes[PHASE][i][k] = turned[i];
+            }
+            for j in [0, 1, 2, 3, 4, 5, RUNOUT, RUNOUT + 1, WIDTH] {
+                let lines = self.spectrum(&around.slopes[j], k);
+                let own = self.turned(&lines, &|f, _| butterworth2(f, corner));
+                for i in 0..GRID {
+                    passed.slopes[j][i][k] = own[i];
+                }
+            }
+        }
+        passed
+    }
+
+    fn spectrum(&self, wave: &[V3], k: usize) -> Vec<Complex64> {
+        let mut lines: Vec<Complex64> = wave.iter().map(|v| Complex64::new(v[k], 0.0)).collect();
+        self.forward.process(&mut lines);
+        lines
+    }
+
+    /// The wave whose lines are multiplied with a function of frequency (Hz) and j·order.
+    fn turned(
+        &self,
+        lines: &[Complex64],
+        factor: &dyn Fn(f64, Complex64) -> Complex64,
+    ) -> Vec<f64> {
+        let half = GRID / 2;
+        let of = |(i, line): (usize, &Complex64)| {
+            let order = if i < half {
+                i as f64
+            } else {
+                i as f64 - GRID as f64
+            };
+            match i == half {
+                true => Complex64::new(0.0, 0.0),
+                false => line * factor(order * self.spindle_hz, Complex64::new(0.0, order)),
+            }
+        };
+        let mut lines: Vec<Complex64> = lines.iter().enumerate().map(of).collect();
+        self.back.process(&mut lines);
+        lines.iter().map(|c| c.re / GRID as f64).collect()
+    }
+}
+
+/// Where an angle lies between the samples of a revolution.
+struct Place {
+    around: [usize; 4],
+    weight: [f64; 4],
+}
+
+impl Place {
+    fn of(angle: f64) -> Self {
+        let at = angle.rem_euclid(TAU) / TAU * GRID as f64;
+        let (first, u) = (at.floor() as usize, at.fract());
+        Self {
+            around: [GRID - 1, 0, 1, 2].map(|k| (first + k) % GRID),
+            // Catmull and Rom 1974
+            weight: [
+                0.5 * u * (-1.0 + u * (2.0 - u)),
+                0.5 * (2.0 + u * u * (3.0 * u - 5.0)),
+                0.5 * u * (1.0 + u * (4.0 - 3.0 * u)),
+                0.5 * u * u * (u - 1.0),
+            ],
+        }
+    }
+
+    fn read(&self, wave: &[V3]) -> V3 {
+        let part = |k: usize, i: usize| self.weight[k] * wave[self.around[k]][i];
+        std::array::from_fn(|i| (0..4).map(|k| part(k, i)).sum())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scene(low_pass: bool) -> (CutScene, [f64; UNKNOWNS]) {
+        let cut = Cut {
+            spindle_rad_s: 600.0,
+            feed_m_s: 0.03,
+            depth_m: 2.5e-3,
+            width_m: 5e-3,
+            side: Side::Down,
+        };
+        let scene = CutScene {
+            tool: Tool::square(8e-3, 3, 0.5),
+            cut,
+            time: (0..400).map(|i| 5.3e-5 * f64::from(i)).collect(),
+            low_pass,
+        };
+        let k = [800e6, 300e6, 100e6, 20e3, 25e3, 3e3];
+        let mut p = [0.0; UNKNOWNS];
+        p[..6].copy_from_slice(&k);
+        p[RUNOUT..].copy_from_slice(&[6e-6, -4e-6, 900.0_f64.ln(), 0.4, 1e-4, 5e-3]);
+        (scene, p)
+    }
+
+    #[test]
+    fn slopes_are_those_of_differences() {
+        for low_pass in [true, false] {
+            let (scene, p) = scene(low_pass);
+            let at = scene.predict(&p);
+            let steps = [
+                1e6, 1e6, 1e6, 1e2, 1e2, 1e2, 1e-8, 1e-8, 1e-4, 1e-5, 1e-7, 1e-7,
+            ];
+            for j in 0..UNKNOWNS {
+                let moved = |s: f64| {
+                    let mut p = p;
+                    p[j] += s * steps[j];
+                    scene.predict(&p).force
+                };
+                let (up, down) = (moved(1.0), moved(-1.0));
+                let size = at.slopes[j].iter().flatten().map(|v| v * v).sum::<f64>();
+                let mut off = 0.0;
+                for i in 0..at.force.len() {
+                    for k in 0..3 {
+                        let d = (up[i][k] - down[i][k]) / (2.0 * steps[j]);
+                        off += (d - at.slopes[j][i][k]).powi(2);
+                    }
+                }
+                let ideal_width = !low_pass && size == 0.0;
+                assert!(
+                    ideal_width || off.sqrt() < 0.05 * size.sqrt(),
+                    "{j} {low_pass}: {off} {size}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_wide_low_pass_changes_nothing_and_keeps_the_mean() {
+        let (mut scene, mut p) = scene(true);
+        p[BANDWIDTH] = 2e5_f64.ln();
+        let wide = scene.predict(&p);
+        scene.low_pass = false;
+        let ideal = scene.predict(&p);
+        let rms = |f: &dyn Fn(usize) -> f64| (0..400).map(|i| f(i).powi(2)).sum::<f64>().sqrt();
+        let off = rms(&|i| wide.force[i][1] - ideal.force[i][1]);
+        assert!(off < 0.02 * rms(&|i| ideal.force[i][1]), "{off}");
+    }
+}

@@ -1,0 +1,325 @@
+//! What the wave forms say: parameters with intervals, or that the data do not fix them.
+
+use super::descent::{Descent, Optimum};
+use super::layout::Layout;
+use super::start::{improve_teeth, start};
+use super::whitening::Whitening;
+use super::{Averaged, CutData, averaged, cuts, remarks};
+use crate::cutting::LINEAR_EDGE;
+use crate::experiments::milling_force::{BANDWIDTH, PHASE, RUNOUT, SPEED, UNKNOWNS, WIDTH};
+use crate::fit::parameter::{Identified, Status, Z95};
+use crate::ground::spatial::V3;
+use crate::ground::units::DEGREE;
+use crate::measurement::milling_force::MillingForce;
+use nalgebra::DMatrix;
+use std::f64::consts::TAU;
+
+/// One cut, measured and fitted.
+#[derive(Debug, Clone)]
+pub struct CutFit {
+    /// Its data.
+    pub data: CutData,
+    /// Its unknowns where the fit ended.
+    pub p: [f64; UNKNOWNS],
+    /// Measured less fitted, N.
+    pub residual: Vec<V3>,
+}
+
+/// Everything that is reported.
+#[derive(Debug, Clone)]
+pub struct Account {
+    /// Coefficients, runout, runout angle.
+    pub parameters: Vec<Identified>,
+    /// What had to be found along.
+    pub nuisance: Vec<Identified>,
+    /// Coefficients from mean forces, the textbook's way.
+    pub averaged: Averaged,
+    /// The cuts.
+    pub cuts: Vec<CutFit>,
+    /// Standard deviation of what is left, x, y, z, N.
+    pub rms: V3,
+    /// Noise stated, N.
+    pub stated_noise: Option<f64>,
+    /// Samples used.
+    pub rows: usize,
+    /// Relative standard deviation of the force that the coefficients predict at the mean chip; `None`
+    /// where a coefficient is open.
+    pub rel_std: Option<f64>,
+    /// What the data cannot tell, and what was left out.
+    pub remarks: Vec<String>,
+}
+
+/// Rounds of noise and descent.
+const ROUNDS: usize = 4;
+/// A coefficient counts as fixed when its standard error is below this share of the size of its kind.
+const FIXED: f64 = 0.25;
+/// A runout counts as seen when it stands out of its standard error by this factor.
+const SEEN: f64 = 3.0;
+/// An angle counts as fixed when its standard error is below this, rad.
+const FIXED_ANGLE: f64 = 0.6;
+
+/// Identifies the coefficients from files of one tool.
+pub fn identify(files: &[MillingForce]) -> Account {
+    let cuts = cuts(files);
+    let layout = Layout::of(&cuts);
+    let fitted = descend(&cuts, &layout);
+    let covariance = covariance(&fitted, &layout);
+    let p = name_teeth(&cuts, &layout, fitted.p.clone());
+    let answer = Answer {
+        cuts: &cuts,
+        layout: &layout,
+        p: &p,
+        covariance: &covariance,
+    };
+    let averaged = averaged(&cuts);
+    let parameters = answer.parameters();
+    let rms = rms(&fitted.residuals);
+    let stated_noise = files.iter().find_map(|f| f.facts.sensor_noise_n);
+    let mut account = Account {
+        rel_std: answer.rel_std(&parameters),
+        nuisance: answer.nuisance(),
+        parameters,
+        averaged,
+        rms,
+        stated_noise,
+        rows: cuts.iter().map(|c| c.force.len()).sum(),
+        cuts: Vec::new(),
+        remarks: Vec::new(),
+    };
+    let residuals = fitted.residuals.into_iter();
+    let fit = |(i, (data, residual)): (usize, (CutData, Vec<V3>))| CutFit {
+        data,
+        p: layout.of_one(i, &p),
+        residual,
+    };
+    account.cuts = cuts
+        .clone()
+        .into_iter()
+        .zip(residuals)
+        .enumerate()
+        .map(fit)
+        .collect();
+    account.remarks = remarks::remarks(files, &account);
+    account
+}
+
+fn descend(cuts: &[CutData], layout: &Layout) -> Optimum {
+    let mut p = start(cuts, layout);
+    let size = rms(&cuts.iter().map(|c| c.force.clone()).collect::<Vec<_>>());
+    let rough = 0.05 * size.iter().fold(0.0_f64, |m, v| m.max(*v)).max(1e-9);
+    let mut whitening = Whitening::white(rough);
+    let mut round = 0;
+    loop {
+        let descent = Descent {
+            cuts,
+            layout,
+            whitening: &whitening,
+        };
+        let found = descent.from(&p);
+        round += 1;
+        if round == ROUNDS {
+            return found;
+        }
+        p = found.p;
+        if round == 1 && improve_teeth(cuts, layout, &mut p) {
+            continue;
+        }
+        whitening = Whitening::of(cuts, &found.residuals);
+    }
+}
+
+fn rms(residuals: &[Vec<V3>]) -> V3 {
+    let rows: usize = residuals.iter().map(Vec::len).sum();
+    let squares = |k: usize| residuals.iter().flatten().map(|v| v[k] * v[k]).sum::<f64>();
+    std::array::from_fn(|k| (squares(k) / rows.max(1) as f64).sqrt())
+}
+
+/// Covariance in SI. A direction that the data leave open gets a spread beyond any bound.
+fn covariance(fitted: &Optimum, layout: &Layout) -> DMatrix<f64> {
+    let eigen = fitted.normal.clone().symmetric_eigen();
+    let n = layout.len();
+    let mut covariance = DMatrix::zeros(n, n);
+    for (value, vector) in eigen
+        .eigenvalues
+        .iter()
+        .zip(eigen.eigenvectors.column_iter())
+    {
+        let spread = 1.0 / value.max(1e-12);
+        covariance += vector * vector.transpose() * spread;
+    }
+    let scale = |j: usize| layout.unknowns[j].scale;
+    DMatrix::from_fn(n, n, |i, j| covariance[(i, j)] * scale(i) * scale(j))
+}
+
+/// Calls that tooth the first which stands nearest to φ = 0 when the first cut begins.
+fn name_teeth(cuts: &[CutData], layout: &Layout, mut p: Vec<f64>) -> Vec<f64> {
+    let Some(place) = layout.of_cut.first().and_then(|c| c[PHASE]) else {
+        return p;
+    };
+    let pitch = cuts[0].scene.tool.pitch_rad();
+    let turn = -(p[place] / pitch).round() * pitch;
+    for phase in layout.of_cut.iter().filter_map(|c| c[PHASE]) {
+        p[phase] = (p[phase] + turn + 0.5 * TAU).rem_euclid(TAU) - 0.5 * TAU;
+    }
+    if let [Some(a), Some(b)] = [layout.of_cut[0][RUNOUT], layout.of_cut[0][RUNOUT + 1]] {
+        let (sin, cos) = turn.sin_cos();
+        (p[a], p[b]) = (p[a] * cos + p[b] * sin, p[b] * cos - p[a] * sin);
+    }
+    p
+}
+
+struct Answer<'a> {
+    cuts: &'a [CutData],
+    layout: &'a Layout,
+    p: &'a [f64],
+    covariance: &'a DMatrix<f64>,
+}
+
+impl Answer<'_> {
+    fn stderr(&self, j: usize) -> f64 {
+        self.covariance[(j, j)].max(0.0).sqrt()
+    }
+
+    fn parameters(&self) -> Vec<Identified> {
+        let mut all: Vec<Identified> = (0..6).map(|j| self.coefficient(j)).collect();
+        all.extend(self.runout());
+        all
+    }
+
+    fn coefficient(&self, j: usize) -> Identified {
+        let c = &LINEAR_EDGE.card().coefficients[j];
+        let (value, stderr) = (self.p[j] / c.factor, self.stderr(j) / c.factor);
+        let found = Identified::new(c.name, "material", value, c.unit, stderr, c.meaning);
+        match stderr < FIXED * self.size(j) / c.factor {
+            true => found,
+            false => found.without_value(Status::NotIdentifiable),
+        }
+    }
+
+    /// Size of the coefficients of one kind; edges count at least a tenth of what the chip does.
+    fn size(&self, j: usize) -> f64 {
+        let norm = |from: usize| {
+            self.p[from..from + 3]
+                .iter()
+                .map(|v| v * v)
+                .sum::<f64>()
+                .sqrt()
+        };
+        let chip = norm(0) * self.mean_feed();
+        match j < 3 {
+            true => norm(0),
+            false => norm(3).max(0.1 * chip),
+        }
+    }
+
+    fn mean_feed(&self) -> f64 {
+        let feed = |c: &CutData| c.scene.cut.feed_per_tooth(c.scene.tool.teeth);
+        self.cuts.iter().map(feed).sum::<f64>() / self.cuts.len().max(1) as f64
+    }
+
+    fn runout(&self) -> Vec<Identified> {
+        let meaning = "distance of the tool's axis from the spindle's";
+        let towards = "direction of the runout from tooth 1 at the tip, in the sense of rotation; tooth 1 is the one nearest to φ = 0 at the first sample of the first cut";
+        let unseen = |name: &str, unit: &str, meaning: &str| {
+            Identified::new(name, "tool", 0.0, unit, 0.0, meaning)
+                .without_value(Status::NotIdentifiable)
+        };
+        let places = [0, 1].map(|k| self.layout.of_cut[0][RUNOUT + k]);
+        let [Some(a), Some(b)] = places else {
+            return vec![
+                unseen("runout", "µm", meaning),
+                unseen("runout_angle", "deg", towards),
+            ];
+        };
+        let (x, y) = (self.p[a], self.p[b]);
+        let size = x.hypot(y).max(1e-15);
+        let spread = |u: f64, v: f64| {
+            let c = self.covariance;
+            (u * u * c[(a, a)] + 2.0 * u * v * c[(a, b)] + v * v * c[(b, b)])
+                .max(0.0)
+                .sqrt()
+        };
+        let (along, across) = (spread(x / size, y / size), spread(-y / size, x / size));
+        let widest = self.stderr(a).max(self.stderr(b));
+        let angle = y.atan2(x);
+        let runout = Identified::new("runout", "tool", 1e6 * size, "µm", 1e6 * along, meaning);
+        let turn = across / size;
+        let towards = Identified::new(
+            "runout_angle",
+            "tool",
+            angle / DEGREE,
+            "deg",
+            turn / DEGREE,
+            towards,
+        );
+        let open = widest > FIXED * self.mean_feed().max(size);
+        let (first, second) = match (open, size > SEEN * along) {
+            (true, _) => (Status::NotIdentifiable, Status::NotIdentifiable),
+            (false, false) => (Status::AtBound, Status::NotIdentifiable),
+            (false, true) if turn > FIXED_ANGLE => (Status::Identified, Status::NotIdentifiable),
+            _ => (Status::Identified, Status::Identified),
+        };
+        let said = |found: Identified, status: Status| match status {
+            Status::Identified => found,
+            Status::AtBound => found.limited(status, 1e6 * (size + Z95 * along)),
+            Status::NotIdentifiable => found.without_value(status),
+        };
+        vec![said(runout, first), said(towards, second)]
+    }
+
+    fn nuisance(&self) -> Vec<Identified> {
+        let mut all = Vec::new();
+        if let Some(j) = self.layout.of_cut.iter().find_map(|c| c[BANDWIDTH]) {
+            let hz = self.p[j].exp();
+            all.push(Identified::new(
+                "bandwidth",
+                "sensor",
+                hz,
+                "Hz",
+                hz * self.stderr(j),
+                "corner of the dynamometer's second-order low pass",
+            ));
+        }
+        for (i, places) in self.layout.of_cut.iter().enumerate() {
+            let site = format!("cut{}", i + 1);
+            let one = |kind: usize, name: &str, factor: f64, unit: &str, meaning: &str| {
+                let j = places[kind]?;
+                let (value, stderr) = (factor * self.p[j], factor * self.stderr(j));
+                Some(Identified::new(name, &site, value, unit, stderr, meaning))
+            };
+            let rpm = 60.0 / TAU * self.cuts[i].scene.cut.spindle_rad_s;
+            all.extend(one(
+                PHASE,
+                "tooth_angle",
+                1.0 / DEGREE,
+                "deg",
+                "angle φ of tooth 1 at the first sample",
+            ));
+            all.extend(one(
+                SPEED,
+                "speed_error",
+                rpm,
+                "rpm",
+                "spindle speed less the stated one",
+            ));
+            all.extend(one(WIDTH, "width", 1e3, "mm", "width of cut"));
+        }
+        all
+    }
+
+    /// Spread of the resultant in the cutting plane at the mean chip, relative.
+    fn rel_std(&self, parameters: &[Identified]) -> Option<f64> {
+        let open = |p: &Identified| p.status != Status::Identified;
+        if parameters[..6].iter().any(open) {
+            return None;
+        }
+        let chip = 0.5 * self.mean_feed();
+        let c = self.covariance;
+        let (mut force2, mut variance) = (0.0, 0.0);
+        for k in 0..2 {
+            force2 += (self.p[k] * chip + self.p[k + 3]).powi(2);
+            variance += c[(k, k)] * chip * chip + 2.0 * c[(k, k + 3)] * chip + c[(k + 3, k + 3)];
+        }
+        Some((variance / force2.max(f64::MIN_POSITIVE)).sqrt())
+    }
+}

@@ -1,0 +1,73 @@
+//! Coefficients of the cut from wave forms of force: all six, the runout and its angle, with the angle of
+//! the tooth, the speed and the width of each cut and the dynamometer's bandwidth as nuisance.
+//!
+//! Weighted Levenberg-Marquardt on residuals whitened by an autoregression per channel. The chip is that
+//! of trochoids with real tooth radii: c sin φ would leave intervals that hold the truth in 77 % of cases
+//! instead of 95.
+
+mod answer;
+mod averaged;
+mod descent;
+mod layout;
+mod remarks;
+mod start;
+mod whitening;
+
+pub use answer::{Account, CutFit, identify};
+pub use averaged::{Averaged, averaged};
+pub use layout::Layout;
+
+use crate::experiments::milling_force::{CutScene, cut, tool};
+use crate::ground::spatial::V3;
+use crate::measurement::milling_force::{MillingForce, Record};
+use crate::signal::low_pass::settling_s;
+
+/// One cut as the fit sees it.
+#[derive(Debug, Clone)]
+pub struct CutData {
+    /// Tool, cut and times.
+    pub scene: CutScene,
+    /// Measured force on the tool, N.
+    pub force: Vec<V3>,
+    /// Rows left out at the start, until the low pass has settled.
+    pub settling: usize,
+    /// Corner of the low pass as stated, Hz.
+    pub bandwidth_hz: Option<f64>,
+    /// Number of the file and of its cut, from 0.
+    pub place: [usize; 2],
+}
+
+/// Largest share of a record that settling may take.
+const SETTLING_SHARE: f64 = 0.2;
+
+/// The cuts of several files of one tool.
+pub fn cuts(files: &[MillingForce]) -> Vec<CutData> {
+    let of_file = |(number, file): (usize, &MillingForce)| -> Vec<CutData> {
+        let records = file.records.iter().enumerate();
+        records
+            .map(|(i, record)| one(file, [number, i], record))
+            .collect()
+    };
+    files.iter().enumerate().flat_map(of_file).collect()
+}
+
+fn one(file: &MillingForce, place: [usize; 2], record: &Record) -> CutData {
+    let bandwidth = file.facts.bandwidth_hz;
+    let start = record.time[0];
+    let until = bandwidth.map_or(0.0, settling_s);
+    let most = (SETTLING_SHARE * record.time.len() as f64) as usize;
+    let settled = record.time.partition_point(|t| t - start < until).min(most);
+    let first = record.time[settled];
+    CutData {
+        scene: CutScene {
+            tool: tool(&file.facts),
+            cut: cut(&file.facts.cuts[place[1]]),
+            time: record.time[settled..].iter().map(|t| t - first).collect(),
+            low_pass: bandwidth.is_some(),
+        },
+        force: record.force[settled..].to_vec(),
+        settling: settled,
+        bandwidth_hz: bandwidth,
+        place,
+    }
+}
