@@ -6,6 +6,8 @@
 //! A force law is one file and one line in [`LAWS`].
 
 pub mod chip;
+pub mod cutter;
+pub mod dexel;
 pub mod law;
 pub mod tool;
 pub mod wave;
