@@ -45,6 +45,7 @@ pub mod ground;
 pub mod laboratory;
 pub mod measurement;
 pub mod motion;
+pub mod process;
 pub mod report;
 pub mod robot;
 pub mod sheet;

@@ -53,6 +53,8 @@ pub struct Cutter {
     forward: V3,
     place: Option<(V3, V3)>,
     latest: VecDeque<Solid>,
+    /// The last place that is noted, or was beside the stock.
+    mark: V3,
     removed: f64,
 }
 
@@ -98,6 +100,7 @@ impl Cutter {
             forward,
             place: None,
             latest: VecDeque::new(),
+            mark: [0.0; 3],
             removed: 0.0,
         }
     }
@@ -142,17 +145,29 @@ impl Cutter {
     /// # Errors
     /// Material above the flutes.
     pub fn advance(&mut self, tip: V3, axis: V3) -> Outcome<()> {
+        if self.place.is_none() {
+            self.mark = tip;
+        }
         let (from, _) = self.place.unwrap_or((tip, axis));
         self.place = Some((tip, axis));
         let way = sub(tip, from);
         if axis != self.engagement.frame.z {
             self.engagement.frame = Frame::towards(self.forward, axis);
         }
-        let curved = self.curved(tip, way);
-        self.engagement.look(&self.stock, tip, way, &curved);
+        // in the middle of the way the engagement is its mean, to second order
+        let middle = add(from, scale(0.5, way));
+        let curved = self.curved(middle, way);
+        self.engagement.look(&self.stock, middle, way, &curved);
         self.removed += self.engagement.swept(way);
         self.leave(from, tip, axis);
         self.check_flutes()
+    }
+
+    /// Puts the tool somewhere else without cutting on the way.
+    pub fn jump(&mut self, tip: V3, axis: V3) {
+        self.settle();
+        self.place = Some((tip, axis));
+        self.mark = tip;
     }
 
     /// Latest places that a straight motion does not leave behind by itself.
@@ -172,16 +187,17 @@ impl Cutter {
 
     /// Notes the places between two and takes the old ones from the stock.
     fn leave(&mut self, from: V3, tip: V3, axis: V3) {
-        let apart = APART * self.fineness.spacing_m;
-        let last = self.latest.back().map_or(from, |s| s.tip);
-        let count = (norm(sub(tip, last)) / apart) as usize;
-        for i in 1..=count.max(usize::from(self.latest.is_empty())) {
-            let share = i as f64 / count.max(1) as f64;
-            let place = add(last, scale(share, sub(tip, last)));
+        let way = sub(tip, self.mark);
+        let count = (norm(way) / (APART * self.fineness.spacing_m)) as usize;
+        let first = usize::from(self.latest.is_empty() && from == tip);
+        let mark = self.mark;
+        for i in 1..=count.max(first) {
+            let place = add(mark, scale(i as f64 / count.max(1) as f64, way));
             if self.near(place, axis, 0.0) {
                 let solid = self.solid(place, axis);
                 self.latest.push_back(solid);
             }
+            self.mark = place;
         }
         let keep = LATEST * self.tool.radius_m;
         while let Some(oldest) = self.latest.front().copied() {
@@ -265,13 +281,19 @@ impl Cutter {
 
     /// Mean force over a revolution of steady motion, `per_tooth` (m) while one tooth passes.
     pub fn mean_load(&self, per_tooth: V3) -> Load {
+        self.revolution(per_tooth).0
+    }
+
+    /// The same, and the largest force within the revolution, N.
+    pub fn revolution(&self, per_tooth: V3) -> (Load, f64) {
         let ways: Vec<V3> = (1..=self.memory()).map(|m| scale(m as f64, per_tooth)).collect();
         let steps = self.fineness.steps;
         // without runout all teeth are alike: one pitch says it all
         let steps = if self.tool.runout_m == 0.0 { steps / self.tool.teeth } else { steps };
-        let mut mean = Load::default();
+        let (mut mean, mut peak) = (Load::default(), 0.0_f64);
         for q in 0..steps {
             let load = self.load(q as f64 + 0.5, &ways);
+            peak = peak.max(norm(load.force));
             for k in 0..3 {
                 mean.force[k] += load.force[k] / steps as f64;
                 for l in 0..3 {
@@ -279,7 +301,7 @@ impl Cutter {
                 }
             }
         }
-        mean
+        (mean, peak)
     }
 
     /// How many teeth back the chip remembers.

@@ -219,16 +219,18 @@ pub fn positive_mean(a: f64, b: f64) -> f64 {
 
 /// Nearly along or into the motion: within a few degrees of the border.
 const ALMOST: f64 = -0.12;
+/// Along the motion, but for rounding.
+const LEVEL: f64 = 1e-12;
 
 fn faces(ring: &Ring, out: V3, z: V3, way: V3) -> bool {
     let [sin, cos] = ring.disc.normal;
-    sin * dot(out, way) - cos * dot(z, way) > ALMOST
+    sin * dot(out, way) - cos * dot(z, way) > ALMOST * sin + LEVEL
 }
 
 /// Into the motion, or along it.
 fn facing(ring: &Ring, out: V3, z: V3, way: V3) -> bool {
     let [sin, cos] = ring.disc.normal;
-    sin * dot(out, way) - cos * dot(z, way) > -1e-12
+    sin * dot(out, way) - cos * dot(z, way) > -LEVEL * sin
 }
 
 /// Share of a line between two depths that is in.

@@ -1,0 +1,1 @@
+//! What the uncertainty of springs and coefficients makes of a deviation.
