@@ -45,6 +45,8 @@ pub mod ground;
 pub mod laboratory;
 pub mod measurement;
 pub mod motion;
+pub mod path;
+pub mod planning;
 pub mod process;
 pub mod report;
 pub mod robot;

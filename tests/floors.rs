@@ -15,6 +15,7 @@ const FLOORS: &[(&str, usize)] = &[
     ("motion", 4),
     ("path", 4),
     ("experiments", 5),
+    ("planning", 5),
     ("causes", 6),
     ("fit", 6),
     ("process", 6),

@@ -10,3 +10,4 @@ pub mod spatial;
 pub mod trig;
 pub mod units;
 pub mod vector;
+pub mod words;

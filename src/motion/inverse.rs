@@ -128,18 +128,43 @@ impl SphericalWrist {
     /// Every posture that brings the tool to `pose`, up to eight; none if it is out of reach.
     /// Where an angle is free (singularity) it is taken from `seed` (rad).
     pub fn solve(&self, pose: &Pose, seed: &[f64; 6]) -> Postures {
+        self.postures(pose, seed, None)
+    }
+
+    /// [`Self::solve`] on one branch of A1 and A3 only: both hands of one arm, in a quarter of the time.
+    pub fn solve_arm(&self, pose: &Pose, seed: &[f64; 6], arm: [bool; 2]) -> Postures {
+        self.postures(pose, seed, Some(arm))
+    }
+
+    /// How far the pose's wrist lies from A2 in the plane of the arm, and how far the arm reaches at
+    /// least and at most, m. A2 is where the pose's own A1 puts it.
+    pub fn reach(&self, pose: &Pose) -> (f64, [f64; 2]) {
+        let wrist = self.wrist_at(pose);
+        let ([first, _], _) = self.first_angles(wrist, 0.0);
+        let base: M3 = rotation(self.axis[0], first.unwrap_or(0.0));
+        let local = add(self.point[0], rotate_back(&base, sub(wrist, self.point[0])));
+        let far = norm(reject(sub(local, self.point[1]), self.axis[1]));
+        let (upper, fore) = (norm(self.upper), norm(self.fore));
+        (far, [(upper - fore).abs(), upper + fore])
+    }
+
+    fn wrist_at(&self, pose: &Pose) -> V3 {
+        let turned = product(&pose.rotation, &transpose(&self.zero.rotation));
+        let from_tip = rotate(&turned, sub(self.wrist, self.zero.point));
+        add(pose.point, from_tip)
+    }
+
+    fn postures(&self, pose: &Pose, seed: &[f64; 6], arm: Option<[bool; 2]>) -> Postures {
+        let wanted = |place: usize, k: usize| arm.is_none_or(|arm| arm[place] == (k == 1));
         let mut found = Postures::default();
         let turned = product(&pose.rotation, &transpose(&self.zero.rotation));
-        let wrist = add(
-            pose.point,
-            rotate(&turned, sub(self.wrist, self.zero.point)),
-        );
+        let wrist = self.wrist_at(pose);
         let (first, shoulder) = self.first_angles(wrist, seed[0]);
-        for (k1, q1) in first.into_iter().flatten().enumerate() {
+        for (k1, q1) in branches(first, |k| wanted(0, k)) {
             let base: M3 = rotation(self.axis[0], q1);
             let local = add(self.point[0], rotate_back(&base, sub(wrist, self.point[0])));
             let (arms, elbow) = self.arm_angles(local);
-            for (k3, (q2, q3)) in arms.into_iter().flatten().enumerate() {
+            for (k3, (q2, q3)) in branches(arms, |k| wanted(1, k)) {
                 let arm = turn(
                     &turn(&base, self.axis[1], q2.sin_cos()),
                     self.axis[2],
@@ -233,6 +258,12 @@ impl SphericalWrist {
         }
         posture
     }
+}
+
+/// The solutions of the wanted branches with their numbers, counted among those that exist.
+fn branches<T>(all: [Option<T>; 2], wanted: impl Fn(usize) -> bool) -> impl Iterator<Item = (usize, T)> {
+    let there = all.into_iter().flatten().enumerate();
+    there.filter(move |(k, _)| wanted(*k))
 }
 
 /// The full turn of `q` that lies inside the limits nearest to `seed`, and whether there is one.

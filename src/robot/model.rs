@@ -2,7 +2,7 @@
 
 use super::body::Body;
 use super::spring::Spring;
-use crate::ground::spatial::{IDENTITY, M3, V3};
+use crate::ground::spatial::{IDENTITY, M3, V3, rotate_back, sub, unit};
 
 /// A serial robot. SI units, angles in rad, geometry in the base frame with every joint at zero.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -62,10 +62,22 @@ pub struct Tool {
     pub tcp: V3,
     /// Axes of the tool frame as columns, in base axes, every joint at zero.
     pub rotation: M3,
+    /// Unit vector from the tip into the spindle, base axes; `None`: from the tool centre point to
+    /// the flange.
+    pub spindle_axis: Option<V3>,
     /// Its body; `None`: without mass.
     pub body: Option<Body>,
     /// Who published the numbers.
     pub source: Option<String>,
+}
+
+impl Tool {
+    /// Unit vector from the tip into the spindle in the tool frame; `None`: the file does not say,
+    /// and the tool centre point lies in the flange.
+    pub fn spindle_in_tool(&self) -> Option<V3> {
+        let axis = self.spindle_axis.or_else(|| unit(sub(self.flange, self.tcp)))?;
+        Some(rotate_back(&self.rotation, axis))
+    }
 }
 
 impl Default for Tool {
@@ -74,6 +86,7 @@ impl Default for Tool {
             flange: [0.0; 3],
             tcp: [0.0; 3],
             rotation: IDENTITY,
+            spindle_axis: None,
             body: None,
             source: None,
         }

@@ -192,6 +192,7 @@ fn tool_of(document: &Document, chain: &Chain) -> Tool {
         flange: flange.point,
         tcp: tcp.point,
         rotation: tcp.rotation,
+        spindle_axis: None,
         body: None,
         source: None,
     }

@@ -68,6 +68,9 @@ fn tool_table(out: &mut String, tool: &Tool) {
         let rows = tool.rotation.map(|row| list(&row)).join(", ");
         let _ = writeln!(out, "rotation = [{rows}]");
     }
+    if let Some(axis) = &tool.spindle_axis {
+        let _ = writeln!(out, "spindle_axis = {}", list(axis));
+    }
     if let Some(body) = &tool.body {
         let _ = writeln!(out, "body = {}", inline_body(body));
     }

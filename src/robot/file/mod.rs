@@ -161,6 +161,10 @@ fn tool_of(raw: ToolText) -> Outcome<Tool> {
         tcp: finite("tool", "tcp_m", raw.tcp_m)?,
         flange: finite("tool", "flange_m", raw.flange_m.unwrap_or(raw.tcp_m))?,
         rotation,
+        spindle_axis: raw
+            .spindle_axis
+            .map(|axis| unit_axis("tool", axis))
+            .transpose()?,
         body: raw.body.map(body_of),
         source: raw.source,
     })

@@ -127,6 +127,7 @@ pub(super) struct ToolText {
     pub(super) flange_m: Option<V3>,
     pub(super) tcp_m: V3,
     pub(super) rotation: Option<M3>,
+    pub(super) spindle_axis: Option<V3>,
     pub(super) body: Option<BodyText>,
     pub(super) source: Option<String>,
 }

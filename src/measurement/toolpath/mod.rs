@@ -1,0 +1,102 @@
+//! Tool paths: what a CAM system, a controller's program or a table of points says the tool tip
+//! should do. One file per reader.
+//!
+//! Everything is SI and in the **workpiece frame**. A reader refuses, with its line, what would
+//! change the path and is not understood; what has no effect on it is passed over and counted.
+
+mod shape;
+
+pub use shape::{Arc, Shape};
+
+use crate::ground::spatial::{M3, Pose, V3};
+use std::path::PathBuf;
+
+/// A path as a file states it: no robot, no blends drawn, no time.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Toolpath {
+    /// The file.
+    pub path: PathBuf,
+    /// SHA-256 of the file, 64 hex digits.
+    pub sha256: String,
+    /// Name of the reader: `points`, `apt`, `gcode` or `krl`.
+    pub format: &'static str,
+    /// The moves in order. `moves[0].to` is where the path begins: its shape is [`Shape::Line`],
+    /// and its feed and `rapid` say nothing. Empty if the file is one curve.
+    pub moves: Vec<Move>,
+    /// The curve, for a file of control points (source 003), instead of moves.
+    pub curve: Option<Nurbs>,
+    /// `$BASE` of a robot program: the workpiece in the base frame, as that program placed it.
+    pub base: Option<Pose>,
+    /// `$TOOL` of a robot program: the tool frame in the flange frame of that controller.
+    pub tool: Option<Pose>,
+    /// What was passed over, in the order of its first occurrence.
+    pub passed_over: Vec<PassedOver>,
+    /// True when the file says of itself that nobody measured or made it.
+    pub synthetic: bool,
+}
+
+/// One move of the tool tip, from the end of the move before.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Move {
+    /// End point, m.
+    pub to: V3,
+    /// Orientation at the end point. Never "as before": readers carry it on.
+    pub orientation: Orientation,
+    /// Feed along the path, m/s; `None`: the file states none (nor a rapid motion's speed).
+    pub feed: Option<f64>,
+    /// A rapid motion: no cut, its speed is the job's.
+    pub rapid: bool,
+    /// Line or arc.
+    pub shape: Shape,
+    /// Distance from the end point at which a blend to the next move begins, m; 0: exact stop;
+    /// `None`: the file does not say, the job does.
+    pub blend: Option<f64>,
+    /// Speed of the spindle, rad/s, positive clockwise seen from the spindle (M3), 0 when stopped;
+    /// `None`: not stated so far.
+    pub spindle: Option<f64>,
+    /// Arc length of the programmed path at the end point, m (`s_mm` of a compensated path).
+    pub station: Option<f64>,
+    /// 1-based line of the file.
+    pub line: usize,
+}
+
+/// Orientation of the tool in the workpiece frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Orientation {
+    /// Unit vector from the tip into the spindle; the turn about it is free.
+    Axis(V3),
+    /// Rotation from the tool frame to the workpiece frame: columns are the tool's axes,
+    /// `Rz(a) Ry(b) Rx(c)` of the file's angles.
+    Full(M3),
+}
+
+/// A non-uniform rational B-spline (source 003; Piegl & Tiller 1997, eq. 4.1). There are
+/// `points.len() + degree + 1` knots, not decreasing, none more than `degree + 1` times.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Nurbs {
+    /// Degree, at least 1.
+    pub degree: usize,
+    /// Knots; the curve runs from `knots[degree]` to `knots[points.len()]`.
+    pub knots: Vec<f64>,
+    /// Control points, m.
+    pub points: Vec<V3>,
+    /// Weights, one per control point, above zero.
+    pub weights: Vec<f64>,
+    /// Orientations, one per control point.
+    pub orientations: Vec<Orientation>,
+    /// Feed along the curve, m/s.
+    pub feed: Option<f64>,
+    /// 1-based line of each control point.
+    pub lines: Vec<usize>,
+}
+
+/// Something that has no effect on the path.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PassedOver {
+    /// The word, as the file writes it: `COOLNT`, `G43`, `PTP`.
+    pub what: String,
+    /// How often.
+    pub count: usize,
+    /// 1-based line of the first one.
+    pub line: usize,
+}

@@ -1,0 +1,369 @@
+//! The best turn about the spindle over the whole path: a shortest path over stations and angles
+//! (dynamic programming), then a descent from the grid to the continuum.
+
+use super::cell::{Cell, JOINTS};
+use super::follow::{Follower, squares};
+use super::spin::{compliance_along, normal};
+use crate::ground::spatial::scale;
+use crate::motion::{self, Chain, Work};
+use crate::path::build::Side;
+use crate::path::{Path, Quaternion};
+use rayon::prelude::*;
+use std::f64::consts::{PI, TAU};
+
+/// What is least.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Goal {
+    /// Sum of squared joint motion.
+    Smooth,
+    /// Mean compliance normal to the path.
+    Stiffest,
+}
+
+/// Angles of the grid over a full turn.
+const ANGLES: usize = 72;
+/// Width of the grid, rad.
+const GRID: f64 = TAU / ANGLES as f64;
+/// A stiffest turn runs at most this fast, rad/m (90 degrees in 0.1 m).
+const TURNING: f64 = 0.5 * PI / 0.1;
+/// A smooth turn runs at most this many angles of the grid from one station to the next.
+const WINDOW: usize = 6;
+/// Weight of squared joint motion (rad²) beside relative compliance: decides where nothing else does.
+const TIE: f64 = 1e-4;
+/// Weight of squared distance from the start angles: picks one of equals.
+const START: f64 = 1e-7;
+
+/// Joint angles of both hands at one station and turn; `None`: out of reach or of limits.
+type Node = [Option<[f64; JOINTS]>; 2];
+
+/// Turns at the stations, rad, continuous; `None` if no chain of turns keeps within reach.
+pub fn search(cell: &Cell, path: &Path, stations: &[f64], goal: Goal) -> Option<Vec<f64>> {
+    let frames: Vec<Quaternion> = stations
+        .iter()
+        .map(|s| path.orientation(*s, Side::Before))
+        .collect();
+    let grid = Grid::of(cell, path, stations, &frames)?;
+    let window = match goal {
+        Goal::Smooth => WINDOW,
+        Goal::Stiffest => window(stations),
+    };
+    let costs = match goal {
+        Goal::Smooth => vec![[[0.0; 2]; ANGLES]; stations.len()],
+        Goal::Stiffest => grid.compliances(cell, path, stations, &frames),
+    };
+    let motion = match goal {
+        Goal::Smooth => 1.0,
+        Goal::Stiffest => TIE,
+    };
+    let (turns, angles) = grid.shortest(&costs, motion, window)?;
+    Some(match goal {
+        Goal::Smooth => Descent {
+            cell,
+            path,
+            stations,
+            frames: &frames,
+            arm: grid.arm,
+        }
+        .run(turns, angles),
+        Goal::Stiffest => rounded(turns),
+    })
+}
+
+/// Steps of the grid that a stiffest turn may take between stations.
+fn window(stations: &[f64]) -> usize {
+    let apart = stations.get(1).map_or(0.0, |s| s - stations[0]);
+    ((TURNING * apart / GRID).floor() as usize).clamp(1, ANGLES / 4)
+}
+
+/// All postures over stations and turns.
+struct Grid {
+    nodes: Vec<[Node; ANGLES]>,
+    arm: [bool; 2],
+    start: [f64; JOINTS],
+}
+
+impl Grid {
+    fn of(cell: &Cell, path: &Path, stations: &[f64], frames: &[Quaternion]) -> Option<Self> {
+        let wrist = cell.wrist.as_ref()?;
+        let pose = |k: usize, j: usize| {
+            let turned = frames[k].turned(scale(j as f64 * GRID, cell.spindle));
+            cell.in_base(path.point(stations[k]), turned)
+        };
+        let mut first = Follower::new(cell);
+        let begin = first.next(&pose(0, 0)).ok()?;
+        let arm = first.arm()?;
+        let node = |k: usize, j: usize| {
+            let mut node: Node = [None; 2];
+            let postures = wrist.solve_arm(&pose(k, j), &begin, arm);
+            for posture in postures.as_slice().iter().filter(|p| p.reachable) {
+                node[usize::from(posture.branch[2])] = Some(posture.q);
+            }
+            node
+        };
+        let column = |k: usize| std::array::from_fn(|j| node(k, j));
+        let mut nodes: Vec<[Node; ANGLES]> =
+            (0..stations.len()).into_par_iter().map(column).collect();
+        for (j, node) in nodes[0].iter_mut().enumerate() {
+            keep_start(cell, node, &pose(0, j), arm);
+        }
+        Some(Self {
+            nodes,
+            arm,
+            start: cell.start,
+        })
+    }
+
+    /// Relative compliance normal to the path, divided by the number of stations.
+    fn compliances(
+        &self,
+        cell: &Cell,
+        path: &Path,
+        stations: &[f64],
+        frames: &[Quaternion],
+    ) -> Vec<[[f64; 2]; ANGLES]> {
+        let chain: Chain = motion::elastic(&cell.robot);
+        let column = |k: usize| {
+            let mut work = Work::new(&chain);
+            let normal = normal(cell, path, stations[k], frames[k]);
+            let mut cost = |q: &Option<[f64; JOINTS]>| match (q, normal) {
+                (Some(q), Some(n)) => compliance_along(&chain, &mut work, q, n),
+                _ => 0.0,
+            };
+            std::array::from_fn(|j| [0, 1].map(|hand| cost(&self.nodes[k][j][hand])))
+        };
+        let mut costs: Vec<[[f64; 2]; ANGLES]> =
+            (0..stations.len()).into_par_iter().map(column).collect();
+        let all = costs.iter().flatten().flatten();
+        let largest = all.copied().fold(f64::MIN_POSITIVE, f64::max);
+        costs
+            .iter_mut()
+            .flatten()
+            .flatten()
+            .for_each(|cost| *cost /= largest);
+        costs
+    }
+
+    /// The cheapest chain (Bellman 1957): turns, rad, continuous, and the postures of the grid.
+    fn shortest(
+        &self,
+        costs: &[[[f64; 2]; ANGLES]],
+        motion: f64,
+        window: usize,
+    ) -> Option<(Vec<f64>, Vec<[f64; JOINTS]>)> {
+        let mut reached = [[f64::INFINITY; 2]; ANGLES];
+        for j in 0..ANGLES {
+            for hand in 0..2 {
+                if let Some(q) = &self.nodes[0][j][hand] {
+                    reached[j][hand] = costs[0][j][hand] + START * squares(q, &self.start);
+                }
+            }
+        }
+        let mut from: Vec<[[(u16, u8); 2]; ANGLES]> = Vec::with_capacity(self.nodes.len());
+        for k in 1..self.nodes.len() {
+            let (next, came) = self.step(k, &reached, &costs[k], motion, window);
+            reached = next;
+            from.push(came);
+        }
+        self.back(&reached, &from)
+    }
+
+    #[allow(clippy::type_complexity)]
+    fn step(
+        &self,
+        k: usize,
+        reached: &[[f64; 2]; ANGLES],
+        costs: &[[f64; 2]; ANGLES],
+        motion: f64,
+        window: usize,
+    ) -> ([[f64; 2]; ANGLES], [[(u16, u8); 2]; ANGLES]) {
+        let mut next = [[f64::INFINITY; 2]; ANGLES];
+        let mut came = [[(0, 0); 2]; ANGLES];
+        for (j, hand) in (0..2 * ANGLES).map(|n| (n / 2, n % 2)) {
+            let Some(q) = &self.nodes[k][j][hand] else {
+                continue;
+            };
+            for i in (0..=2 * window).map(|d| (j + ANGLES + d - window) % ANGLES) {
+                for other in 0..2 {
+                    let Some(before) = &self.nodes[k - 1][i][other] else {
+                        continue;
+                    };
+                    let cost = reached[i][other] + motion * wrapped_squares(q, before);
+                    if cost < next[j][hand] {
+                        next[j][hand] = cost;
+                        came[j][hand] = (i as u16, other as u8);
+                    }
+                }
+            }
+            next[j][hand] += costs[j][hand];
+        }
+        (next, came)
+    }
+
+    fn back(
+        &self,
+        reached: &[[f64; 2]; ANGLES],
+        from: &[[[(u16, u8); 2]; ANGLES]],
+    ) -> Option<(Vec<f64>, Vec<[f64; JOINTS]>)> {
+        let all = (0..2 * ANGLES).map(|n| (n / 2, n % 2));
+        let best = all.min_by(|a, b| reached[a.0][a.1].total_cmp(&reached[b.0][b.1]))?;
+        if !reached[best.0][best.1].is_finite() {
+            return None;
+        }
+        let mut chain = vec![best];
+        for came in from.iter().rev() {
+            let (j, hand) = *chain.last()?;
+            let (i, other) = came[j][hand];
+            chain.push((usize::from(i), usize::from(other)));
+        }
+        chain.reverse();
+        let postures = chain.iter().enumerate();
+        let postures = postures.map(|(k, (j, hand))| self.nodes[k][*j][*hand]);
+        let mut turns: Vec<f64> = Vec::with_capacity(chain.len());
+        for (j, _) in &chain {
+            let near = turns.last().copied().unwrap_or(0.0);
+            let turn = *j as f64 * GRID;
+            turns.push(turn + TAU * ((near - turn) / TAU).round());
+        }
+        Some((turns, postures.collect::<Option<Vec<_>>>()?))
+    }
+}
+
+/// At the first station only the posture counts that the start angles pick.
+fn keep_start(cell: &Cell, node: &mut Node, pose: &crate::ground::spatial::Pose, arm: [bool; 2]) {
+    let mut follower = Follower::new(cell);
+    let picked = follower.next(pose).ok().filter(|_| follower.arm() == Some(arm));
+    for hand in node.iter_mut() {
+        let same = |q: &[f64; JOINTS]| picked.is_some_and(|p| wrapped_squares(q, &p) < 1e-12);
+        *hand = hand.filter(same);
+    }
+}
+
+/// Sum of squared differences by the shorter way round, rad².
+fn wrapped_squares(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> f64 {
+    let part = |(a, b): (&f64, &f64)| {
+        let d = a - b;
+        let d = if d.abs() > PI { d - TAU * (d / TAU).round() } else { d };
+        d * d
+    };
+    a.iter().zip(b).map(part).sum()
+}
+
+/// The stairs of the grid made round: a binomial mean over neighbours.
+fn rounded(mut turns: Vec<f64>) -> Vec<f64> {
+    for _ in 0..8 {
+        let old = turns.clone();
+        for i in 1..turns.len() - 1 {
+            turns[i] = 0.25 * (old[i - 1] + 2.0 * old[i] + old[i + 1]);
+        }
+    }
+    turns
+}
+
+/// Gauss–Newton on the sum of squared joint motion between stations.
+struct Descent<'a> {
+    cell: &'a Cell,
+    path: &'a Path,
+    stations: &'a [f64],
+    frames: &'a [Quaternion],
+    arm: [bool; 2],
+}
+
+impl Descent<'_> {
+    fn run(&self, turns: Vec<f64>, near: Vec<[f64; JOINTS]>) -> Vec<f64> {
+        let Some(mut angles) = self.angles(&turns, &near) else {
+            return turns;
+        };
+        let (mut turns, mut brake) = (turns, 1e-9);
+        for _ in 0..40 {
+            let Some(slopes) = self.slopes(&turns, &angles) else {
+                break;
+            };
+            let change = step(&angles, &slopes, brake);
+            let trial: Vec<f64> = turns.iter().zip(&change).map(|(t, d)| t + d).collect();
+            let found = self.angles(&trial, &angles);
+            let better = found.filter(|found| cost(found) < cost(&angles));
+            match better {
+                Some(found) => {
+                    let gained = 1.0 - cost(&found) / cost(&angles).max(f64::MIN_POSITIVE);
+                    (turns, angles, brake) = (trial, found, (0.1 * brake).max(1e-9));
+                    if gained < 1e-9 {
+                        break;
+                    }
+                }
+                None if brake > 1e3 => break,
+                None => brake = (brake * 30.0).max(1e-6),
+            }
+        }
+        turns
+    }
+
+    /// Joint angles at the turns, nearest to those known and running on from station to station.
+    fn angles(&self, turns: &[f64], near: &[[f64; JOINTS]]) -> Option<Vec<[f64; JOINTS]>> {
+        let mut all: Vec<[f64; JOINTS]> = Vec::with_capacity(turns.len());
+        for (k, turn) in turns.iter().enumerate() {
+            let q = self.at(k, *turn, &near[k])?;
+            let last = all.last().copied().unwrap_or(q);
+            all.push(std::array::from_fn(|i| {
+                q[i] + TAU * ((last[i] - q[i]) / TAU).round()
+            }));
+        }
+        Some(all)
+    }
+
+    fn at(&self, k: usize, turn: f64, near: &[f64; JOINTS]) -> Option<[f64; JOINTS]> {
+        let turned = self.frames[k].turned(scale(turn, self.cell.spindle));
+        let pose = self.cell.in_base(self.path.point(self.stations[k]), turned);
+        Follower::from(self.cell, Some(self.arm), *near).next(&pose).ok()
+    }
+
+    /// ∂q/∂turn at every station.
+    fn slopes(&self, turns: &[f64], angles: &[[f64; JOINTS]]) -> Option<Vec<[f64; JOINTS]>> {
+        const H: f64 = 1e-5;
+        let slope = |k: usize| {
+            let [before, after] = [-H, H].map(|h| self.at(k, turns[k] + h, &angles[k]));
+            let (before, after) = (before?, after?);
+            Some(std::array::from_fn(|i| 0.5 * (after[i] - before[i]) / H))
+        };
+        (0..turns.len()).map(slope).collect()
+    }
+}
+
+fn cost(angles: &[[f64; JOINTS]]) -> f64 {
+    angles.windows(2).map(|pair| squares(&pair[1], &pair[0])).sum()
+}
+
+/// Solves the tridiagonal normal equations of the differences of neighbours.
+fn step(angles: &[[f64; JOINTS]], slopes: &[[f64; JOINTS]], brake: f64) -> Vec<f64> {
+    let n = angles.len();
+    let dot = |a: &[f64; JOINTS], b: &[f64; JOINTS]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+    let gap = |k: usize| -> [f64; JOINTS] { std::array::from_fn(|i| angles[k + 1][i] - angles[k][i]) };
+    let (mut upper, mut right) = (vec![0.0; n], vec![0.0; n]);
+    for k in 0..n {
+        let own = dot(&slopes[k], &slopes[k]);
+        let (mut diagonal, mut r) = (brake * (1.0 + own), 0.0);
+        let mut lower = 0.0;
+        if k > 0 {
+            diagonal += own;
+            r -= dot(&slopes[k], &gap(k - 1));
+            lower = -dot(&slopes[k - 1], &slopes[k]);
+        }
+        if k + 1 < n {
+            diagonal += own;
+            r += dot(&slopes[k], &gap(k));
+        }
+        let (before, done) = match k {
+            0 => (0.0, 0.0),
+            _ => (upper[k - 1], right[k - 1]),
+        };
+        let pivot = diagonal - lower * before;
+        upper[k] = match k + 1 < n {
+            true => -dot(&slopes[k], &slopes[k + 1]) / pivot,
+            false => 0.0,
+        };
+        right[k] = (r - lower * done) / pivot;
+    }
+    for k in (0..n.saturating_sub(1)).rev() {
+        right[k] -= upper[k] * right[k + 1];
+    }
+    right
+}
