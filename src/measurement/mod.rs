@@ -10,6 +10,7 @@ pub mod joint_motion;
 pub mod keys;
 pub mod leading;
 pub mod load_cycle;
+pub mod stl;
 pub mod table;
 pub mod toolpath;
 pub mod uff;

@@ -4,10 +4,12 @@
 //! A [`structure::Structure`] is one file: [`rigid`], [`springs`] (deflection = compliance × force) or
 //! [`swinging`] (masses, dampers and springs in time). [`run`] leads any of them along a [`way::Way`].
 
+pub mod course;
 pub mod oscillator;
 pub mod pose;
 pub mod rigid;
 pub mod run;
+pub mod setup;
 pub mod springs;
 pub mod structure;
 pub mod swinging;
