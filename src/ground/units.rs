@@ -86,6 +86,7 @@ pub const UNITS: &[Unit] = &[
     unit("deg", Dimension::Angle, DEGREE),
     unit("m_s", Dimension::Speed, 1.0),
     unit("mm_s", Dimension::Speed, 1e-3),
+    unit("mm_min", Dimension::Speed, 1e-3 / 60.0),
     unit("rad_s", Dimension::AngularSpeed, 1.0),
     unit("deg_s", Dimension::AngularSpeed, DEGREE),
     unit("m_s2", Dimension::Acceleration, 1.0),

@@ -57,6 +57,11 @@ const PLAIN: &[(&str, bool)] = &[
     ("qx", false),
     ("qy", false),
     ("qz", false),
+    ("i", false),
+    ("j", false),
+    ("k", false),
+    ("rapid", false),
+    ("weight", false),
 ];
 
 pub(super) fn column_of(name: &str) -> Outcome<Column> {

@@ -1,15 +1,24 @@
 //! Tool paths: what a CAM system, a controller's program or a table of points says the tool tip
-//! should do. One file per reader.
+//! should do. One file per reader, one line in [`READERS`].
 //!
 //! Everything is SI and in the **workpiece frame**. A reader refuses, with its line, what would
 //! change the path and is not understood; what has no effect on it is passed over and counted.
 
+mod apt;
+mod draft;
+mod gcode;
+mod krl;
+mod points;
 mod shape;
+mod source;
 
 pub use shape::{Arc, Shape};
 
+use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{M3, Pose, V3};
-use std::path::PathBuf;
+use draft::Draft;
+use source::Source;
+use std::path::{Path, PathBuf};
 
 /// A path as a file states it: no robot, no blends drawn, no time.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -29,6 +38,8 @@ pub struct Toolpath {
     pub base: Option<Pose>,
     /// `$TOOL` of a robot program: the tool frame in the flange frame of that controller.
     pub tool: Option<Pose>,
+    /// Further files that were read (`.dat`, called programs), with their SHA-256.
+    pub inputs: Vec<(PathBuf, String)>,
     /// What was passed over, in the order of its first occurrence.
     pub passed_over: Vec<PassedOver>,
     /// True when the file says of itself that nobody measured or made it.
@@ -99,4 +110,124 @@ pub struct PassedOver {
     pub count: usize,
     /// 1-based line of the first one.
     pub line: usize,
+}
+
+/// A file format of paths.
+pub struct Reader {
+    /// Its name, as [`Toolpath::format`] gives it.
+    pub name: &'static str,
+    /// Endings of its files, lower case, without the dot.
+    pub endings: &'static [&'static str],
+    /// Whether the first lines look like it, for files with another ending.
+    recognises: fn(&str) -> bool,
+    read: fn(&Source) -> Outcome<Draft>,
+}
+
+/// Every format. A new one is one file and one line here.
+pub const READERS: &[Reader] = &[
+    Reader {
+        name: "points",
+        endings: &["csv"],
+        recognises: points::recognises,
+        read: points::read,
+    },
+    Reader {
+        name: "apt",
+        endings: &["cls", "apt", "aptsource", "ncl", "cl"],
+        recognises: apt::recognises,
+        read: apt::read,
+    },
+    Reader {
+        name: "gcode",
+        endings: &["nc", "ngc", "gcode", "tap", "cnc"],
+        recognises: gcode::recognises,
+        read: gcode::read,
+    },
+    Reader {
+        name: "krl",
+        endings: &["src"],
+        recognises: krl::recognises,
+        read: krl::read,
+    },
+];
+
+/// Bytes that are looked at to recognise a format.
+const HEAD: usize = 4096;
+
+impl Reader {
+    /// The reader of a file: by its ending, else by its first lines.
+    ///
+    /// # Errors
+    /// A file that none of the readers knows.
+    fn of(source: &Source) -> Outcome<&'static Self> {
+        let ending = source
+            .path
+            .extension()
+            .map(|e| e.to_string_lossy().to_lowercase());
+        let ending = ending.unwrap_or_default();
+        let named = READERS
+            .iter()
+            .find(|r| r.endings.contains(&ending.as_str()));
+        let head = &source.bytes[..source.bytes.len().min(HEAD)];
+        let head = String::from_utf8_lossy(head);
+        let found = named.or_else(|| READERS.iter().find(|reader| (reader.recognises)(&head)));
+        found.ok_or_else(|| {
+            let endings = READERS
+                .iter()
+                .flat_map(|r| r.endings)
+                .map(|e| format!(".{e}"));
+            let known: Vec<String> = endings.collect();
+            let remedy = format!("give the file one of the endings {}", known.join(", "));
+            Problem::new("is no path that is known", remedy)
+        })
+    }
+}
+
+impl Toolpath {
+    /// Reads a path file.
+    ///
+    /// # Errors
+    /// What cannot be read, and what would change the path and is not understood: file, line, remedy.
+    pub fn read(path: &Path) -> Outcome<Self> {
+        Self::of_source(&Source::read(path)?)
+    }
+
+    /// Interprets the bytes of a path file that stands at `path`.
+    ///
+    /// # Errors
+    /// As [`Toolpath::read`].
+    pub fn of_bytes(path: &Path, bytes: &[u8]) -> Outcome<Self> {
+        Self::of_source(&Source::of_bytes(path, bytes.to_vec()))
+    }
+
+    fn of_source(source: &Source) -> Outcome<Self> {
+        let read = || {
+            let reader = Reader::of(source)?;
+            Self::of_draft(source, reader.name, (reader.read)(source)?)
+        };
+        read().map_err(|problem| problem.in_file(&source.path))
+    }
+
+    fn of_draft(source: &Source, format: &'static str, draft: Draft) -> Outcome<Self> {
+        if draft.curve.is_none() && draft.moves.len() < 2 {
+            let what = format!(
+                "holds {} of the two points that a path needs",
+                draft.moves.len()
+            );
+            let remedy = "give a start point and at least one move from it";
+            return Err(Problem::new(what, remedy).at_line(1));
+        }
+        Ok(Self {
+            path: source.path.clone(),
+            sha256: source.sha256.clone(),
+            format,
+            moves: draft.moves,
+            curve: draft.curve,
+            base: draft.base,
+            tool: draft.tool,
+            inputs: draft.inputs,
+            passed_over: draft.passed_over,
+            synthetic: draft.synthetic,
+        })
+    }
 }

@@ -1,6 +1,8 @@
 //! The two shapes of a move.
 
-use crate::ground::vector::V3;
+use crate::ground::problem::{Outcome, Problem};
+use crate::ground::vector::{M3, V3, add, cross, dot, norm, rotate, rotation, scale, sub, unit};
+use std::f64::consts::{PI, TAU};
 
 /// Shape of a move between its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,4 +23,131 @@ pub struct Arc {
     pub axis: V3,
     /// Angle swept, rad, above zero; 2π for a full circle, more for several turns.
     pub angle: f64,
+}
+
+/// Ends closer than this make a full circle, m.
+const CLOSED: f64 = 2e-6;
+/// Difference of radii that rounding to hundredths of a millimetre makes, m, and share of the radius.
+const ROUNDING: (f64, f64) = (2e-5, 1e-4);
+
+impl Arc {
+    /// The arc from one point to another about an axis (a unit vector) through `centre`, with whole
+    /// `turns` more. Ends that coincide make a full circle.
+    ///
+    /// # Errors
+    /// Ends that are not equally far from the centre.
+    pub fn about(from: V3, to: V3, centre: V3, axis: V3, turns: usize) -> Outcome<Self> {
+        let flat = |v: V3| sub(v, scale(dot(v, axis), axis));
+        let (start, end) = (flat(sub(from, centre)), flat(sub(to, centre)));
+        let (first, last) = (norm(start), norm(end));
+        let allowed = ROUNDING.0 + ROUNDING.1 * first.max(last);
+        if (first - last).abs() > allowed || first.min(last) < CLOSED {
+            return Err(off_circle(first, last));
+        }
+        let chord = sub(end, start);
+        let closed = norm(chord) < CLOSED;
+        let swept = match closed {
+            true => TAU,
+            false => dot(axis, cross(start, end))
+                .atan2(dot(start, end))
+                .rem_euclid(TAU),
+        };
+        let shift = match closed {
+            true => [0.0; 3],
+            false => scale(0.5 * dot(add(start, end), chord) / dot(chord, chord), chord),
+        };
+        if swept > PI && norm(shift) > 2.0 * allowed {
+            return Err(off_circle(first, last));
+        }
+        let height = scale(dot(sub(from, centre), axis), axis);
+        Ok(Self {
+            centre: add(add(centre, height), shift),
+            axis,
+            angle: swept + turns as f64 * TAU,
+        })
+    }
+
+    /// The arc from one point through another to a third.
+    ///
+    /// # Errors
+    /// Three points on one line.
+    pub fn through(from: V3, middle: V3, to: V3) -> Outcome<Self> {
+        let (a, b) = (sub(middle, from), sub(to, from));
+        let normal = cross(a, b);
+        let area = dot(normal, normal);
+        let flat = area <= 1e-16 * dot(a, a) * dot(b, b);
+        let axis = unit(normal).filter(|_| !flat).ok_or_else(|| {
+            let remedy = "give three points that are apart and not in line, or write a line";
+            Problem::new("the three points make no circle", remedy)
+        })?;
+        let offset = cross(sub(scale(dot(a, a), b), scale(dot(b, b), a)), normal);
+        let centre = add(from, scale(0.5 / area, offset));
+        Self::about(from, to, centre, axis, 0)
+    }
+
+    /// The point of the circle at an angle (rad) from the point `from`, in the plane of `from`.
+    pub fn at(&self, from: V3, angle: f64) -> V3 {
+        let turned: M3 = rotation(self.axis, angle);
+        add(self.centre, rotate(&turned, sub(from, self.centre)))
+    }
+
+    /// Its radius, m, where it starts at `from`.
+    pub fn radius(&self, from: V3) -> f64 {
+        norm(sub(from, self.centre))
+    }
+}
+
+fn off_circle(first: f64, last: f64) -> Problem {
+    let what = format!(
+        "the ends of the arc are {:.4} mm and {:.4} mm from its centre",
+        first * 1e3,
+        last * 1e3
+    );
+    Problem::new(
+        what,
+        "correct the centre or the end point; write more decimals",
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const Z: V3 = [0.0, 0.0, 1.0];
+
+    #[test]
+    fn arcs_sweep_right_handed_and_close_to_full_circles() {
+        let quarter = Arc::about([1.0, 0.0, 0.0], [0.0, 1.0, 0.5], [0.0; 3], Z, 0).unwrap();
+        assert!((quarter.angle - 0.25 * TAU).abs() < 1e-15);
+        let other = Arc::about(
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0; 3],
+            scale(-1.0, Z),
+            1,
+        );
+        assert!((other.unwrap().angle - 1.75 * TAU).abs() < 1e-14);
+        let full = Arc::about([1.0, 0.0, 3.0], [1.0, 0.0, 3.0], [0.0; 3], Z, 0).unwrap();
+        assert_eq!((full.angle, full.centre), (TAU, [0.0, 0.0, 3.0]));
+    }
+
+    #[test]
+    fn rounded_centres_are_moved_and_wrong_ones_refused() {
+        let to = [0.0, 0.100_004, 0.0];
+        let arc = Arc::about([0.1, 0.0, 0.0], to, [0.0; 3], Z, 0).unwrap();
+        assert!((norm(sub(to, arc.centre)) - arc.radius([0.1, 0.0, 0.0])).abs() < 1e-15);
+        assert!(Arc::about([0.1, 0.0, 0.0], [0.0, 0.101, 0.0], [0.0; 3], Z, 0).is_err());
+    }
+
+    #[test]
+    fn three_points_make_the_circle_they_lie_on() {
+        let on = |t: f64| [3.0 + 2.0 * t.cos(), -1.0 + 2.0 * t.sin(), 0.5];
+        let arc = Arc::through(on(0.3), on(1.0), on(4.0)).unwrap();
+        assert!(norm(sub(arc.centre, [3.0, -1.0, 0.5])) < 1e-14, "{arc:?}");
+        assert!((arc.angle - 3.7).abs() < 1e-13 && arc.axis[2] > 0.999);
+        assert!(norm(sub(arc.at(on(0.3), 3.7), on(4.0))) < 1e-14);
+        let back = Arc::through(on(4.0), on(1.0), on(0.3)).unwrap();
+        assert!((back.angle - 3.7).abs() < 1e-13 && back.axis[2] < -0.999);
+        assert!(Arc::through([0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]).is_err());
+    }
 }
