@@ -7,7 +7,9 @@ mod effects;
 mod frf;
 mod inspect;
 mod lab;
+mod mill;
 mod output;
+mod planned;
 mod progress;
 mod report;
 mod robot;
@@ -46,6 +48,7 @@ pub const VERBS: &[Verb] = &[
     stiffness::VERB,
     damping::VERB,
     diagnose::VERB,
+    mill::VERB,
     run::VERB,
     report::VERB,
     frf::VERB,

@@ -13,6 +13,25 @@ pub struct Place {
     pub campaign: String,
 }
 
+/// Folder for what is made from a job: `reports/<campaign>/<folder of the job>/` for a job under
+/// `measurements/<campaign>/`, else `reports/` in the folder that `ident` runs in; a job that is not
+/// called `job.toml` has a folder of its own name in it.
+pub fn job_results(job: &Path) -> PathBuf {
+    let folder = job.parent().unwrap_or(Path::new(""));
+    let found = folder.ancestors().find_map(|measurements| {
+        let named = measurements.file_name().is_some_and(|n| n == "measurements");
+        let root = measurements.parent().filter(|_| named)?;
+        let inside = folder.strip_prefix(measurements).ok()?;
+        Some(root.join("reports").join(inside))
+    });
+    let stem = job.file_stem().unwrap_or_default();
+    match found {
+        Some(folder) if stem == "job" => folder,
+        Some(folder) => folder.join(stem),
+        None => Path::new("reports").join(stem),
+    }
+}
+
 impl Place {
     /// The place of a measurement file: its campaign if it lies under `measurements/`, else the
     /// folder `ident` runs in.

@@ -75,6 +75,21 @@ impl Outcome {
         stations.map(|(i, c)| (i, measure(c))).max_by(|a, b| a.1.total_cmp(&b.1)).map(|w| w.0)
     }
 
+    /// The deviation at a time (s), linear between stations, m.
+    pub fn deviation_at(&self, time_s: f64) -> V3 {
+        let after = self.course.partition_point(|c| c.time_s < time_s);
+        let (Some(a), Some(b)) = (self.course.get(after.saturating_sub(1)), self.course.get(after)) else {
+            return self.course.last().map_or([0.0; 3], |c| c.deviation);
+        };
+        match b.time_s > a.time_s {
+            true => {
+                let share = (time_s - a.time_s) / (b.time_s - a.time_s);
+                add(a.deviation, scale(share, sub(b.deviation, a.deviation)))
+            }
+            false => b.deviation,
+        }
+    }
+
     /// Root mean square over the stations in the cut, by a measure.
     pub fn rms(&self, measure: impl Fn(&Cut) -> f64) -> f64 {
         let cutting = self.course.iter().any(|c| c.cutting);

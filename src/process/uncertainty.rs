@@ -3,7 +3,6 @@
 //! Linearised: every spring and every coefficient is moved by one standard deviation, the part is
 //! milled again with springs only, and the changes at the station are summed as independent.
 
-use super::run::Outcome as Milled;
 use super::setup::{Setup, Support};
 use crate::ground::problem::Outcome;
 use crate::ground::spatial::{V3, dot, norm, scale, sub};
@@ -74,25 +73,26 @@ impl Doubt {
     }
 }
 
-/// Changes of the deviation at every station by one standard deviation of each doubt: one list per
-/// doubt, m, workpiece frame. The nominal run is one with springs only, too.
+/// Changes of the deviation at some times (s) by one standard deviation of each doubt: one list per
+/// doubt, m, workpiece frame.
 ///
 /// # Errors
 /// As the runs.
-pub fn changes(setup: &Setup, doubts: &[Doubt]) -> Outcome<(Milled, Vec<Vec<V3>>)> {
-    let runs = (0..=doubts.len()).into_par_iter().map(|i| {
-        let moved = i.checked_sub(1).map(|i| doubts[i].moved(setup));
-        let (out, _) = moved.as_ref().unwrap_or(setup).run(Support::Static, |_| {})?;
-        Ok(out)
-    });
-    let mut runs = runs.collect::<Vec<Outcome<Milled>>>().into_iter();
-    let nominal = runs.next().transpose()?.unwrap_or_else(|| unreachable!("the first run"));
-    let change = |run: Outcome<Milled>| {
-        let pairs = run?.course.into_iter().zip(&nominal.course).collect::<Vec<_>>();
-        Ok(pairs.iter().map(|(a, b)| sub(a.deviation, b.deviation)).collect())
+pub fn changes(setup: &Setup, doubts: &[Doubt], times: &[f64]) -> Outcome<Vec<Vec<V3>>> {
+    let deviations = |setup: &Setup| -> Outcome<Vec<V3>> {
+        let (out, _) = setup.run(Support::Static, |_| {})?;
+        Ok(times.iter().map(|t| out.deviation_at(*t)).collect())
     };
-    let changes = runs.map(change).collect::<Outcome<Vec<Vec<V3>>>>()?;
-    Ok((nominal, changes))
+    let runs = (0..=doubts.len()).into_par_iter().map(|i| match i {
+        0 => deviations(setup),
+        _ => deviations(&doubts[i - 1].moved(setup)),
+    });
+    let runs = runs.collect::<Vec<_>>().into_iter().collect::<Outcome<Vec<_>>>()?;
+    let change = |moved: &Vec<V3>| {
+        let pairs = moved.iter().zip(&runs[0]);
+        pairs.map(|(a, b)| sub(*a, *b)).collect()
+    };
+    Ok(runs[1..].iter().map(change).collect())
 }
 
 /// Standard deviation of the length of `vector` at station `i`.
