@@ -49,6 +49,7 @@ pub mod measurement;
 pub mod motion;
 pub mod path;
 pub mod planning;
+pub mod process;
 pub mod report;
 pub mod robot;
 pub mod sheet;

@@ -12,6 +12,8 @@ mod lab;
 mod lobes;
 mod output;
 mod plan;
+mod mill;
+mod planned;
 mod progress;
 mod report;
 mod robot;
@@ -59,6 +61,7 @@ pub const VERBS: &[Verb] = &[
     force::VERB,
     lobes::VERB,
     diagnose::VERB,
+    mill::VERB,
     run::VERB,
     report::VERB,
     frf::VERB,

@@ -8,6 +8,8 @@
 mod chebyshev;
 pub mod chip;
 pub mod directional;
+pub mod cutter;
+pub mod dexel;
 pub mod law;
 pub mod mean;
 pub mod stability;

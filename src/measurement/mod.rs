@@ -19,6 +19,7 @@ pub mod pitch_table;
 pub mod screw;
 pub mod milling_force;
 pub mod modal;
+pub mod stl;
 pub mod table;
 pub mod toolpath;
 pub mod uff;

@@ -1,0 +1,92 @@
+//! What `ident mill` says in words.
+
+use super::{Result, Written};
+use crate::ground::spatial::norm;
+use crate::process::setup::Support;
+use crate::sheet::number::{significant, with_interval};
+
+/// The account on standard output.
+pub fn text(result: &Result, written: &Written) -> String {
+    let mut said: String = sentences(result).into_iter().map(|s| s + "\n").collect();
+    for file in [&written.course, &written.report].into_iter().flatten() {
+        said.push_str(&format!("wrote {}\n", file.display()));
+    }
+    said
+}
+
+/// The result in a few sentences.
+pub fn sentences(result: &Result) -> Vec<String> {
+    let milled = &result.milled;
+    let mut said = vec![format!(
+        "{} mm³ removed in {} s, {} s of it in the cut; force {} N at most, on average {} N.",
+        significant(milled.removed_m3 * 1e9, 5),
+        significant(milled.duration_s, 4),
+        significant(milled.cutting_s, 4),
+        significant(milled.peak_n, 4),
+        significant(norm(milled.mean_n), 4),
+    )];
+    said.extend(deviation(result));
+    said.push(steps(result));
+    said
+}
+
+fn deviation(result: &Result) -> Option<String> {
+    if result.support == Support::Rigid {
+        return Some("The robot counts as rigid: no deviation.".into());
+    }
+    let worst = result.worst.as_ref()?;
+    let mm = 1e3 * worst.size;
+    let size = match worst.ci95 {
+        Some([low, high]) => with_interval(mm, 1e3 * low, 1e3 * high),
+        None => significant(mm, 3),
+    };
+    let rms = result.milled.rms(|cut| norm(cut.deviation));
+    let place = 1e3 * result.milled.course[worst.station].s_m;
+    let mut said = format!(
+        "Largest deviation {size} mm at {place:.1} mm of the path, root mean square {} mm.",
+        significant(1e3 * rms, 3)
+    );
+    if let Some(tolerance) = result.planned.job.limits.tolerance {
+        let holds = worst.size <= tolerance;
+        let verdict = if holds { "within" } else { "beyond" };
+        said += &format!(" That is {verdict} the {} mm that the part allows.", significant(1e3 * tolerance, 3));
+    }
+    Some(said)
+}
+
+fn steps(result: &Result) -> String {
+    let milled = &result.milled;
+    let energy = milled.energy.map_or(String::new(), |energy| {
+        format!("; of the energy {} % is not accounted for", significant(100.0 * energy.gap(), 2))
+    });
+    match result.support {
+        Support::Coupled => format!(
+            "Robot and cut coupled in {} steps, {} µs in the cut{energy}.",
+            milled.steps,
+            significant(1e6 * milled.step_s, 3)
+        ),
+        _ => format!("{} steps, one per tooth in the cut.", milled.steps),
+    }
+}
+
+/// What the reader should know.
+pub fn remarks(result: &Result) -> Vec<String> {
+    let mut said = Vec::new();
+    let elastic = result.support != Support::Rigid;
+    if elastic && result.doubts.is_empty() {
+        said.push(
+            "neither the robot nor the material states how well it is known: no interval".to_string(),
+        );
+    }
+    let gaps = result.setup.robot.springs().filter(|(_, s)| s.gap() > 0.0).count();
+    if elastic && gaps > 0 {
+        said.push(format!("the backlash of {gaps} joints is left out: gaps count as closed by the weight"));
+    }
+    for exceeded in &result.planned.plan.exceeded {
+        said.push(format!(
+            "the plan exceeds a limit: {} of {} at {:.3} s",
+            exceeded.what, exceeded.site, exceeded.at
+        ));
+    }
+    said
+}

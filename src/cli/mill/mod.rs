@@ -1,0 +1,224 @@
+//! `ident mill`: the material is removed by the tool that the soft robot carries; where the part will
+//! be wrong, and by how much.
+
+mod account;
+mod figures;
+mod json;
+mod page;
+
+use super::output::{print, print_result, tell};
+use super::planned::Planned;
+use super::progress::Progress;
+use super::{Ending, Verb, arguments, parsed};
+use crate::cutting::cutter::Cutter;
+use crate::ground::files;
+use crate::ground::problem::{Outcome, Problem};
+use crate::ground::spatial::norm;
+use crate::measurement::workspace::job_results;
+use crate::process::course;
+use crate::process::run::{Cut, Outcome as Milled};
+use crate::process::setup::{Setup, Support};
+use crate::process::uncertainty::{self, Doubt, NORMAL95};
+use crate::report::{html, svg};
+use crate::sheet::page::{Page, file};
+use clap::{ArgMatches, Args};
+use std::cell::Cell;
+use std::path::{Path, PathBuf};
+
+/// The verb.
+pub const VERB: Verb = Verb {
+    name: "mill",
+    about: "Mill a job with the soft robot: forces, and where the part will be wrong",
+    arguments: arguments::<Arguments>,
+    run,
+};
+
+#[derive(Args)]
+struct Arguments {
+    /// The job file (kind = "job") with robot, path, tool, material and stock
+    job: PathBuf,
+    /// Print one JSON document instead of the account
+    #[arg(long)]
+    json: bool,
+    /// Nothing gives way: forces only
+    #[arg(long)]
+    rigid: bool,
+    /// Springs only: deflection is compliance times force (default: robot and cut coupled in time)
+    #[arg(long = "static", conflicts_with = "rigid")]
+    springs: bool,
+    /// Step of time in the cut, µs (default: 3 degrees of the spindle)
+    #[arg(long, value_name = "US")]
+    step_us: Option<f64>,
+    /// Do not ask what the uncertainty of springs and coefficients does to the deviation
+    #[arg(long)]
+    no_interval: bool,
+    /// Write no course and no report
+    #[arg(long)]
+    dry_run: bool,
+    /// Report progress on standard error even without a terminal
+    #[arg(long)]
+    progress: bool,
+}
+
+impl Arguments {
+    fn support(&self) -> Support {
+        match (self.rigid, self.springs) {
+            (true, _) => Support::Rigid,
+            (_, true) => Support::Static,
+            _ => Support::Coupled,
+        }
+    }
+}
+
+/// The largest deviation, and how sure it is.
+struct Worst {
+    /// Index of its station.
+    station: usize,
+    /// m
+    size: f64,
+    /// 95 % interval, m; `None`: no uncertainty is stated.
+    ci95: Option<[f64; 2]>,
+}
+
+/// A milled job.
+struct Result {
+    planned: Planned,
+    setup: Setup,
+    support: Support,
+    milled: Milled,
+    left: Cutter,
+    worst: Option<Worst>,
+    doubts: Vec<Doubt>,
+}
+
+/// What was written.
+#[derive(Default)]
+struct Written {
+    course: Option<PathBuf>,
+    report: Option<PathBuf>,
+}
+
+fn run(matches: &ArgMatches) -> Outcome<Ending> {
+    let arguments: Arguments = parsed(matches);
+    let result = act(&arguments)?;
+    let written = match arguments.dry_run {
+        true => Written::default(),
+        false => write(&result)?,
+    };
+    match arguments.json {
+        true => print_result("mill", &result.planned.inputs, json::body(&result, &written))?,
+        false => print(&account::text(&result, &written))?,
+    }
+    for remark in account::remarks(&result) {
+        tell(&format!("{}: {remark}", result.planned.job.path.display()));
+    }
+    Ok(match result.needs_attention() {
+        true => Ending::Attention,
+        false => Ending::Done,
+    })
+}
+
+fn act(arguments: &Arguments) -> Outcome<Result> {
+    let step_s = step(arguments.step_us)?;
+    let planned = Planned::read(&arguments.job)?;
+    let setup = planned.setup(step_s)?;
+    let support = arguments.support();
+    let progress = Progress::new(PARTS, arguments.progress);
+    let told = Cell::new(0);
+    let (milled, left) = setup
+        .run(support, |share| {
+            let part = (share * PARTS as f64) as usize;
+            while told.get() < part.min(PARTS) {
+                told.set(told.get() + 1);
+                progress.done(&format!("{} %", 100 * told.get() / PARTS));
+            }
+        })
+        .map_err(|problem| problem.in_file(&planned.job.path))?;
+    progress.finish();
+    let doubts = match arguments.no_interval || support == Support::Rigid {
+        true => Vec::new(),
+        false => uncertainty::doubts(&setup.robot, &setup, &planned.coefficient_stds()),
+    };
+    let worst = worst(&setup, &milled, &doubts)?;
+    Ok(Result {
+        planned,
+        setup,
+        support,
+        milled,
+        left,
+        worst,
+        doubts,
+    })
+}
+
+/// Pieces of progress.
+const PARTS: usize = 20;
+
+fn step(step_us: Option<f64>) -> Outcome<Option<f64>> {
+    match step_us {
+        Some(us) if !(us > 0.0 && us.is_finite()) => Err(Problem::new(
+            format!("`--step-us` is {us}"),
+            "give a positive number of microseconds, or leave it out",
+        )),
+        us => Ok(us.map(|us| us * 1e-6)),
+    }
+}
+
+/// The largest deviation in the cut, with what is uncertain moved one by one.
+fn worst(setup: &Setup, milled: &Milled, doubts: &[Doubt]) -> Outcome<Option<Worst>> {
+    let size = |cut: &Cut| norm(cut.deviation);
+    let Some(station) = milled.worst(size) else {
+        return Ok(None);
+    };
+    let cut = milled.course[station];
+    let ci95 = match doubts.is_empty() {
+        true => None,
+        false => {
+            let changes = uncertainty::changes(setup, doubts, &[cut.time_s])?;
+            let half = NORMAL95 * uncertainty::spread(&changes, 0, cut.deviation);
+            Some([(size(&cut) - half).max(0.0), size(&cut) + half])
+        }
+    };
+    Ok(Some(Worst {
+        station,
+        size: size(&cut),
+        ci95,
+    }))
+}
+
+impl Result {
+    /// A limit of the robot or of the part is exceeded.
+    fn needs_attention(&self) -> bool {
+        let tolerance = self.planned.job.limits.tolerance;
+        let over = tolerance.zip(self.worst.as_ref()).is_some_and(|(t, w)| w.size > t);
+        over || !self.planned.plan.exceeded.is_empty()
+    }
+}
+
+/// Writes everything, or nothing.
+fn write(result: &Result) -> Outcome<Written> {
+    let folder = job_results(&result.planned.job.path);
+    let course = folder.join("course.csv");
+    let report = folder.join("mill.html");
+    let text = course::text(&result.milled.course, &result.planned.inputs, result.support.name());
+    let mut contents = vec![(course.clone(), text)];
+    contents.extend(inked(&folder, &report, &page::page(result))?);
+    let contents: Vec<(&Path, &[u8])> = contents
+        .iter()
+        .map(|(path, text)| (path.as_path(), text.as_bytes()))
+        .collect();
+    files::replace_all(&contents)?;
+    Ok(Written {
+        course: Some(course),
+        report: Some(report),
+    })
+}
+
+/// Figures and page, the page last.
+fn inked(folder: &Path, report: &Path, page: &Page) -> Outcome<Vec<(PathBuf, String)>> {
+    let figures = page.figures().into_iter();
+    let figures = figures.map(|(stem, chart)| Ok((folder.join(file(&stem, chart)), svg::ink(chart)?)));
+    let mut all = figures.collect::<Outcome<Vec<_>>>()?;
+    all.push((report.to_path_buf(), html::ink(page)?));
+    Ok(all)
+}

@@ -1,0 +1,99 @@
+//! How deep a point lies in the stock, from the rays around it, finer than their spacing.
+
+use super::grid::Grid;
+use crate::ground::spatial::V3;
+
+/// What the four rays around a point say in one direction.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct View {
+    /// Distance to the border across it, where all four see the same one, and its squared slope.
+    pub plane: Option<(f64, f64)>,
+    /// Sum of weight times distance, and of weights, of the rays that see a border.
+    pub seen: (f64, f64),
+    /// Weight of rays deep inside less that of rays far outside.
+    pub beyond: f64,
+}
+
+/// Steeper surfaces are seen better by another direction.
+const STEEP: f64 = 1.5;
+/// A ray at the edge of its cell still has this weight.
+const LEAST: f64 = 1e-3;
+
+/// Looks at a point along the rays of one grid; borders farther than `cap` (m) are not seen.
+#[inline]
+pub(super) fn view(grid: &Grid, point: V3, cap: f64) -> View {
+    let [w, u, v] = grid.axes;
+    let (i, s) = cell(point[u] - grid.min[u], grid.width[0]);
+    let (j, t) = cell(point[v] - grid.min[v], grid.width[1]);
+    let at = |i: i64, j: i64| border(grid, i, j, point[w], cap);
+    let four = [at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)];
+    let weights = [(1.0 - s) * (1.0 - t), s * (1.0 - t), (1.0 - s) * t, s * t];
+    let mut view = View::default();
+    for ((distance, slope), weight) in four.iter().zip(weights) {
+        let weight = weight.max(LEAST);
+        match *slope == 0.0 {
+            true => view.beyond += weight.copysign(*distance),
+            false => {
+                view.seen.0 += weight * distance;
+                view.seen.1 += weight;
+            }
+        }
+    }
+    if four[0].1 != 0.0 && four.iter().all(|f| f.1 == four[0].1) {
+        view.plane = Some(plane(&four.map(|f| f.0), (s, t), grid.width));
+    }
+    view
+}
+
+/// Index of the lower of two neighbouring middles, and the share of the way to the upper.
+#[inline]
+fn cell(from: f64, width: f64) -> (i64, f64) {
+    let x = from / width - 0.5;
+    let low = x.floor();
+    (low as i64, x - low)
+}
+
+#[inline]
+fn border(grid: &Grid, i: i64, j: i64, at: f64, cap: f64) -> (f64, f64) {
+    let inside = i >= 0 && j >= 0 && (i as usize) < grid.count[0] && (j as usize) < grid.count[1];
+    match inside {
+        true => grid.rays[j as usize * grid.count[0] + i as usize].border(at, cap),
+        false => (-cap, 0.0),
+    }
+}
+
+/// Distance across the surface that four distances along the rays span, and its squared slope.
+#[inline]
+fn plane(four: &[f64; 4], (s, t): (f64, f64), width: [f64; 2]) -> (f64, f64) {
+    let [a, b, c, d] = *four;
+    let (low, high) = (a + s * (b - a), c + s * (d - c));
+    let along = ((b - a) * (1.0 - t) + (d - c) * t) / width[0];
+    let across = (high - low) / width[1];
+    let square = along * along + across * across;
+    ((low + t * (high - low)) / (1.0 + square).sqrt(), square)
+}
+
+/// One depth from the three directions, m: positive in material, at most `cap`.
+///
+/// Where a direction sees one surface with all four rays, the least steep says it. At an edge no
+/// direction does: the rays that see a face speak for it, the nearest face counts where the rest is
+/// air, the farthest where the rest is material.
+pub(super) fn depth(views: &[View; 3], cap: f64) -> f64 {
+    let planes = views.iter().filter_map(|v| v.plane);
+    let best = planes.min_by(|a, b| a.1.total_cmp(&b.1));
+    if let Some((distance, square)) = best
+        && square < STEEP
+    {
+        return distance.clamp(-cap, cap);
+    }
+    if let Some(view) = views.iter().find(|v| v.seen.1 == 0.0 && v.beyond.abs() > 0.99) {
+        return cap.copysign(view.beyond);
+    }
+    let beyond: f64 = views.iter().map(|v| v.beyond).sum();
+    let faces = views.iter().filter(|v| v.seen.1 > 0.0);
+    let faces = faces.map(|v| v.seen.0 / v.seen.1);
+    match beyond < 0.0 {
+        true => faces.fold(cap, f64::min),
+        false => faces.fold(-cap, f64::max),
+    }
+}

@@ -1,0 +1,263 @@
+//! Which share of the tool's envelope stands in material: entry and exit of every ring.
+//!
+//! The stock is looked at before the tool's latest way is taken from it: what the tool itself has cut
+//! there is known exactly, as the places it stood at, and costs no accuracy by the rays' spacing. On
+//! every cell of ring and angle the depth at its corners says which share of it is in.
+
+use super::rings::Ring;
+use super::solid::Solid;
+use super::stock::Stock;
+use crate::ground::spatial::{V3, add, cross, dot, normals, scale, unit};
+use std::f64::consts::TAU;
+
+/// Directions across the axis from which angles count: φ from `y` towards `x`, as seen from the
+/// spindle clockwise.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// φ = 90°.
+    pub x: V3,
+    /// φ = 0.
+    pub y: V3,
+    /// The axis, into the spindle.
+    pub z: V3,
+}
+
+impl Frame {
+    /// The frame whose x lies nearest to `forward`.
+    pub fn towards(forward: V3, z: V3) -> Self {
+        let flat = |v: V3| unit(add(v, scale(-dot(v, z), z)));
+        let x = flat(forward).unwrap_or_else(|| normals(z).0);
+        Self { x, y: cross(z, x), z }
+    }
+
+    /// Outward direction at tooth angle φ, given as [sin φ, cos φ].
+    #[inline]
+    pub fn outward(&self, [sin, cos]: [f64; 2]) -> V3 {
+        [0, 1, 2].map(|k| sin * self.x[k] + cos * self.y[k])
+    }
+
+    /// A vector of this frame in the workpiece frame.
+    pub fn out(&self, v: V3) -> V3 {
+        [0, 1, 2].map(|k| v[0] * self.x[k] + v[1] * self.y[k] + v[2] * self.z[k])
+    }
+}
+
+/// Shares of cells in material.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Engagement {
+    /// The frame of its angles.
+    pub frame: Frame,
+    angles: usize,
+    rings: Vec<Ring>,
+    directions: Vec<[f64; 2]>,
+    share: Vec<f64>,
+    /// Rings below this one may be in material.
+    used: usize,
+    nodes: Vec<f64>,
+}
+
+/// What the tool has cut on its latest way is seen where it is deeper than this, m.
+const TOUCH: f64 = 1e-9;
+
+impl Engagement {
+    /// Nothing in material yet: `angles` cells around each ring.
+    pub fn new(rings: Vec<Ring>, angles: usize, frame: Frame) -> Self {
+        let step = TAU / angles as f64;
+        let direction = |k: usize| {
+            let (sin, cos) = (step * k as f64).sin_cos();
+            [sin, cos]
+        };
+        Self {
+            frame,
+            angles,
+            share: vec![0.0; rings.len() * angles],
+            nodes: vec![0.0; (rings.len() + 1) * angles],
+            directions: (0..angles).map(direction).collect(),
+            rings,
+            used: 0,
+        }
+    }
+
+    /// Cells around.
+    pub fn angles(&self) -> usize {
+        self.angles
+    }
+
+    /// Rings that may be in material, from the end upwards.
+    pub fn rings(&self) -> &[Ring] {
+        &self.rings[..self.used]
+    }
+
+    /// All rings.
+    pub fn all_rings(&self) -> &[Ring] {
+        &self.rings
+    }
+
+    /// Share of ring `i` in material about the angle `cells` (in cells from φ = 0), between cells
+    /// linear.
+    #[inline]
+    pub fn share(&self, i: usize, cells: f64) -> f64 {
+        let n = self.angles as f64;
+        let x = (cells - 0.5).rem_euclid(n);
+        let low = (x as usize).min(self.angles - 1);
+        let high = if low + 1 == self.angles { 0 } else { low + 1 };
+        let part = x - low as f64;
+        let row = &self.share[i * self.angles..(i + 1) * self.angles];
+        row[low] + part * (row[high] - row[low])
+    }
+
+    /// Whether anything is in material.
+    pub fn touches(&self) -> bool {
+        self.share[..self.used * self.angles].iter().any(|s| *s > 0.0)
+    }
+
+    /// Highest ring with material, m above the tip.
+    pub fn depth_m(&self) -> f64 {
+        let row = |i: usize| &self.share[i * self.angles..(i + 1) * self.angles];
+        let last = (0..self.used).rev().find(|i| row(*i).iter().any(|s| *s > 0.0));
+        last.map_or(0.0, |i| self.rings[i].circles[1][1])
+    }
+
+    /// Looks around: the tool at `tip` moving along `way` (any length), the stock as it was before the
+    /// places `latest` were taken from it.
+    pub fn look(&mut self, stock: &Stock, tip: V3, way: V3, latest: &[Solid]) {
+        let top = stock.height_above(tip, self.frame.z);
+        let below = |r: &&Ring| r.circles[0][1] < top;
+        let used = self.rings.iter().take_while(below).count();
+        let cleared = used.max(self.used) * self.angles;
+        self.share[..cleared].fill(0.0);
+        self.used = used;
+        let way = unit(way).unwrap_or([0.0; 3]);
+        for line in 0..=used.min(self.rings.len()) {
+            if used > 0 {
+                self.sound(stock, tip, way, latest, line);
+            }
+        }
+        for i in 0..used {
+            self.divide(i, way);
+        }
+    }
+
+    /// Depths around circle `line`.
+    fn sound(&mut self, stock: &Stock, tip: V3, way: V3, latest: &[Solid], line: usize) {
+        let lower = line.saturating_sub(1);
+        let ring = &self.rings[lower];
+        let [radius, height] = ring.circles[usize::from(line > 0)];
+        let centre = add(tip, scale(height, self.frame.z));
+        let next = self.rings.get(line).unwrap_or(ring);
+        for k in 0..self.angles {
+            let out = self.frame.outward(self.directions[k]);
+            let moving = faces(ring, out, self.frame.z, way) || faces(next, out, self.frame.z, way);
+            self.nodes[line * self.angles + k] = match moving {
+                false => -1.0,
+                true => {
+                    let point = add(centre, scale(radius, out));
+                    match latest.iter().any(|s| s.holds(point, TOUCH)) {
+                        true => -1.0,
+                        false => stock.depth(point),
+                    }
+                }
+            };
+        }
+    }
+
+    /// Shares of the cells of ring i from the depths at their corners.
+    fn divide(&mut self, i: usize, way: V3) {
+        let n = self.angles;
+        for k in 0..n {
+            let next = (k + 1) % n;
+            let corner = |line: usize, k: usize| self.nodes[line * n + k];
+            let (a, b) = (corner(i, k), corner(i, next));
+            let (c, d) = (corner(i + 1, k), corner(i + 1, next));
+            let out = self.frame.outward(self.directions[k]);
+            let after = self.frame.outward(self.directions[next]);
+            let z = self.frame.z;
+            let ring = &self.rings[i];
+            self.share[i * n + k] = match (facing(ring, out, z, way), facing(ring, after, z, way)) {
+                // behind the front there is nothing to cut, whatever the depths say
+                (false, false) => 0.0,
+                (true, false) => column(a, c),
+                (false, true) => column(b, d),
+                (true, true) => 0.5 * (inside(a, b, c) + inside(d, c, b)),
+            };
+        }
+    }
+
+    /// Volume swept while the tool moves by `way` (m): the engaged envelope times its motion.
+    pub fn swept(&self, way: V3) -> f64 {
+        let step = TAU / self.angles as f64;
+        let mut sum = 0.0;
+        for (i, ring) in self.rings().iter().enumerate() {
+            let [sin, cos] = ring.disc.normal;
+            let area = ring.length_m * ring.disc.radius_m * step;
+            let lift = -cos * dot(way, self.frame.z);
+            for (k, share) in self.share[i * self.angles..(i + 1) * self.angles].iter().enumerate() {
+                if *share > 0.0 {
+                    let next = (k + 1) % self.angles;
+                    let [a, b] = [k, next].map(|k| {
+                        sin * dot(way, self.frame.outward(self.directions[k])) + lift
+                    });
+                    sum += share * area * positive_mean(a, b);
+                }
+            }
+        }
+        sum
+    }
+}
+
+/// Mean of the positive part of a straight line from a to b.
+pub fn positive_mean(a: f64, b: f64) -> f64 {
+    match (a > 0.0, b > 0.0) {
+        (true, true) => 0.5 * (a + b),
+        (false, false) => 0.0,
+        _ => {
+            let high = a.max(b);
+            0.5 * high * high / (a - b).abs()
+        }
+    }
+}
+
+/// Nearly along or into the motion: within a few degrees of the border.
+const ALMOST: f64 = -0.12;
+/// Along the motion, but for rounding.
+const LEVEL: f64 = 1e-12;
+
+fn faces(ring: &Ring, out: V3, z: V3, way: V3) -> bool {
+    let [sin, cos] = ring.disc.normal;
+    sin * dot(out, way) - cos * dot(z, way) > ALMOST * sin + LEVEL
+}
+
+/// Into the motion, or along it.
+fn facing(ring: &Ring, out: V3, z: V3, way: V3) -> bool {
+    let [sin, cos] = ring.disc.normal;
+    sin * dot(out, way) - cos * dot(z, way) > -LEVEL * sin
+}
+
+/// Share of a line between two depths that is in.
+fn column(a: f64, b: f64) -> f64 {
+    match (a > 0.0, b > 0.0) {
+        (true, true) => 1.0,
+        (false, false) => 0.0,
+        _ => a.max(b) / (a - b).abs(),
+    }
+}
+
+/// Share of a triangle that is in, the depth linear over it.
+fn inside(a: f64, b: f64, c: f64) -> f64 {
+    let positive = [a, b, c].iter().filter(|x| **x > 0.0).count();
+    match positive {
+        3 => 1.0,
+        0 => 0.0,
+        _ => {
+            // the corner that stands alone, and the two others
+            let alone = |x: f64| (x > 0.0) == (positive == 1);
+            let (one, two, three) = match (alone(a), alone(b)) {
+                (true, _) => (a, b, c),
+                (_, true) => (b, c, a),
+                _ => (c, a, b),
+            };
+            let cut = one / (one - two) * (one / (one - three));
+            if positive == 1 { cut } else { 1.0 - cut }
+        }
+    }
+}

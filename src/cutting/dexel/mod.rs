@@ -1,0 +1,17 @@
+//! Stock as three sets of parallel rays (tri-dexel), in the workpiece frame: each ray keeps the pieces
+//! of itself that lie in material, so memory grows with the surface, and no face is blind to all three
+//! (source 004, 11.2.2; Benouamer and Michelucci 1997).
+
+mod depth;
+pub mod engagement;
+mod grid;
+mod mesh;
+mod ray;
+pub mod rings;
+pub mod solid;
+pub mod stock;
+
+pub use engagement::Engagement;
+pub use rings::rings;
+pub use solid::Solid;
+pub use stock::Stock;

@@ -1,0 +1,20 @@
+//! Floor 6: robot and cut together: the programmed way, a structure that gives way (or does not), and
+//! the tool in its stock, step by step.
+//!
+//! A [`structure::Structure`] is one file: [`rigid`], [`springs`] (deflection = compliance × force) or
+//! [`swinging`] (masses, dampers and springs in time). [`run`] leads any of them along a [`way::Way`].
+
+pub mod course;
+pub mod oscillator;
+pub mod pose;
+pub mod rigid;
+pub mod run;
+pub mod setup;
+pub mod springs;
+pub mod structure;
+pub mod swinging;
+pub mod uncertainty;
+pub mod way;
+
+pub use run::{Cut, Outcome as Milled, Settings, mill};
+pub use way::{Moment, Row, Way};

@@ -1,0 +1,267 @@
+//! The whole way, tick by tick: one tooth passing in the cut, longer steps beside the stock.
+
+use super::structure::{Bout, Energy, Structure, Tick};
+use super::way::{Moment, Way, normal_part};
+use crate::cutting::cutter::Cutter;
+use crate::ground::problem;
+use crate::ground::spatial::{V3, add, norm, scale, sub};
+use std::collections::VecDeque;
+use std::f64::consts::TAU;
+
+/// How the way is run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Speed of the spindle, rad/s.
+    pub spindle_rad_s: f64,
+}
+
+/// One station of the course: means over a revolution about it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cut {
+    /// Time, s.
+    pub time_s: f64,
+    /// Arc length of the programmed path, m.
+    pub s_m: f64,
+    /// Where the tip was told to be, workpiece frame, m.
+    pub tip: V3,
+    /// Spindle axis there.
+    pub axis: V3,
+    /// Direction of the feed; `None` at rest.
+    pub feed: Option<V3>,
+    /// Force on the tool, N, workpiece frame.
+    pub force: V3,
+    /// Where the tool is less where it was told to be, m, workpiece frame.
+    pub deviation: V3,
+    /// Whether it cuts.
+    pub cutting: bool,
+}
+
+impl Cut {
+    /// The deviation normal to the feed, m.
+    pub fn normal(&self) -> V3 {
+        normal_part(self.deviation, self.feed)
+    }
+}
+
+/// What came of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// Stations in order of time.
+    pub course: Vec<Cut>,
+    /// Volume taken, m³.
+    pub removed_m3: f64,
+    /// Length in time, s.
+    pub duration_s: f64,
+    /// Time in the cut, s.
+    pub cutting_s: f64,
+    /// Largest force, N.
+    pub peak_n: f64,
+    /// Mean force while in the cut, N, workpiece frame.
+    pub mean_n: V3,
+    /// Steps of time.
+    pub steps: usize,
+    /// Step in the cut, s.
+    pub step_s: f64,
+    /// Energy of the structure, where it has one.
+    pub energy: Option<Energy>,
+}
+
+impl Outcome {
+    /// The station of the largest deviation, of those in the cut where there are any, by a measure.
+    pub fn worst(&self, measure: impl Fn(&Cut) -> f64) -> Option<usize> {
+        let cutting = self.course.iter().any(|c| c.cutting);
+        let counted = |c: &Cut| c.cutting == cutting;
+        let stations = self.course.iter().enumerate().filter(|(_, c)| counted(c));
+        stations.map(|(i, c)| (i, measure(c))).max_by(|a, b| a.1.total_cmp(&b.1)).map(|w| w.0)
+    }
+
+    /// The deviation at a time (s), linear between stations, m.
+    pub fn deviation_at(&self, time_s: f64) -> V3 {
+        let after = self.course.partition_point(|c| c.time_s < time_s);
+        let (Some(a), Some(b)) = (self.course.get(after.saturating_sub(1)), self.course.get(after)) else {
+            return self.course.last().map_or([0.0; 3], |c| c.deviation);
+        };
+        match b.time_s > a.time_s {
+            true => {
+                let share = (time_s - a.time_s) / (b.time_s - a.time_s);
+                add(a.deviation, scale(share, sub(b.deviation, a.deviation)))
+            }
+            false => b.deviation,
+        }
+    }
+
+    /// Root mean square over the stations in the cut, by a measure.
+    pub fn rms(&self, measure: impl Fn(&Cut) -> f64) -> f64 {
+        let cutting = self.course.iter().any(|c| c.cutting);
+        let squares: Vec<f64> = self
+            .course
+            .iter()
+            .filter(|c| c.cutting == cutting)
+            .map(|c| measure(c).powi(2))
+            .collect();
+        (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()
+    }
+}
+
+/// A tool this near to the box around the stock may cut, m.
+const NEAR: f64 = 1e-3;
+/// Stations of the course in the cut, m; beside the stock ten times as far.
+const STATIONS: f64 = 0.1e-3;
+/// Stations at rest, s.
+const PAUSE_S: f64 = 0.1;
+
+/// Runs a way. `progress` hears the share that is done.
+///
+/// # Errors
+/// Material above the flutes; a structure that cannot answer, with its station.
+pub fn mill(
+    way: &Way,
+    cutter: &mut Cutter,
+    structure: &mut dyn Structure,
+    settings: &Settings,
+    mut progress: impl FnMut(f64),
+) -> problem::Outcome<Outcome> {
+    let [begin, end] = way.span();
+    let pitch_s = TAU / (settings.spindle_rad_s * cutter.tool().teeth as f64);
+    let mut book = Book::new(cutter.tool().teeth);
+    let mut from = way.at(begin);
+    let mut beside = true;
+    while from.time_s < end - 1e-9 {
+        let long = way.at(from.time_s + structure.longest_travel_s());
+        let margin = NEAR + norm(sub(long.tip, from.tip)) + norm(structure.deviation());
+        if cutter.near(from.tip, from.axis, margin) {
+            if beside {
+                cutter.jump(add(from.tip, structure.deviation()), from.axis);
+            }
+            beside = false;
+            let to = way.at(from.time_s + pitch_s);
+            let tick = Tick { from, to };
+            let steps = structure.steps_per_tick(cutter);
+            let place = add(tick.to.tip, structure.deviation());
+            let bout = cutter
+                .advance(place, tick.to.axis)
+                .and_then(|()| structure.cut(cutter, &tick));
+            let bout = bout.map_err(|p| stationed(p, &tick.to))?;
+            book.note(way, &tick, &bout, steps);
+            from = tick.to;
+        } else {
+            beside = true;
+            let tick = Tick { from, to: long };
+            let bout = structure.travel(&tick).map_err(|p| stationed(p, &tick.to))?;
+            book.pass(way, &tick, &bout);
+            from = tick.to;
+        }
+        progress((from.time_s - begin) / (end - begin));
+    }
+    cutter.settle();
+    Ok(book.close(cutter, structure, end - begin, pitch_s))
+}
+
+fn stationed(mut problem: problem::Problem, at: &Moment) -> problem::Problem {
+    problem.what = format!(
+        "at {:.1} mm of the path ({:.3} s): {}",
+        1e3 * at.s_m,
+        at.time_s,
+        problem.what
+    );
+    problem
+}
+
+/// What a run writes down.
+struct Book {
+    course: Vec<Cut>,
+    /// Begin, end and result of the latest ticks of one revolution.
+    latest: VecDeque<([f64; 2], Bout)>,
+    teeth: usize,
+    cutting_s: f64,
+    impulse: V3,
+    peak: f64,
+    steps: usize,
+    per_tick: usize,
+}
+
+impl Book {
+    fn new(teeth: usize) -> Self {
+        Self {
+            course: Vec::new(),
+            latest: VecDeque::new(),
+            teeth,
+            cutting_s: 0.0,
+            impulse: [0.0; 3],
+            peak: 0.0,
+            steps: 0,
+            per_tick: 1,
+        }
+    }
+
+    fn note(&mut self, way: &Way, tick: &Tick, bout: &Bout, steps: usize) {
+        (self.steps, self.per_tick) = (self.steps + steps, steps);
+        if bout.peak > 0.0 {
+            self.cutting_s += tick.duration_s();
+            self.impulse = add(self.impulse, scale(tick.duration_s(), bout.force));
+            self.peak = self.peak.max(bout.peak);
+        }
+        self.latest.push_back(([tick.from.time_s, tick.to.time_s], *bout));
+        if self.latest.len() > self.teeth {
+            self.latest.pop_front();
+        }
+        self.station(way);
+    }
+
+    fn pass(&mut self, way: &Way, tick: &Tick, bout: &Bout) {
+        self.steps += 1;
+        self.latest.clear();
+        self.latest.push_back(([tick.from.time_s, tick.to.time_s], *bout));
+        self.station(way);
+    }
+
+    /// A station in the middle of the latest revolution, unless the last one is near.
+    fn station(&mut self, way: &Way) {
+        let first = self.latest.front().map_or(0.0, |l| l.0[0]);
+        let last = self.latest.back().map_or(0.0, |l| l.0[1]);
+        let middle = 0.5 * (first + last);
+        let cutting = self.latest.iter().any(|l| l.1.peak > 0.0);
+        let at = way.at(middle);
+        if let Some(before) = self.course.last() {
+            let apart = if cutting { STATIONS } else { 10.0 * STATIONS };
+            let near = norm(sub(at.tip, before.tip)) < apart && middle - before.time_s < PAUSE_S;
+            if near && before.cutting == cutting || middle <= before.time_s {
+                return;
+            }
+        }
+        let share = 1.0 / self.latest.len() as f64;
+        let mean = |value: fn(&Bout) -> V3| {
+            let sum = |s: V3, l: &([f64; 2], Bout)| add(s, scale(share, value(&l.1)));
+            self.latest.iter().fold([0.0; 3], sum)
+        };
+        let station = Cut {
+            time_s: middle,
+            s_m: at.s_m,
+            tip: at.tip,
+            axis: at.axis,
+            feed: way.feed(middle),
+            force: mean(|b| b.force),
+            deviation: mean(|b| b.deviation),
+            cutting,
+        };
+        self.course.push(station);
+    }
+
+    fn close(self, cutter: &Cutter, structure: &dyn Structure, duration_s: f64, pitch_s: f64) -> Outcome {
+        let mean = |v: V3| match self.cutting_s > 0.0 {
+            true => scale(1.0 / self.cutting_s, v),
+            false => [0.0; 3],
+        };
+        Outcome {
+            mean_n: mean(self.impulse),
+            course: self.course,
+            removed_m3: cutter.removed(),
+            duration_s,
+            cutting_s: self.cutting_s,
+            peak_n: self.peak,
+            steps: self.steps,
+            step_s: pitch_s / self.per_tick as f64,
+            energy: structure.energy(),
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! Springs only: the tool stands where compliance times force puts it (`--static`).
+//!
+//! The force answers the deflection: the chip is the way of the deflected tool, u = C F(u), solved with
+//! the slope of the force in every step; depth and width of the cut follow the deflected tool too.
+
+use super::pose::{Carrier, one_less, solve3};
+use super::structure::{Bout, Structure, Tick};
+use super::way::Moment;
+use crate::cutting::cutter::Cutter;
+use crate::ground::problem::Outcome;
+use crate::ground::spatial::{M3, V3, add, rotate, sub};
+
+/// The robot as a spring at the tool that changes with the pose.
+#[derive(Debug, Clone)]
+pub struct Springs {
+    carrier: Carrier,
+    /// Sag at the start: calibrated away.
+    calibrated: V3,
+    compliance: M3,
+    sag: V3,
+    pose: Vec<f64>,
+    deviation: V3,
+}
+
+/// Joint motion beyond which the compliance is computed anew, rad.
+const SAME_POSE: f64 = 1e-4;
+
+impl Springs {
+    /// At rest at the start of a motion.
+    ///
+    /// # Errors
+    /// Nothing in the robot is elastic.
+    pub fn new(mut carrier: Carrier, start: &Moment) -> Outcome<Self> {
+        let held = carrier.held(&start.joints)?;
+        Ok(Self {
+            calibrated: held.sag(),
+            compliance: held.compliance(),
+            sag: [0.0; 3],
+            pose: start.joints.clone(),
+            deviation: [0.0; 3],
+            carrier,
+        })
+    }
+
+    fn go(&mut self, moment: &Moment) -> Outcome<()> {
+        let moved = self.pose.iter().zip(&moment.joints).map(|(a, b)| (a - b).abs());
+        if moved.fold(0.0, f64::max) > SAME_POSE {
+            let held = self.carrier.held(&moment.joints)?;
+            self.compliance = held.compliance();
+            self.sag = sub(held.sag(), self.calibrated);
+            self.pose.clone_from(&moment.joints);
+        }
+        Ok(())
+    }
+}
+
+impl Structure for Springs {
+    fn deviation(&self) -> V3 {
+        self.deviation
+    }
+
+    fn cut(&mut self, cutter: &Cutter, tick: &Tick) -> Outcome<Bout> {
+        self.go(&tick.to)?;
+        let before = self.deviation;
+        let (load, peak) = cutter.revolution(sub(tick.to.tip, tick.from.tip));
+        // u = C (F + G (u − before)) + sag
+        let still = sub(load.force, rotate(&load.slope, before));
+        let right = add(rotate(&self.compliance, still), self.sag);
+        self.deviation = solve3(&one_less(&self.compliance, &load.slope), right)?;
+        let moved = sub(self.deviation, before);
+        Ok(Bout {
+            force: add(load.force, rotate(&load.slope, moved)),
+            peak,
+            deviation: self.deviation,
+        })
+    }
+
+    fn travel(&mut self, tick: &Tick) -> Outcome<Bout> {
+        self.go(&tick.to)?;
+        self.deviation = self.sag;
+        Ok(Bout {
+            deviation: self.deviation,
+            ..Bout::default()
+        })
+    }
+
+    fn longest_travel_s(&self) -> f64 {
+        0.02
+    }
+
+    fn steps_per_tick(&self, _: &Cutter) -> usize {
+        1
+    }
+}

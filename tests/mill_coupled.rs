@@ -1,0 +1,133 @@
+//! Robot and cut together, at one pose: what must hold whatever the robot.
+
+use ident::cutting::cutter::{Cutter, Fineness};
+use ident::cutting::dexel::Stock;
+use ident::cutting::{Material, Tool};
+use ident::ground::spatial::{IDENTITY, M3, V3, norm, rotate, sub};
+use ident::motion::elastic;
+use ident::process::pose::Carrier;
+use ident::process::rigid::Rigid;
+use ident::process::run::{Outcome, Settings, mill};
+use ident::process::springs::Springs;
+use ident::process::structure::Structure;
+use ident::process::swinging::Swinging;
+use ident::process::way::{Row, Way};
+use ident::robot::Robot;
+use ident::robot::load::load;
+use std::f64::consts::{FRAC_PI_6, TAU};
+
+const MM: f64 = 1e-3;
+const SPINDLE: f64 = 10_000.0 / 60.0 * TAU;
+
+fn robot(stiffer: f64) -> Robot {
+    let mut robot = load("kr210", None).unwrap().robot;
+    for (_, spring) in robot.springs_mut() {
+        spring.stiffness *= stiffer;
+        spring.damping *= stiffer.sqrt();
+    }
+    robot
+}
+
+/// Along x at 3000 mm/min through a block from 0 to 40 mm, 2 mm deep, the joints at rest.
+fn way() -> Way {
+    let row = |i: usize| {
+        let x = -0.010 + 0.05 * 0.012 * i as f64;
+        Row {
+            time_s: 0.012 * i as f64,
+            s_m: x + 0.010,
+            tip: [x, 0.0, -2.0 * MM],
+            axis: [0.0, 0.0, 1.0],
+            joints: [0.0, -60.0, 80.0, 0.0, 70.0, 0.0].map(f64::to_radians).to_vec(),
+        }
+    };
+    Way::new((0..60).map(row).collect()).unwrap()
+}
+
+fn cutter(width: f64, steps: usize) -> Cutter {
+    let tool = Tool {
+        flute_m: 32.0 * MM,
+        ..Tool::square(8.0 * MM, 2, FRAC_PI_6)
+    };
+    let fineness = Fineness {
+        steps,
+        ..Fineness::usual(&tool)
+    };
+    let stock = Stock::block([0.0, -15.0 * MM, -8.0 * MM], [40.0 * MM, width, 0.0], fineness.spacing_m);
+    let al7075 = Material::linear_edge([1319.41, 788.83, 48.75, 19.65, 26.77, 2.05]);
+    Cutter::new(&tool, &al7075, stock.unwrap(), fineness, [0.0, 0.0, 1.0])
+}
+
+fn run(structure: &mut dyn Structure, cutter: &mut Cutter) -> Outcome {
+    let settings = Settings { spindle_rad_s: SPINDLE };
+    mill(&way(), cutter, structure, &settings, |_| {}).unwrap()
+}
+
+fn carrier(stiffer: f64) -> Carrier {
+    Carrier::new(elastic(&robot(stiffer)), IDENTITY)
+}
+
+fn springs(stiffer: f64) -> Springs {
+    Springs::new(carrier(stiffer), &way().at(0.0)).unwrap()
+}
+
+fn swinging(stiffer: f64, steps: usize) -> Swinging {
+    Swinging::new(carrier(stiffer), &way().at(0.0), SPINDLE, steps).unwrap()
+}
+
+/// Force and deviation in the middle of the cut: mean over the stations from x = 14 to 24 mm.
+fn middle(out: &Outcome) -> (V3, V3) {
+    let inside: Vec<_> = out.course.iter().filter(|c| (14.0 * MM..24.0 * MM).contains(&c.tip[0])).collect();
+    let mean = |of: &dyn Fn(usize) -> V3| {
+        [0, 1, 2].map(|k| (0..inside.len()).map(|i| of(i)[k]).sum::<f64>() / inside.len() as f64)
+    };
+    (mean(&|i| inside[i].force), mean(&|i| inside[i].deviation))
+}
+
+fn compliance() -> M3 {
+    carrier(1.0).held(&way().at(0.0).joints).unwrap().compliance()
+}
+
+fn close(a: V3, b: V3, share: f64) {
+    let size = norm(b);
+    assert!(norm(sub(a, b)) < share * size, "{a:?} is not {b:?}");
+}
+
+#[test]
+fn springs_a_thousand_times_stiffer_are_rigid() {
+    let rigid = run(&mut Rigid, &mut cutter(15.0 * MM, 120));
+    for stiff in [
+        run(&mut springs(1e3), &mut cutter(15.0 * MM, 120)),
+        run(&mut swinging(1e3, 120), &mut cutter(15.0 * MM, 120)),
+    ] {
+        close(middle(&stiff).0, middle(&rigid).0, 3e-3);
+        assert!((stiff.removed_m3 / rigid.removed_m3 - 1.0).abs() < 1e-3);
+        assert!(norm(middle(&stiff).1) < 2e-3 * MM);
+    }
+}
+
+#[test]
+fn springs_stand_where_compliance_and_force_put_them() {
+    let out = run(&mut springs(1.0), &mut cutter(0.0, 120));
+    let (force, deviation) = middle(&out);
+    close(deviation, rotate(&compliance(), force), 5e-3);
+    assert!(norm(deviation) > 0.05 * MM);
+}
+
+#[test]
+fn a_swinging_robot_stands_on_average_where_springs_would() {
+    let mut swinging = swinging(1.0, 120);
+    let out = run(&mut swinging, &mut cutter(0.0, 120));
+    let (force, deviation) = middle(&out);
+    close(deviation, rotate(&compliance(), force), 0.05);
+    let energy = out.energy.unwrap();
+    assert!(energy.gap() < 2e-3 && energy.damped > 0.0, "{energy:?}");
+}
+
+#[test]
+fn halving_the_step_moves_the_mean_deviation_by_less_than_one_percent() {
+    let [coarse, fine] = [120, 240].map(|steps| {
+        let out = run(&mut swinging(1.0, steps), &mut cutter(0.0, steps));
+        middle(&out).1
+    });
+    close(coarse, fine, 0.01);
+}
