@@ -10,7 +10,10 @@ use std::path::Path;
 /// Prints a text; a reader that went away is no error.
 pub fn print(text: &str) -> Outcome<()> {
     let mut out = std::io::stdout().lock();
-    match out.write_all(harmless(text).as_bytes()).and_then(|()| out.flush()) {
+    match out
+        .write_all(harmless(text).as_bytes())
+        .and_then(|()| out.flush())
+    {
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
         Err(error) => Err(Problem::new(
             format!("standard output cannot be written ({error})"),

@@ -66,7 +66,8 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let mut page = page(&place, chapters);
     if !over.is_empty() {
         page.blocks.push(Block::heading("Files that no step took"));
-        page.blocks.push(Block::text(format!("{}.", over.join("; "))));
+        page.blocks
+            .push(Block::text(format!("{}.", over.join("; "))));
     }
     folder::write_as(&place.reports(), "index.html", &page)?;
     print(&said)?;
@@ -80,7 +81,8 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
 fn passed_over(place: &Place) -> Vec<String> {
     let kinds = diagnose::kinds();
     let over = place.passed_over(&kinds).into_iter();
-    over.map(|(path, why)| format!("{} {why}", path.display())).collect()
+    over.map(|(path, why)| format!("{} {why}", path.display()))
+        .collect()
 }
 
 /// The campaign that a folder holds.

@@ -61,7 +61,9 @@ pub fn read(folder: &Path, measurements: &Path) -> Outcome<Found> {
             continue;
         };
         if let Some(why) = outdated(&test, measurements) {
-            found.remarks.push(format!("{} is not used: {why}", path.display()));
+            found
+                .remarks
+                .push(format!("{} is not used: {why}", path.display()));
             continue;
         }
         match sites.iter_mut().find(|own| own[0].site == test.site) {
@@ -84,7 +86,10 @@ fn outdated(test: &AxisTest, measurements: &Path) -> Option<String> {
     }
     match files::open(&path).and_then(|_| hash(&path)) {
         Ok(hash) if hash == test.input.1 => None,
-        Ok(_) => Some(format!("{} was changed since it was fitted", path.display())),
+        Ok(_) => Some(format!(
+            "{} was changed since it was fitted",
+            path.display()
+        )),
         Err(_) => Some(format!("its measurement {} is gone", path.display())),
     }
 }
@@ -108,8 +113,10 @@ const CONTRADICTS: f64 = 4.0;
 /// Repeats of one site that contradict each other.
 fn contradiction(own: &[AxisTest]) -> Option<String> {
     let (first, last) = (
-        own.iter().min_by(|a, b| a.stiffness.0.total_cmp(&b.stiffness.0))?,
-        own.iter().max_by(|a, b| a.stiffness.0.total_cmp(&b.stiffness.0))?,
+        own.iter()
+            .min_by(|a, b| a.stiffness.0.total_cmp(&b.stiffness.0))?,
+        own.iter()
+            .max_by(|a, b| a.stiffness.0.total_cmp(&b.stiffness.0))?,
     );
     let apart = last.stiffness.0 - first.stiffness.0;
     let spread = first.stiffness.1.hypot(last.stiffness.1);
@@ -155,7 +162,9 @@ fn between(own: &[AxisTest]) -> f64 {
     let total: f64 = weights.iter().sum();
     let pairs = || own.iter().zip(&weights);
     let mean = pairs().map(|(t, w)| w * t.stiffness.0).sum::<f64>() / total;
-    let misfit: f64 = pairs().map(|(t, w)| w * (t.stiffness.0 - mean).powi(2)).sum();
+    let misfit: f64 = pairs()
+        .map(|(t, w)| w * (t.stiffness.0 - mean).powi(2))
+        .sum();
     let squares: f64 = weights.iter().map(|w| w * w).sum();
     ((misfit - (own.len() as f64 - 1.0)) / (total - squares / total)).max(0.0)
 }
@@ -178,7 +187,9 @@ fn site_in(robot: &Robot, site: &str) -> String {
         None => (site, false),
     };
     let known = robot.joints.iter().any(|joint| joint.name == drive);
-    let number = drive.strip_prefix('A').and_then(|n| n.parse::<usize>().ok());
+    let number = drive
+        .strip_prefix('A')
+        .and_then(|n| n.parse::<usize>().ok());
     let joint = number.and_then(|n| robot.joints.get(n.checked_sub(1)?));
     match joint {
         Some(joint) if !known && tilt => joint.tilt_site(),
@@ -219,7 +230,10 @@ fn one(path: &Path, measurements: &Path) -> Outcome<Option<AxisTest>> {
     let Some(fitted) = fixed(&fit.parameters, "stiffness") else {
         return Ok(None);
     };
-    let known = fit.parameters.iter().any(|p| p.name == "stiffness" && p.parts.is_some());
+    let known = fit
+        .parameters
+        .iter()
+        .any(|p| p.name == "stiffness" && p.parts.is_some());
     let (value, stderr, ci95) = match known {
         true => fitted,
         false => widened(fitted, levers(&measurements.join(&fit.input))),

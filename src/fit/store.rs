@@ -128,9 +128,16 @@ impl StoredFit {
     pub fn read(path: &Path) -> Outcome<Self> {
         let bytes = files::read_bytes(path)?;
         let text = String::from_utf8(bytes).map_err(|_| {
-            Problem::new("is not UTF-8 text", "give a fit that `ident` wrote").at_line(1).in_file(path)
+            Problem::new("is not UTF-8 text", "give a fit that `ident` wrote")
+                .at_line(1)
+                .in_file(path)
         })?;
-        let line = |at: usize| 1 + text.as_bytes()[..at.min(text.len())].iter().filter(|b| **b == b'\n').count();
+        let line = |at: usize| {
+            1 + text.as_bytes()[..at.min(text.len())]
+                .iter()
+                .filter(|b| **b == b'\n')
+                .count()
+        };
         let fit: Self = toml::from_str(&text).map_err(|e| {
             Problem::new(
                 format!("is not a fit: {}", e.message().trim()),

@@ -109,7 +109,9 @@ const STALE: std::time::Duration = std::time::Duration::from_secs(24 * 3600);
 fn sweep(folder: &Path) {
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name().to_string_lossy().to_string();
-        let inner = name.strip_prefix(TEMPORARY).and_then(|n| n.strip_suffix(".tmp"));
+        let inner = name
+            .strip_prefix(TEMPORARY)
+            .and_then(|n| n.strip_suffix(".tmp"));
         if inner.is_some_and(|inner| is_abandoned(inner, &entry)) {
             let _ = std::fs::remove_file(entry.path());
         }

@@ -18,7 +18,15 @@ const LARGEST: f64 = 1e30;
 
 /// Facts that every kind knows.
 const COMMON: &[&str] = &[
-    "kind", "source", "synthetic", "notes", "robot", "role", "columns", "skip_rows", "encoding",
+    "kind",
+    "source",
+    "synthetic",
+    "notes",
+    "robot",
+    "role",
+    "columns",
+    "skip_rows",
+    "encoding",
 ];
 
 impl Front {
@@ -159,8 +167,13 @@ impl Front {
             return Ok(());
         };
         let remedy = match nearest(key, &all) {
-            Some(near) => format!("write `{near}`, or put what is free into `notes = {{ {key} = .. }}`"),
-            None => format!("put what is free into `notes = {{ {key} = .. }}`; known here: {}", all.join(", ")),
+            Some(near) => {
+                format!("write `{near}`, or put what is free into `notes = {{ {key} = .. }}`")
+            }
+            None => format!(
+                "put what is free into `notes = {{ {key} = .. }}`; known here: {}",
+                all.join(", ")
+            ),
         };
         Err(self.problem(key, "is no fact of this kind", remedy))
     }

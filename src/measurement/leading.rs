@@ -24,7 +24,10 @@ pub fn front_of(path: &Path) -> Outcome<Front> {
             "make it a readable file, or move it away",
         )
     };
-    let (file, _) = files::open(path).map_err(|problem| Problem { file: None, ..problem })?;
+    let (file, _) = files::open(path).map_err(|problem| Problem {
+        file: None,
+        ..problem
+    })?;
     let mut text = String::new();
     for line in BufReader::new(file.take(1 << 20)).split(b'\n') {
         let line = String::from_utf8_lossy(&line.map_err(unreadable)?).to_string();

@@ -119,7 +119,11 @@ impl Place {
     /// # Errors
     /// Such a name, with what it would overwrite.
     pub fn nameable(path: &Path) -> Outcome<()> {
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy().to_string();
+        let stem = path
+            .file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .to_string();
         let over = match stem.strip_suffix("-extended") {
             Some(_) => Some("the extended model of another measurement"),
             None if RESERVED.contains(&stem.as_str()) => Some("the robot of the campaign"),
@@ -137,20 +141,33 @@ impl Place {
 
     /// The CSV files of the campaign that none of these kinds takes, and why.
     pub fn passed_over(&self, kinds: &[&str]) -> Vec<(PathBuf, String)> {
-        let entries = std::fs::read_dir(self.measurements()).into_iter().flatten().flatten();
+        let entries = std::fs::read_dir(self.measurements())
+            .into_iter()
+            .flatten()
+            .flatten();
         let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
-        files.retain(|path| path.is_file() && path.extension().is_some_and(|e| MEASURED.iter().any(|m| e.eq_ignore_ascii_case(m))));
+        files.retain(|path| {
+            path.is_file()
+                && path
+                    .extension()
+                    .is_some_and(|e| MEASURED.iter().any(|m| e.eq_ignore_ascii_case(m)))
+        });
         files.sort();
         let why = |path: &PathBuf| match kind_of(path) {
             Ok(Some(kind)) if kinds.contains(&kind.as_str()) => None,
             Ok(Some(kind)) => Some(match nearest(&kind, kinds) {
-                Some(near) => format!("is of kind `{kind}`, which no step takes; perhaps `{near}` is meant"),
+                Some(near) => {
+                    format!("is of kind `{kind}`, which no step takes; perhaps `{near}` is meant")
+                }
                 None => format!("is of kind `{kind}`, which no step takes"),
             }),
             Ok(None) => Some("does not say its kind".into()),
             Err(problem) => Some(problem.what),
         };
-        files.into_iter().filter_map(|path| Some((path.clone(), why(&path)?))).collect()
+        files
+            .into_iter()
+            .filter_map(|path| Some((path.clone(), why(&path)?)))
+            .collect()
     }
 
     /// Folder of the reports.

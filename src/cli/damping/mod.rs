@@ -122,7 +122,11 @@ fn act(arguments: &Arguments) -> Outcome<Damped> {
     let input = input::read(arguments, &request.settings)?;
     let mut account = identify(&input.tests, &input.robot.robot, &request)
         .map_err(|problem| problem.in_file(&PathBuf::from(&input.robot.path)))?;
-    if input.tests.iter().any(|test| is_fatal(&doubts(&test.record))) {
+    if input
+        .tests
+        .iter()
+        .any(|test| is_fatal(&doubts(&test.record)))
+    {
         withhold(&mut account, &input.robot.robot);
     }
     Ok(Damped {
@@ -135,7 +139,10 @@ fn act(arguments: &Arguments) -> Outcome<Damped> {
 /// Takes back every number: the records cannot carry one.
 fn withhold(account: &mut Account, robot: &Robot) {
     let none = |p: Identified| p.without_value(Status::NotIdentifiable);
-    account.parameters = std::mem::take(&mut account.parameters).into_iter().map(none).collect();
+    account.parameters = std::mem::take(&mut account.parameters)
+        .into_iter()
+        .map(none)
+        .collect();
     account.supported = false;
     account.robot = robot.clone();
 }

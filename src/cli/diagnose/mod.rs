@@ -222,7 +222,9 @@ fn whole(place: &Place, arguments: &Arguments) -> Outcome<Ending> {
 }
 
 fn write(results: &[One], more: Vec<(PathBuf, String)>) -> Outcome<()> {
-    results.iter().try_for_each(|one| Place::nameable(one.path()))?;
+    results
+        .iter()
+        .try_for_each(|one| Place::nameable(one.path()))?;
     let inked: Vec<Vec<(PathBuf, String)>> =
         results.par_iter().map(One::files).collect::<Outcome<_>>()?;
     let all = [inked.concat(), more].concat();

@@ -65,7 +65,10 @@ fn table(results: &[&Result]) -> Table {
     let parts: Vec<String> = parts.collect();
     let table = match parts.is_empty() {
         true => table,
-        false => table.noted(format!("± % of the stiffness by readings and by levers: {}", parts.join(", "))),
+        false => table.noted(format!(
+            "± % of the stiffness by readings and by levers: {}",
+            parts.join(", ")
+        )),
     };
     table
         .noted(format!(
@@ -79,7 +82,12 @@ fn parts(result: &Result) -> Option<String> {
     let stiffness = result.account.parameters.first()?;
     let (value, parts) = (stiffness.value?, stiffness.parts?);
     let percent = |std: f64| significant(100.0 * Z95 * std / value.abs(), 2);
-    Some(format!("{} {} and {}", result.file.stem(), percent(parts.readings), percent(parts.levers)))
+    Some(format!(
+        "{} {} and {}",
+        result.file.stem(),
+        percent(parts.readings),
+        percent(parts.levers)
+    ))
 }
 
 /// `+1.2 %`, `-1.2 %`, and `0.0 %` for what rounds to it.

@@ -1,8 +1,8 @@
 //! The JSON of `ident validate`.
 
 use super::Validated;
-use crate::fit::separability::Group;
 use crate::cli::diagnose::doubts_json;
+use crate::fit::separability::Group;
 use crate::fit::validation::Comparison;
 use crate::measurement::workspace_test::DIRECTIONS;
 use crate::report::json;

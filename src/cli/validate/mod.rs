@@ -154,7 +154,10 @@ pub fn known_tests(place: &Place, robot: &Robot) -> Outcome<Vec<AxisTest>> {
     for test in &tests {
         let drive = test.site.trim_end_matches("-tilt");
         if robot.joints.iter().all(|joint| joint.name != drive) {
-            tell(&format!("warning: the test of {} is not used: the robot `{}` has no such joint", test.site, robot.name));
+            tell(&format!(
+                "warning: the test of {} is not used: the robot `{}` has no such joint",
+                test.site, robot.name
+            ));
         }
     }
     Ok(tests)
@@ -231,11 +234,7 @@ impl Validated {
     /// The robot with everything found.
     fn identified(&self) -> Robot {
         let known = with_axis_tests(&self.base.robot, &self.tests);
-        with_points(
-            &known,
-            &self.found.parameters(),
-            &provenance(&self.test),
-        )
+        with_points(&known, &self.found.parameters(), &provenance(&self.test))
     }
 }
 

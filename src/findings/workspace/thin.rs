@@ -16,12 +16,19 @@ pub fn thinned(test: &WorkspaceTest) -> Option<(WorkspaceTest, Doubt)> {
     if all <= MOST_POINTS {
         return None;
     }
-    let kept: Vec<usize> = (0..MOST_POINTS).map(|i| points[i * all / MOST_POINTS]).collect();
-    let steps = test.steps.iter().filter(|s| kept.binary_search(&s.point).is_ok());
+    let kept: Vec<usize> = (0..MOST_POINTS)
+        .map(|i| points[i * all / MOST_POINTS])
+        .collect();
+    let steps = test
+        .steps
+        .iter()
+        .filter(|s| kept.binary_search(&s.point).is_ok());
     let doubt = Doubt {
         rule: "many-points",
         weight: Weight::Note,
-        what: format!("of {all} points {MOST_POINTS}, evenly spread, are diagnosed: that is the limit"),
+        what: format!(
+            "of {all} points {MOST_POINTS}, evenly spread, are diagnosed: that is the limit"
+        ),
         remedy: "give fewer points in a file to choose them yourself",
     };
     let thin = WorkspaceTest {

@@ -8,7 +8,10 @@ const NEAR: f64 = 0.12;
 const CONFUSIONS: &[(i32, &str)] = &[
     (1, "a lever or a decimal point is off by one place"),
     (2, "two decimal places"),
-    (3, "kN for N, mm for m, µm for mm, or one lever in millimetres"),
+    (
+        3,
+        "kN for N, mm for m, µm for mm, or one lever in millimetres",
+    ),
     (6, "µm for m, or two units a thousand times off each"),
 ];
 

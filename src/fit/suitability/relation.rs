@@ -65,7 +65,11 @@ pub fn ramps(drive: &[f64]) -> Vec<(usize, usize)> {
     let cycles = Cycles::find(drive);
     let ends = [drive.len().saturating_sub(1)];
     let first = [cycles.first_loaded];
-    let edges: Vec<usize> = first.into_iter().chain(cycles.turning).chain(ends).collect();
+    let edges: Vec<usize> = first
+        .into_iter()
+        .chain(cycles.turning)
+        .chain(ends)
+        .collect();
     let pairs = edges.windows(2).map(|w| (w[0], w[1]));
     pairs.filter(|(a, b)| b > a).collect()
 }
@@ -75,7 +79,10 @@ pub fn halved((a, b): (usize, usize), drive: &[f64]) -> Vec<(usize, usize)> {
     let middle = 0.5 * (drive[a] + drive[b]);
     let beyond = |i: &usize| (drive[*i] > middle) == (drive[b] > middle);
     let cut = (a..b).find(beyond).unwrap_or(b);
-    [(a, cut), (cut, b)].into_iter().filter(|(a, b)| b > a).collect()
+    [(a, cut), (cut, b)]
+        .into_iter()
+        .filter(|(a, b)| b > a)
+        .collect()
 }
 
 /// Slope of the response over the drive in one piece, and the squares of the drive about its mean.
@@ -128,7 +135,11 @@ fn share(ramps: &[(usize, usize)], drive: &[f64], response: &[f64]) -> f64 {
     };
     let unit: Vec<f64> = drive.iter().map(|d| (d - middle) / half).collect();
     let mut columns: Vec<Vec<f64>> = (0..4)
-        .map(|k| (0..cells.len()).map(|i| (i as f64 / cells.len() as f64 - 0.5).powi(k)).collect())
+        .map(|k| {
+            (0..cells.len())
+                .map(|i| (i as f64 / cells.len() as f64 - 0.5).powi(k))
+                .collect()
+        })
         .collect();
     let slow = columns.len();
     columns.push(mean(&unit));
@@ -138,7 +149,11 @@ fn share(ramps: &[(usize, usize)], drive: &[f64], response: &[f64]) -> f64 {
     let y: Vec<f64> = mean(response).iter().map(|v| v / scale).collect();
     let without = left(&columns[..slow], &y);
     let with = left(&columns, &y);
-    if without <= 0.0 { 0.0 } else { 1.0 - with / without }
+    if without <= 0.0 {
+        0.0
+    } else {
+        1.0 - with / without
+    }
 }
 
 /// Rows to be averaged: some per ramp.

@@ -40,7 +40,10 @@ pub fn examine(place: &Place, progress: bool) -> Outcome<Campaign> {
         );
     }
     let found = axis_tests::read(&place.fits(), &place.measurements())?;
-    found.remarks.iter().for_each(|remark| tell(&format!("warning: {remark}")));
+    found
+        .remarks
+        .iter()
+        .for_each(|remark| tell(&format!("warning: {remark}")));
     let tests = found.tests;
     let progress = Progress::new(paths.len(), progress);
     let files = paths.par_iter().map(|path| {

@@ -99,7 +99,10 @@ impl Campaign {
 
     /// How the verb ends.
     pub fn ending(&self) -> Ending {
-        let fine = self.files.iter().all(|one| !is_odd(&one.found.answer().doubts));
+        let fine = self
+            .files
+            .iter()
+            .all(|one| !is_odd(&one.found.answer().doubts));
         match self.verdict {
             Verdict::Sufficient if fine => Ending::Done,
             _ => Ending::Attention,

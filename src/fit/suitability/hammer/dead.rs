@@ -20,7 +20,10 @@ fn look(record: &HammerRecord) -> Said {
     }
     for (o, name) in record.outputs.iter().enumerate() {
         if still(&|run| extent(&run.responses[o])) {
-            found.push((Weight::Fatal, format!("the acceleration a{name} never changes: a dead channel")));
+            found.push((
+                Weight::Fatal,
+                format!("the acceleration a{name} never changes: a dead channel"),
+            ));
         }
     }
     found

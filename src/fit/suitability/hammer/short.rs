@@ -27,11 +27,18 @@ fn look(record: &HammerRecord) -> Said {
     let one_hit = record.runs.iter().any(|run| run.hit.is_some());
     let mut found = Vec::new();
     if nyquist < BAND_HZ {
-        let what = format!("sampled every {}: nothing above {} is seen", engineering(record.interval_s, 3, "s"), engineering(nyquist, 2, "Hz"));
+        let what = format!(
+            "sampled every {}: nothing above {} is seen",
+            engineering(record.interval_s, 3, "s"),
+            engineering(nyquist, 2, "Hz")
+        );
         found.push((Weight::Fatal, what));
     }
     if length < SHORTEST_S || one_hit && length > LONGEST_S {
-        let what = format!("a record lasts {}, which is no hammer test of a robot", engineering(length, 3, "s"));
+        let what = format!(
+            "a record lasts {}, which is no hammer test of a robot",
+            engineering(length, 3, "s")
+        );
         found.push((Weight::Fatal, what));
     }
     found

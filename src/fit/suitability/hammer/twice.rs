@@ -24,6 +24,9 @@ fn look(record: &HammerRecord) -> Said {
     all.dedup();
     match runs - all.len() {
         0 => Vec::new(),
-        copies => vec![(Weight::Odd, format!("{copies} of {runs} records are exact copies of others"))],
+        copies => vec![(
+            Weight::Odd,
+            format!("{copies} of {runs} records are exact copies of others"),
+        )],
     }
 }

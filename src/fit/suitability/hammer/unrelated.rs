@@ -22,10 +22,17 @@ const ANSWER: f64 = 1.6;
 fn look(record: &HammerRecord) -> Said {
     let mut found = Vec::new();
     for (o, name) in record.outputs.iter().enumerate() {
-        let ratios: Vec<f64> = record.runs.iter().filter_map(|run| answer(run, o)).collect();
+        let ratios: Vec<f64> = record
+            .runs
+            .iter()
+            .filter_map(|run| answer(run, o))
+            .collect();
         let silent = ratios.iter().filter(|r| **r < ANSWER).count();
         if !ratios.is_empty() && 2 * silent > ratios.len() {
-            let what = format!("the acceleration a{name} is no stronger after the hit than before it in {silent} of {} records", ratios.len());
+            let what = format!(
+                "the acceleration a{name} is no stronger after the hit than before it in {silent} of {} records",
+                ratios.len()
+            );
             found.push((Weight::Fatal, what));
         }
     }
@@ -37,12 +44,16 @@ fn answer(run: &HammerRun, output: usize) -> Option<f64> {
     let peak = run.force.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
     let hit = run.force.iter().position(|f| f.abs() > BEGINS * peak)?;
     let begin = hit.saturating_sub(hit / 10 + 2);
-    let (before, after) = (run.responses[output].get(..begin)?, run.responses[output].get(hit..)?);
+    let (before, after) = (
+        run.responses[output].get(..begin)?,
+        run.responses[output].get(hit..)?,
+    );
     if before.len() < BEFORE || run.hit.is_none() {
         return None;
     }
     let after = &after[..after.len().min(10 * before.len().max(40))];
     let level = before.iter().sum::<f64>() / before.len() as f64;
-    let power = |v: &[f64]| v.iter().map(|x| (x - level).powi(2)).sum::<f64>() / v.len().max(1) as f64;
+    let power =
+        |v: &[f64]| v.iter().map(|x| (x - level).powi(2)).sum::<f64>() / v.len().max(1) as f64;
     Some(power(after) / power(before)).filter(|r| r.is_finite())
 }

@@ -23,17 +23,21 @@ fn look(on: &Course) -> Said {
     let mut found = Vec::new();
     let mut say = |channel: &str, end: Option<(usize, &str)>| {
         let said = |(rows, end): (usize, &str)| {
-            let what = format!("the {channel} stands at its {end} for {rows} rows while the test goes on: it is clipped");
+            let what = format!(
+                "the {channel} stands at its {end} for {rows} rows while the test goes on: it is clipped"
+            );
             (Weight::Fatal, what)
         };
         found.extend(end.map(said));
     };
-    say("deflection", clipped(&file.deflection, &file.load));
-    say("load", clipped(&file.load, &file.deflection));
+    say("deflection", clipped(&on.deflection, &file.load));
+    say("load", clipped(&file.load, &on.deflection));
     if let Some(second) = &file.second {
         let end = clipped(second, &file.load);
         let what = |(rows, end): (usize, &str)| {
-            format!("the second deflection stands at its {end} for {rows} rows while the test goes on: it is clipped")
+            format!(
+                "the second deflection stands at its {end} for {rows} rows while the test goes on: it is clipped"
+            )
         };
         found.extend(end.map(|end| (Weight::Odd, what(end))));
     }
@@ -48,9 +52,18 @@ fn clipped(channel: &[f64], other: &[f64]) -> Option<(usize, &'static str)> {
         return None;
     }
     let step = step(channel, high - low);
-    let at = |end: f64| plateaus(channel, other, end, (GOES_ON * extent(other)).max(STEPS * step * scale));
+    let at = |end: f64| {
+        plateaus(
+            channel,
+            other,
+            end,
+            (GOES_ON * extent(other)).max(STEPS * step * scale),
+        )
+    };
     let ends = [(at(high), "upper end"), (at(low), "lower end")];
-    ends.into_iter().max_by_key(|end| end.0).filter(|end| end.0 >= PLATEAU)
+    ends.into_iter()
+        .max_by_key(|end| end.0)
+        .filter(|end| end.0 >= PLATEAU)
 }
 
 /// Rows in plateaus at `end` during which the other channel goes on by at least `by`.
@@ -76,6 +89,8 @@ fn plateaus(channel: &[f64], other: &[f64], end: f64, by: f64) -> usize {
 /// Step of the converter: the smallest difference between neighbouring rows that differ.
 fn step(channel: &[f64], extent: f64) -> f64 {
     let pairs = channel.windows(2).map(|w| (w[1] - w[0]).abs());
-    let least = pairs.filter(|d| *d > 1e-9 * extent).fold(f64::INFINITY, f64::min);
+    let least = pairs
+        .filter(|d| *d > 1e-9 * extent)
+        .fold(f64::INFINITY, f64::min);
     if least.is_finite() { least } else { 0.0 }
 }

@@ -26,7 +26,9 @@ fn look(on: &Course) -> Said {
     match ramps > 2 && rows / ramps < ON_A_RAMP {
         true => vec![(
             Weight::Fatal,
-            format!("{rows} rows hold {ramps} ramps of the load: fewer than {ON_A_RAMP} readings on each"),
+            format!(
+                "{rows} rows hold {ramps} ramps of the load: fewer than {ON_A_RAMP} readings on each"
+            ),
         )],
         false => Vec::new(),
     }

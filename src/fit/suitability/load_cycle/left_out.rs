@@ -23,6 +23,9 @@ fn look(on: &Course) -> Said {
         true => Weight::Odd,
         false => Weight::Note,
     };
-    let what = format!("{} of {} rows left out for an empty cell", file.left_out, file.rows);
+    let what = format!(
+        "{} of {} rows left out for an empty cell",
+        file.left_out, file.rows
+    );
     vec![(weight, what)]
 }

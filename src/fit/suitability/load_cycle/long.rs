@@ -13,6 +13,13 @@ pub const RULE: Rule = Rule {
 };
 
 fn look(on: &Course) -> Said {
-    let part = Part::of_cycles(&on.cycles, on.file.load.len(), crate::fit::observation::MOST_ROWS);
-    part.sentence().map(|said| (Weight::Note, said)).into_iter().collect()
+    let part = Part::of_cycles(
+        &on.cycles,
+        on.file.load.len(),
+        crate::fit::observation::MOST_ROWS,
+    );
+    part.sentence()
+        .map(|said| (Weight::Note, said))
+        .into_iter()
+        .collect()
 }

@@ -18,6 +18,9 @@ fn look(on: &Course) -> Said {
     };
     match load(name, Some(&on.file.path)) {
         Ok(_) => Vec::new(),
-        Err(_) => vec![(Weight::Note, format!("the robot `{name}` is not known here"))],
+        Err(_) => vec![(
+            Weight::Note,
+            format!("the robot `{name}` is not known here"),
+        )],
     }
 }

@@ -1,8 +1,8 @@
 //! Units: the measured stiffness beside the nominal one.
 
+use super::{Course, Rule};
 use crate::experiments::load_cycle::straight_line;
 use crate::fit::suitability::magnitude::{explanation, times};
-use super::{Course, Rule};
 use crate::fit::suitability::{Said, Weight};
 use crate::measurement::load_cycle::{LEVER_REL_STD, LoadCycle};
 
@@ -28,7 +28,7 @@ const LEVERS: std::ops::RangeInclusive<f64> = 0.02..=4.0;
 fn look(on: &Course) -> Said {
     let file = on.file;
     let mut found = levers(file);
-    let line = straight_line(&file.load, &file.deflection);
+    let line = straight_line(&file.load, &on.deflection);
     let Some(nominal) = file.facts.nominal_stiffness else {
         return found;
     };
@@ -37,7 +37,11 @@ fn look(on: &Course) -> Said {
     }
     let ratio = line / nominal;
     let lever = file.facts.lever_rel_std.unwrap_or(LEVER_REL_STD);
-    let spread = file.facts.nominal_rel_std.unwrap_or(SPREAD).hypot(lever * std::f64::consts::SQRT_2);
+    let spread = file
+        .facts
+        .nominal_rel_std
+        .unwrap_or(SPREAD)
+        .hypot(lever * std::f64::consts::SQRT_2);
     if ratio.ln().abs() < SPREADS * spread + SHAPE {
         return found;
     }
@@ -62,8 +66,15 @@ fn levers(file: &LoadCycle) -> Said {
         ("sensor_lever_m", facts.sensor_lever),
         ("sensor2_lever_m", facts.sensor2_lever),
     ];
-    let odd = stated.into_iter().filter_map(|(key, lever)| Some((key, lever?)));
+    let odd = stated
+        .into_iter()
+        .filter_map(|(key, lever)| Some((key, lever?)));
     odd.filter(|(_, lever)| !LEVERS.contains(lever))
-        .map(|(key, lever)| (Weight::Odd, format!("`{key}` is {lever} m, which is no lever of a robot")))
+        .map(|(key, lever)| {
+            (
+                Weight::Odd,
+                format!("`{key}` is {lever} m, which is no lever of a robot"),
+            )
+        })
         .collect()
 }

@@ -1,7 +1,7 @@
 //! The second sensor sees what the first sees.
 
-use crate::fit::suitability::relation::Relation;
 use super::{Course, Rule};
+use crate::fit::suitability::relation::Relation;
 use crate::fit::suitability::{Said, Weight, extent};
 
 /// The rule.
@@ -20,7 +20,11 @@ fn look(on: &Course) -> Said {
     let Some(second) = &file.second else {
         return Vec::new();
     };
-    let filled: Vec<f64> = second.iter().zip(&file.deflection).map(|(b, a)| if b.is_nan() { *a } else { *b }).collect();
+    let filled: Vec<f64> = second
+        .iter()
+        .zip(&on.deflection)
+        .map(|(b, a)| if b.is_nan() { *a } else { *b })
+        .collect();
     if extent(&filled) <= 0.0 || extent(&file.load) <= 0.0 {
         return Vec::new();
     }
@@ -30,11 +34,16 @@ fn look(on: &Course) -> Said {
     let what = match () {
         () if !first.is_real() => return Vec::new(),
         () if !own.is_real() => "the second deflection does not depend on the load".into(),
-        () if ratio < 0.0 => "the second deflection runs against the first: its sign is wrong".into(),
+        () if ratio < 0.0 => {
+            "the second deflection runs against the first: its sign is wrong".into()
+        }
         () if !(1.0 / FAR..=FAR).contains(&ratio) => {
             let why = super::super::magnitude::explanation(ratio);
             let why = why.map_or(String::new(), |why| format!("; {why}"));
-            format!("the second deflection is {} the first{why}", super::super::magnitude::times(ratio))
+            format!(
+                "the second deflection is {} the first{why}",
+                super::super::magnitude::times(ratio)
+            )
         }
         () => return Vec::new(),
     };

@@ -1,7 +1,7 @@
 //! Lone wild readings of the deflection.
 
-use crate::fit::observation::{MOST_ROWS, Observation};
 use super::{Course, Rule};
+use crate::fit::observation::{MOST_ROWS, Observation};
 use crate::fit::suitability::{Said, Weight};
 
 /// The rule.
@@ -17,7 +17,13 @@ fn look(on: &Course) -> Said {
     let wild = Observation::of(file, MOST_ROWS).wild.len();
     match wild {
         0 => Vec::new(),
-        1 => vec![(Weight::Note, "one lone wild reading was replaced by its neighbours".into())],
-        n => vec![(Weight::Note, format!("{n} lone wild readings were replaced by their neighbours"))],
+        1 => vec![(
+            Weight::Note,
+            "one lone wild reading was replaced by its neighbours".into(),
+        )],
+        n => vec![(
+            Weight::Note,
+            format!("{n} lone wild readings were replaced by their neighbours"),
+        )],
     }
 }

@@ -21,6 +21,14 @@ fn look(on: &Loaded) -> Said {
         let own = values(*k);
         own.len() > 2 && extent(&own) <= 1e-12 * own.iter().fold(0.0_f64, |m, v| m.max(v.abs()))
     });
-    dead.map(|k| (Weight::Fatal, format!("the displacement d{} never changes: a dead channel", DIRECTIONS[k])))
-        .collect()
+    dead.map(|k| {
+        (
+            Weight::Fatal,
+            format!(
+                "the displacement d{} never changes: a dead channel",
+                DIRECTIONS[k]
+            ),
+        )
+    })
+    .collect()
 }

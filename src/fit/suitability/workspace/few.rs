@@ -1,6 +1,6 @@
 //! Set-ups that are missing, or broken off.
 
-use super::{Loaded, names, Rule};
+use super::{Loaded, Rule, names};
 use crate::fit::force_steps::Setup;
 use crate::fit::suitability::{Said, Weight};
 
@@ -23,7 +23,11 @@ fn look(on: &Loaded) -> Said {
         .collect();
     let mut found = Vec::new();
     if !missing.is_empty() {
-        let what = format!("of {points} stated points {} hold no step: {}", missing.len(), missing.join(", "));
+        let what = format!(
+            "of {points} stated points {} hold no step: {}",
+            missing.len(),
+            missing.join(", ")
+        );
         found.push((Weight::Odd, what));
     }
     let directions = |p: usize| on.setups.iter().filter(|s| s.point == p).count();
@@ -33,7 +37,10 @@ fn look(on: &Loaded) -> Said {
         .map(|p| format!("P{}", p + 1))
         .collect();
     if !partly.is_empty() {
-        let what = format!("loaded in fewer directions than the other points: {}", partly.join(", "));
+        let what = format!(
+            "loaded in fewer directions than the other points: {}",
+            partly.join(", ")
+        );
         found.push((Weight::Odd, what));
     }
     let mut rows: Vec<usize> = on.setups.iter().map(|s| s.rows).collect();
@@ -41,7 +48,10 @@ fn look(on: &Loaded) -> Said {
     let usual = rows.get(rows.len() / 2).copied().unwrap_or(0) as f64;
     let short = |s: &&Setup| (s.rows as f64) < BROKEN_OFF * usual;
     if on.setups.iter().any(|s| short(&s)) {
-        let what = format!("fewer steps than the usual {usual}: {}", names(on.setups.iter().filter(short)));
+        let what = format!(
+            "fewer steps than the usual {usual}: {}",
+            names(on.setups.iter().filter(short))
+        );
         found.push((Weight::Odd, what));
     }
     found

@@ -1,6 +1,6 @@
 //! Units: measured compliance beside the simulated one.
 
-use super::{Loaded, own, Rule};
+use super::{Loaded, Rule, own};
 use crate::fit::suitability::magnitude::{explanation, power_of_ten, times};
 use crate::fit::suitability::{Said, Weight};
 use crate::measurement::workspace_test::DIRECTIONS;
@@ -34,7 +34,10 @@ fn look(on: &Loaded) -> Said {
             continue;
         }
         let why = explanation(middle).map_or(String::new(), |why| format!("; {why}"));
-        let what = format!("forces along {direction} move the tool {} as far as the simulation says{why}", times(middle));
+        let what = format!(
+            "forces along {direction} move the tool {} as far as the simulation says{why}",
+            times(middle)
+        );
         let weight = match power_of_ten(middle) {
             Some(power) if power.abs() > 1 => Weight::Fatal,
             _ if !(1e-2..=1e2).contains(&middle) => Weight::Fatal,

@@ -17,7 +17,12 @@ const MANY: f64 = 0.1;
 
 fn look(on: &Loaded) -> Said {
     let bits = |s: &Step| {
-        let numbers = [s.force, s.displacement[0], s.displacement[1], s.displacement[2]];
+        let numbers = [
+            s.force,
+            s.displacement[0],
+            s.displacement[1],
+            s.displacement[2],
+        ];
         let place = (s.point, s.direction, s.cycle);
         (place, numbers.map(f64::to_bits))
     };
@@ -27,7 +32,10 @@ fn look(on: &Loaded) -> Said {
     all.dedup();
     let copies = rows - all.len();
     match copies as f64 > MANY * rows as f64 {
-        true => vec![(Weight::Odd, format!("{copies} of {rows} steps are exact copies of others"))],
+        true => vec![(
+            Weight::Odd,
+            format!("{copies} of {rows} steps are exact copies of others"),
+        )],
         false => Vec::new(),
     }
 }

@@ -1,6 +1,6 @@
 //! The force must change.
 
-use super::{Loaded, names, Rule};
+use super::{Loaded, Rule, names};
 use crate::fit::suitability::{Said, Weight, extent};
 
 /// The rule.
@@ -20,7 +20,10 @@ fn look(on: &Loaded) -> Said {
     match on.setups.iter().any(|s| none(&s)) {
         true => vec![(
             Weight::Odd,
-            format!("no change of force gives a line at {}", names(on.setups.iter().filter(none))),
+            format!(
+                "no change of force gives a line at {}",
+                names(on.setups.iter().filter(none))
+            ),
         )],
         false => Vec::new(),
     }
