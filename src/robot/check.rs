@@ -104,7 +104,10 @@ fn stiff(robot: &Robot) -> Vec<Remark> {
             k if k < SOFTEST => ("below 1e3", "kN·m/rad or MN·m/rad"),
             _ => return None,
         };
-        let said = format!("stiffness {:.3e} N·m/rad is {side}: given in {unit}?", spring.stiffness);
+        let said = format!(
+            "stiffness {:.3e} N·m/rad is {side}: given in {unit}?",
+            spring.stiffness
+        );
         Some(remark(&site, said))
     };
     robot.springs().filter_map(doubt).collect()

@@ -190,9 +190,7 @@ fn a_truncated_file_of_force_steps_is_noticed() {
         let ran = bench.run(&[verb, "--json", "--dry-run", "a.csv"]);
         assert_eq!(ran.status, 1, "{verb}");
         assert!(
-            document(&ran)["doubts"]
-                .to_string()
-                .contains("hold no step"),
+            document(&ran)["doubts"].to_string().contains("\"few\""),
             "{verb}"
         );
     }

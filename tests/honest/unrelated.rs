@@ -25,7 +25,7 @@ fn displacement(kind: usize, random: &mut Random) -> Vec<f64> {
     let (memory, speed, phase) = (
         0.8 + 0.19 * random.unit(),
         0.1 + 9.9 * random.unit(),
-        6.28 * random.unit(),
+        std::f64::consts::TAU * random.unit(),
     );
     let poles = [0.9_f64, 0.97, 0.99, 0.997, 0.999];
     let (mut at, mut slow) = (0.0, [0.0; 5]);

@@ -59,7 +59,10 @@ fn force(on: &Loaded) -> Option<(Weight, String)> {
         let steps: Vec<&Step> = on.test.steps.iter().filter(own).collect();
         let forces: Vec<f64> = steps.iter().map(|s| s.force).collect();
         let moved = |steps: &[&Step]| -> f64 {
-            let all: Vec<f64> = steps.iter().map(|s| s.displacement[setup.direction]).collect();
+            let all: Vec<f64> = steps
+                .iter()
+                .map(|s| s.displacement[setup.direction])
+                .collect();
             extent(&all)
         };
         let (_, high) = range(&forces);

@@ -22,6 +22,12 @@ fn look(on: &Loaded) -> Said {
     let wild = forces.iter().filter(|f| **f > limit).count();
     match wild {
         0 => Vec::new(),
-        n => vec![(Weight::Fatal, format!("{n} of {} forces are more than {WILD} times the usual one", forces.len()))],
+        n => vec![(
+            Weight::Fatal,
+            format!(
+                "{n} of {} forces are more than {WILD} times the usual one",
+                forces.len()
+            ),
+        )],
     }
 }
