@@ -90,7 +90,7 @@ impl Part {
 const QUIET: f64 = 0.3;
 
 /// Rows beyond which neighbours are averaged before fitting.
-pub const MOST_ROWS: usize = 6000;
+pub const MOST_ROWS: usize = 3000;
 
 /// Distance beyond its neighbours, in robust standard deviations of their jumps, that makes a lone
 /// reading wild.
@@ -223,8 +223,22 @@ pub fn rough_stiffness(load: &[f64], reading: &[f64]) -> f64 {
     }
 }
 
+/// Distance beyond its neighbours, in robust standard deviations of their jumps, of a reading so wild that
+/// no slope may be taken with it.
+const ABSURD: f64 = 50.0;
+
+/// Replaces absurd lone readings by their neighbours; returns where.
+pub fn tame(reading: &mut [f64]) -> Vec<usize> {
+    let absurd = outliers::isolated(reading, ABSURD);
+    for i in &absurd {
+        reading[*i] = outliers::neighbours(reading, *i);
+    }
+    absurd
+}
+
 /// Replaces lone wild readings by their neighbours; returns where.
 fn repair(load: &[f64], reading: &mut [f64]) -> Vec<usize> {
+    let absurd = tame(reading);
     let slope = 1.0 / rough_stiffness(load, reading);
     let mut excess: Vec<f64> = reading
         .iter()
@@ -236,5 +250,8 @@ fn repair(load: &[f64], reading: &mut [f64]) -> Vec<usize> {
         excess[*i] = outliers::neighbours(&excess, *i);
         reading[*i] = excess[*i] + slope * load[*i];
     }
-    wild
+    let mut all = [absurd, wild].concat();
+    all.sort_unstable();
+    all.dedup();
+    all
 }

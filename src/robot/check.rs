@@ -2,6 +2,7 @@
 //! mixed up, signs that look mirrored. Refusals stop a computation, remarks only speak.
 
 use super::model::{Joint, Robot};
+use super::spring::Spring;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{norm, sub};
 
@@ -95,21 +96,26 @@ fn unsourced(robot: &Robot) -> Vec<Remark> {
         .collect()
 }
 
-/// Springs a thousand times stiffer than any robot's: N·mm/rad read as N·m/rad.
+/// Springs a thousand times stiffer or softer than any robot's: N·mm/rad read as N·m/rad, MN·m/rad as N·m/rad.
 fn stiff(robot: &Robot) -> Vec<Remark> {
-    let doubtful = robot.springs().filter(|(_, spring)| spring.stiffness > 1e9);
-    doubtful
-        .map(|(site, spring)| {
-            remark(
-                &site,
-                format!(
-                    "stiffness {:.3e} N·m/rad is above 1e9: given in N·mm/rad?",
-                    spring.stiffness
-                ),
-            )
-        })
-        .collect()
+    let doubt = |(site, spring): (String, &Spring)| {
+        let (side, unit) = match spring.stiffness {
+            k if k > STIFFEST => ("above 1e9", "N·mm/rad"),
+            k if k < SOFTEST => ("below 1e3", "kN·m/rad or MN·m/rad"),
+            _ => return None,
+        };
+        let said = format!(
+            "stiffness {:.3e} N·m/rad is {side}: given in {unit}?",
+            spring.stiffness
+        );
+        Some(remark(&site, said))
+    };
+    robot.springs().filter_map(doubt).collect()
 }
+
+/// Stiffnesses between which the springs of robots lie, N·m/rad.
+const STIFFEST: f64 = 1e9;
+const SOFTEST: f64 = 1e3;
 
 /// Points further than 20 m from the base: millimetres read as metres.
 fn far(robot: &Robot) -> Vec<Remark> {

@@ -156,18 +156,12 @@ fn odd(test: &WorkspaceTest, setups: &[Setup]) -> Vec<String> {
             odd.push(format!("{what}: {}", names.join(", ")));
         }
     };
-    let empty = (0..test.facts.joint_angles.len()).filter(|p| setups.iter().all(|s| s.point != *p));
-    say(
-        empty.map(|p| format!("P{}", p + 1)).collect(),
-        "joint angles but no steps",
-    );
     let of = |wrong: fn(&&Setup) -> bool| setups.iter().filter(wrong).map(Setup::name).collect();
     say(
         of(|s| s.measured[s.direction] == 0),
         "no displacement along the force, so no stiffness",
     );
     say(of(|s| s.steps < FEWEST_STEPS), "fewer than 3 steps");
-    say(of(|s| s.force[0] == s.force[1]), "the force never changes");
     let robot = load(&test.facts.robot, Some(&test.path)).ok();
     let robot = robot.filter(|r| fits(&r.robot, test).is_ok());
     let found = doubts(test, robot.as_ref().map(|r| &r.robot));

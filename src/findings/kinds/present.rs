@@ -5,7 +5,7 @@ use crate::effects::contract::Role;
 use crate::effects::{Composite, Effect};
 use crate::findings::load_cycle::Present;
 use crate::fit::imposed::is_imposed;
-use crate::fit::parameter::Z95;
+use crate::fit::parameter::{Status, Z95};
 use crate::fit::store::StoredFit;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::load_cycle::{Axis, LEVER_REL_STD, LoadCycle, Port};
@@ -89,6 +89,11 @@ pub fn of_fit(file: &mut LoadCycle, path: &Path) -> Outcome<Base> {
         return Err(Problem::new(what, "give a fit of the same joint and axis").in_file(path));
     }
     let stated = fit.parameters.iter().find(|q| q.name == "stiffness");
+    if stated.is_some_and(|q| q.status == Status::NotIdentifiable) {
+        let what = "holds no stiffness: its measurement could not carry one";
+        let remedy = "fit another measurement of the joint, or leave out --model";
+        return Err(Problem::new(what, remedy).at_line(1).in_file(path));
+    }
     let own = stated
         .and_then(|q| Some(q.stderr? / q.value?))
         .unwrap_or(0.0);

@@ -30,8 +30,8 @@ fn look(on: &Course) -> Said {
         };
         found.extend(end.map(said));
     };
-    say("deflection", clipped(&file.deflection, &file.load));
-    say("load", clipped(&file.load, &file.deflection));
+    say("deflection", clipped(&on.deflection, &file.load));
+    say("load", clipped(&file.load, &on.deflection));
     if let Some(second) = &file.second {
         let end = clipped(second, &file.load);
         let what = |(rows, end): (usize, &str)| {

@@ -20,6 +20,7 @@ mod wild_response;
 use super::relation::Relation;
 use super::{Doubt, Said};
 use crate::fit::imposed::is_imposed;
+use crate::fit::observation::tame;
 use crate::measurement::cycles::Cycles;
 use crate::measurement::load_cycle::LoadCycle;
 
@@ -29,6 +30,8 @@ pub struct Course<'a> {
     pub file: &'a LoadCycle,
     /// Its load, cut into cycles, every row.
     pub cycles: Cycles,
+    /// Its deflection, absurd lone readings replaced.
+    pub deflection: Vec<f64>,
     /// How its deflection depends on its load.
     pub relation: Relation,
     /// Whether the displacement was imposed.
@@ -60,10 +63,13 @@ pub const RULES: &[Rule] = &[
 
 /// What is odd about a file, the gravest first.
 pub fn doubts(file: &LoadCycle) -> Vec<Doubt> {
+    let mut deflection = file.deflection.clone();
+    tame(&mut deflection);
     let course = Course {
         file,
         cycles: Cycles::find(&file.load),
-        relation: Relation::of(&file.load, &file.deflection),
+        relation: Relation::of(&file.load, &deflection),
+        deflection,
         imposed: is_imposed(file),
     };
     super::doubts(RULES, |look| look(&course))

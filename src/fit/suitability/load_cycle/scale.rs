@@ -28,7 +28,7 @@ const LEVERS: std::ops::RangeInclusive<f64> = 0.02..=4.0;
 fn look(on: &Course) -> Said {
     let file = on.file;
     let mut found = levers(file);
-    let line = straight_line(&file.load, &file.deflection);
+    let line = straight_line(&file.load, &on.deflection);
     let Some(nominal) = file.facts.nominal_stiffness else {
         return found;
     };

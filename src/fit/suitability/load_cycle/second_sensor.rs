@@ -22,7 +22,7 @@ fn look(on: &Course) -> Said {
     };
     let filled: Vec<f64> = second
         .iter()
-        .zip(&file.deflection)
+        .zip(&on.deflection)
         .map(|(b, a)| if b.is_nan() { *a } else { *b })
         .collect();
     if extent(&filled) <= 0.0 || extent(&file.load) <= 0.0 {

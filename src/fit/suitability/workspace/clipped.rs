@@ -1,6 +1,7 @@
 //! A sensor at the end of its range.
 
 use super::{Loaded, Rule};
+use crate::fit::force_steps::Setup;
 use crate::fit::suitability::{Said, Weight, extent, range};
 use crate::measurement::workspace_test::{DIRECTIONS, Step};
 
@@ -30,10 +31,10 @@ fn look(on: &Loaded) -> Said {
             .unwrap_or(0);
         let mut levels: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
         levels.sort_by(f64::total_cmp);
-        let typical = levels
-            .chunk_by(|a, b| a == b)
+        let inner = levels.chunk_by(|a, b| a == b);
+        let typical = inner
+            .filter(|same| same[0] != low && same[0] != high)
             .map(<[f64]>::len)
-            .filter(|n| *n < rows)
             .max();
         let stands = rows >= PLATEAU && rows >= LEVELS * typical.unwrap_or(1).min(rows);
         if high > low && stands {
@@ -44,8 +45,40 @@ fn look(on: &Loaded) -> Said {
             found.push((Weight::Fatal, what));
         }
     }
+    found.extend(force(on));
     found
 }
+
+/// Share of a set-up's displacement that the steps at its largest force may span.
+const SPANNED: f64 = 0.25;
+
+/// A force that stands at its extreme while the displacement goes on, in most set-ups.
+fn force(on: &Loaded) -> Option<(Weight, String)> {
+    let stands = |setup: &&Setup| {
+        let own = |s: &&Step| s.point == setup.point && s.direction == setup.direction;
+        let steps: Vec<&Step> = on.test.steps.iter().filter(own).collect();
+        let forces: Vec<f64> = steps.iter().map(|s| s.force).collect();
+        let moved = |steps: &[&Step]| -> f64 {
+            let all: Vec<f64> = steps
+                .iter()
+                .map(|s| s.displacement[setup.direction])
+                .collect();
+            extent(&all)
+        };
+        let (_, high) = range(&forces);
+        let top: Vec<&Step> = steps.iter().filter(|s| s.force == high).copied().collect();
+        top.len() >= PLATEAU && moved(&top) > SPANNED * moved(&steps)
+    };
+    let some = on.setups.iter().take(ENOUGH);
+    let count = some.clone().filter(stands).count();
+    (count > 0 && 2 * count > some.len()).then(|| {
+        let what = "the force stands at its extreme while the displacement goes on: it is clipped";
+        (Weight::Fatal, what.to_string())
+    })
+}
+
+/// Set-ups that tell whether the force is clipped.
+const ENOUGH: usize = 60;
 
 /// Steps at an extreme, where they are of different force or set-up.
 fn at(steps: &[Step], k: usize, end: f64) -> usize {

@@ -23,11 +23,7 @@ fn look(on: &Loaded) -> Said {
         .collect();
     let mut found = Vec::new();
     if !missing.is_empty() {
-        let what = format!(
-            "of {points} stated points {} hold no step: {}",
-            missing.len(),
-            missing.join(", ")
-        );
+        let what = format!("joint angles but no steps: {}", missing.join(", "));
         found.push((Weight::Odd, what));
     }
     let directions = |p: usize| on.setups.iter().filter(|s| s.point == p).count();

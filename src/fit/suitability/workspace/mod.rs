@@ -8,6 +8,7 @@ mod scale;
 mod twice;
 mod unchanging;
 mod unrelated;
+mod wild;
 
 use super::{Doubt, Said};
 use crate::experiments::workspace::Response;
@@ -34,6 +35,7 @@ pub type Rule = super::Rule<fn(&Loaded) -> Said>;
 pub const RULES: &[Rule] = &[
     unchanging::RULE,
     dead::RULE,
+    wild::RULE,
     clipped::RULE,
     reversed::RULE,
     unrelated::RULE,
