@@ -4,6 +4,7 @@
 pub mod cycles;
 pub mod front;
 pub mod hammer;
+pub mod hammer_known;
 pub mod hammer_uff;
 pub mod joint_motion;
 pub mod leading;
