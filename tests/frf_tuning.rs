@@ -50,6 +50,7 @@ fn task(seed: u64, noise: f64, poses: usize, rate: f64) -> (Tuning, Vec<f64>) {
             jacobian,
             directions: (0..N).map(unit).collect(),
             weight: None,
+            uncertain: None,
             measured: Vec::new(),
         };
         for (input, output) in (0..9).map(|c| (c / 3, c % 3)) {
@@ -281,6 +282,7 @@ fn in_series(start: [f64; 2]) -> Tuning {
         jacobian: DMatrix::from_row_slice(3, 2, &[1.0, 1.0, 0.0, 0.0, 0.0, 0.0]),
         directions: [0, 1, 0, 1].map(direction).to_vec(),
         weight: None,
+        uncertain: None,
         measured: Vec::new(),
     };
     let frequency_hz: Vec<f64> = (8..=200).map(|k| f64::from(k) * 0.25).collect();

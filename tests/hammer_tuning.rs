@@ -24,6 +24,7 @@ fn pose(modes: &[Mode]) -> Pose {
             .map(|p| diagonal(&|i| f64::from(u8::from(i == p))))
             .collect(),
         weight: None,
+        uncertain: None,
         measured: Vec::new(),
     }
 }

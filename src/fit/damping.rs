@@ -8,11 +8,14 @@ use super::frf_model::Pose;
 use super::frf_nuisance::{Pull, along, widened};
 use super::frf_robot::{Released, parameters, pose, with_values};
 use super::frf_tuning::{Parameter, Residuals, Tuned, Tuning, solve};
+use super::frf_uncertain::uncertain;
 use super::parameter::Identified;
 use crate::experiments::hammer_frf::{HammerFrf, Settings, estimate};
 use crate::experiments::hammer_modes::modes;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::hammer::HammerRecord;
+use crate::measurement::hammer_known;
+use crate::motion::uncertain::Known;
 use crate::robot::{Robot, check};
 use crate::signal::modes::Mode;
 use rayon::prelude::*;
@@ -60,7 +63,7 @@ pub struct Pair {
     pub after: Vec<Complex64>,
     /// How well either meets the measured one.
     pub matches: [FrfMatch; 2],
-    /// How well the tuned dampings meet it with the robot's own stiffnesses.
+    /// How well the tuned dampings meet it with the robot's own stiffnesses and bodies.
     pub unmoved: FrfMatch,
 }
 
@@ -108,17 +111,23 @@ pub fn test(path: &Path, record: HammerRecord, settings: &Settings) -> Outcome<T
 /// A robot without bodies or springs, a test without pose or without a pair along the base axes.
 pub fn identify(tests: &[Test], robot: &Robot, request: &Request) -> Outcome<Account> {
     check::dynamics(robot)?;
-    let constants = parameters(robot, request.released, stated_spread(tests));
+    let known = known(tests);
+    let released = Released {
+        prior_ln_std: request.released.prior_ln_std.or(known.damping_rel_std),
+        ..request.released
+    };
+    let constants = parameters(robot, released, stated_spread(tests));
+    let known = Known::stated(known);
     let poses = tests
         .iter()
-        .map(|test| at_pose(test, robot, &constants, request))
+        .map(|test| at_pose(test, robot, &constants, request, &known))
         .collect::<Outcome<Vec<_>>>()?;
-    let task = Tuning {
+    let task = uncertain(Tuning {
         parameters: constants,
         poses,
         residuals: request.residuals,
         starts: request.starts,
-    };
+    })?;
     let (tuned, pulls) = agreed(&task)?;
     let of = |pose: &Pose| pairs(pose, &task, &tuned);
     let pairs: Vec<Vec<Pair>> = task.poses.iter().map(of).collect();
@@ -140,6 +149,14 @@ pub fn identify(tests: &[Test], robot: &Robot, request: &Request) -> Outcome<Acc
 fn stated_spread(tests: &[Test]) -> Option<f64> {
     let stated = tests.iter().filter_map(|test| test.record.nominal_rel_std);
     stated.max_by(f64::total_cmp)
+}
+
+/// How well bodies and instruments are known: the least that a test says.
+fn known(tests: &[Test]) -> hammer_known::Known {
+    let stated = tests.iter().map(|test| test.record.known);
+    stated
+        .reduce(hammer_known::Known::or_worse)
+        .unwrap_or_default()
 }
 
 /// The tuning, its priors widened until the stiffnesses that are fitted along agree with them, and
@@ -169,6 +186,7 @@ fn at_pose(
     robot: &Robot,
     constants: &[Parameter],
     request: &Request,
+    known: &Known,
 ) -> Outcome<Pose> {
     let place = |problem: Problem| problem.in_file(&test.path);
     let joints = joints(test, robot).map_err(place)?;
@@ -179,7 +197,7 @@ fn at_pose(
             "name the directions x, y or z, measure ax, ay or az, and record long enough",
         )));
     }
-    let pose = pose(robot, joints, constants).map_err(place)?;
+    let pose = pose(robot, joints, constants, known).map_err(place)?;
     Ok(Pose {
         measured: pairs,
         ..pose

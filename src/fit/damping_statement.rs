@@ -103,5 +103,11 @@ fn words(kind: Kind) -> (&'static str, &'static str, &'static str) {
             "mass of the tool, released, its inertia in proportion",
         ),
         Kind::Weight => ("weight", "1", "sag and stiffness by weight, over its own"),
+        Kind::Body => (
+            "bodies",
+            "1",
+            "combination of bodies' numbers, standard deviations",
+        ),
+        Kind::Instrument => ("instrument", "1", "hammer or sensor, standard deviations"),
     }
 }

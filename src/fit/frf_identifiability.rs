@@ -1,7 +1,7 @@
 //! What measured FRFs say about each constant, and which combinations they fix.
 
 use super::frf_data::Errors;
-use super::frf_linear::Linearised;
+use super::frf_linear::{Frozen, Linearised};
 use super::frf_profile::widened;
 use super::frf_scatter::{Scatter, scatter};
 use super::frf_tuning::{Parameter, Tuning};
@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rayon::prelude::*;
 
 /// Relative standard deviation above which a constant is not identifiable.
-const IDENTIFIABLE: f64 = 0.35;
+const IDENTIFIABLE: f64 = 0.4;
 /// Standard deviation of the logarithm of a combination that the data fix.
 const FIXED: f64 = 0.1;
 /// Relative standard deviation that no calibration of hammer and sensors is better than. It is the same
@@ -104,12 +104,13 @@ pub(super) fn uncertainty(
 ) -> Uncertainty {
     let (task, theta) = (best.task, best.theta);
     let rest = reduced_chi_square.max(1.0);
-    let asked_for = task.parameters.iter().filter(|p| !p.nuisance).count();
+    let asked_for = task.asked_for();
     let found = scatter(task, theta);
     let spread = |priors_of: usize| spread(best, found.as_ref(), rest, priors_of);
     let (all, data_only) = (spread(0), spread(asked_for));
     let inverse = inverse(&best.at.normal);
     let bare = bare(task);
+    let frozen = Frozen::at(&bare, theta);
     let bare = Place {
         task: &bare,
         ..best
@@ -118,9 +119,11 @@ pub(super) fn uncertainty(
         let apart = |rival: &&[f64]| (rival[i] - theta[i]).exp_m1().abs();
         let apart = rivals.iter().map(apart).fold(0.0, f64::max) / t95(freedom);
         let deviation = calibrated(all[(i, i)]) + apart;
-        let sides = match deviation < WORTH {
-            true => widened(bare, &inverse, i, t95(freedom) * deviation),
-            false => [None; 2],
+        let sides = match &frozen {
+            Some(frozen) if deviation < WORTH => {
+                widened(bare, (&inverse, frozen), i, t95(freedom) * deviation)
+            }
+            _ => [None; 2],
         };
         let alone = calibrated(data_only[(i, i)]) + apart < IDENTIFIABLE;
         statement(best, i, sides, alone, freedom)
@@ -181,8 +184,11 @@ fn kept(matrix: &DMatrix<f64>, count: usize) -> DMatrix<f64> {
 fn raised(parameters: &[Parameter], theta: &[f64]) -> Vec<f64> {
     let least = |parameter: &Parameter| LEAST * parameter.start;
     let all = parameters.iter().zip(theta);
-    all.map(|(parameter, theta)| (least(parameter) / theta.exp()).max(1.0))
-        .collect()
+    all.map(|(parameter, theta)| match parameter.kind.is_signed() {
+        true => 1.0,
+        false => (least(parameter) / theta.exp()).max(1.0),
+    })
+    .collect()
 }
 
 /// The relative covariance from a normal matrix of logarithms.

@@ -1,33 +1,17 @@
-//! The accelerance of a linearised multibody model, with its derivatives by analysis.
+//! The accelerance of a linearised multibody model as hammer and sensor read it, with its derivatives by
+//! analysis.
 
 use super::frf_data::Measured;
+pub use super::frf_parameter::Kind;
+use crate::ground::spatial::V3;
+use crate::motion::Linear;
+use crate::motion::frf::{C64, Response};
+use crate::motion::receptance::{accelerance, coordinates};
+use crate::motion::uncertain::bodies;
+use crate::motion::uncertain::instrument::{self, Reading, SHARED};
+use crate::motion::uncertain::slopes::{Entry, of_entries, of_masses, whole};
 use nalgebra::DMatrix;
 use rustfft::num_complex::Complex64;
-
-/// What a parameter multiplies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    /// A direction of the damping matrix.
-    Damping,
-    /// A direction of the stiffness matrix.
-    Stiffness,
-    /// A direction of the mass matrix.
-    Mass,
-    /// What weight does: [`Weight`].
-    Weight,
-}
-
-impl Kind {
-    /// The factor of the direction in `Z(s) = s²M + sD + K`.
-    fn factor(self, s: Complex64) -> Complex64 {
-        match self {
-            Self::Damping => s,
-            Self::Stiffness => Complex64::new(1.0, 0.0),
-            Self::Mass => s * s,
-            Self::Weight => Complex64::new(0.0, 0.0),
-        }
-    }
-}
 
 /// What its weight does to a robot: it sags, which turns its bodies and the directions in which its
 /// joints move the tool, and weight adds stiffness.
@@ -41,15 +25,18 @@ pub struct Weight {
     pub jacobian: DMatrix<f64>,
 }
 
-impl Weight {
-    /// `(s²ΔM + ΔK)·y`.
-    fn times(&self, s: Complex64, y: &DMatrix<Complex64>) -> DMatrix<Complex64> {
-        let z = self.mass.zip_map(&self.stiffness, |m, k| s * s * m + k);
-        z * y
-    }
+/// What is uncertain at one pose besides what is asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Uncertain {
+    /// What each parameter of kind body adds to the mass matrix: one row each, its upper triangle by rows.
+    pub bodies: DMatrix<f64>,
+    /// How well hammer and sensor are known.
+    pub instrument: instrument::Spread,
+    /// Which pose this is, counted from 0: each has its own parameters of kind instrument.
+    pub pose: usize,
 }
 
-/// The model at one pose, in n generalised coordinates: `Z = s²M + sD + K + Σ θₚ·sᵏ·Gₚ`.
+/// The model at one pose, in n generalised coordinates: `Z = s²M + sD + K + Σ θₚ·sᵏ·Gₚ`, Gₚ symmetric.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pose {
     /// Mass matrix M (n × n) without the tuned part.
@@ -61,21 +48,51 @@ pub struct Pose {
     /// Translation of the tool per coordinate, m (3 × n, base axes): forces act and accelerations are
     /// taken along its rows.
     pub jacobian: DMatrix<f64>,
-    /// `∂(matrix)/∂θ` of every parameter (n × n), in the order of the parameters; empty for weight.
+    /// `∂(matrix)/∂θ` of every parameter (n × n) that multiplies one, in the order of the parameters;
+    /// empty for the others.
     pub directions: Vec<DMatrix<f64>>,
     /// What a parameter of kind weight multiplies.
     pub weight: Option<Weight>,
+    /// What parameters of the kinds body and instrument do; none: there are none.
+    pub uncertain: Option<Uncertain>,
     /// What was measured here.
     pub measured: Vec<Measured>,
 }
 
-/// Row, column and value of a matrix.
-pub type Entry = (usize, usize, f64);
-
-/// `y = Z⁻¹Jᵀ` per line: one solution serves every pair on the same lines.
+/// The model solved on some lines: one solution serves every pair measured on them.
 pub struct Responses {
-    lines: Vec<DMatrix<Complex64>>,
-    jacobian: DMatrix<f64>,
+    linear: Linear,
+    s: Vec<C64>,
+    /// `Z⁻¹Jᵀ`, line by line.
+    answers: Vec<[C64; 3]>,
+    /// The accelerance itself, and what the instruments make of it.
+    bare: Vec<Response>,
+    reading: Reading,
+}
+
+impl Responses {
+    /// The accelerance along the directions of `pair`, as it is read.
+    pub fn of(&self, pair: &Measured) -> Vec<Complex64> {
+        let lines = self.bare.iter().zip(&self.s);
+        lines
+            .map(|(a, s)| self.reading.read(*s, a)[pair.output][pair.input])
+            .collect()
+    }
+
+    fn at(&self, line: usize) -> &[[C64; 3]] {
+        &self.answers[line * self.linear.n..(line + 1) * self.linear.n]
+    }
+
+    /// The same lines with something else in place of the accelerance, as read.
+    fn read(&self, lines: impl Iterator<Item = Response>) -> Vec<Response> {
+        let lines = lines.zip(&self.s);
+        lines.map(|(a, s)| self.reading.read(*s, &a)).collect()
+    }
+}
+
+/// The entries of `pair` in responses.
+pub fn along(pair: &Measured, lines: &[Response]) -> Vec<Complex64> {
+    lines.iter().map(|a| a[pair.output][pair.input]).collect()
 }
 
 impl Pose {
@@ -87,11 +104,10 @@ impl Pose {
         theta: &[f64],
         pair: &Measured,
     ) -> Option<Vec<Complex64>> {
-        let responses = self.responses(kinds, theta, pair)?;
-        Some(self.accelerance_of(&responses, pair))
+        Some(self.responses(kinds, theta, pair)?.of(pair))
     }
 
-    /// Accelerance and its derivatives in every parameter: `∂H/∂θ = −s²·yₒᵀ·(sᵏG)·yᵢ`, `y = Z⁻¹Jᵀ`.
+    /// Accelerance and its derivatives in every parameter.
     pub fn sensitivities(
         &self,
         kinds: &[Kind],
@@ -99,106 +115,116 @@ impl Pose {
         pair: &Measured,
     ) -> Option<(Vec<Complex64>, Vec<Vec<Complex64>>)> {
         let responses = self.responses(kinds, theta, pair)?;
-        let weighed = self.weighed(&responses, pair);
-        Some(self.sensitivities_of(&responses, &weighed, kinds, &self.entries(), pair))
+        let slopes = self.slopes(&responses, kinds, &self.entries());
+        let slopes = slopes.iter().map(|lines| along(pair, lines));
+        Some((responses.of(pair), slopes.collect()))
     }
 
-    /// The responses of all coordinates to unit forces along the rows of the Jacobian, on the lines
-    /// of `pair`; none where the dynamic stiffness is singular.
+    /// The model on the lines of `pair`; none where the dynamic stiffness is singular.
     pub fn responses(&self, kinds: &[Kind], theta: &[f64], pair: &Measured) -> Option<Responses> {
-        let jacobian = self.jacobian_at(kinds, theta);
-        let forces = jacobian.transpose().map(|v| Complex64::new(v, 0.0));
-        let matrices = self.matrices(kinds, theta);
-        let line = |k: usize| dynamic_stiffness(&matrices, pair.s(k)).lu().solve(&forces);
-        let lines = (0..pair.frequency_hz.len()).map(line);
-        let lines = lines.collect::<Option<Vec<_>>>()?;
-        Some(Responses { lines, jacobian })
-    }
-
-    /// The forces per line that weight adds where the responses are; empty without weight.
-    pub fn weighed(&self, responses: &Responses, pair: &Measured) -> Vec<DMatrix<Complex64>> {
-        let weight = self.weight.iter();
-        let line = |(w, (k, y)): (&Weight, (usize, &DMatrix<Complex64>))| w.times(pair.s(k), y);
-        weight
-            .flat_map(|w| responses.lines.iter().enumerate().map(move |y| (w, y)))
-            .map(line)
-            .collect()
-    }
-
-    /// [`Pose::accelerance`] from responses.
-    pub fn accelerance_of(&self, responses: &Responses, pair: &Measured) -> Vec<Complex64> {
-        let line = |(k, y): (usize, &DMatrix<Complex64>)| {
-            let (s, column) = (pair.s(k), y.column(pair.input));
-            let row = responses.jacobian.row(pair.output);
-            let along: Complex64 = row.iter().zip(column.iter()).map(|(j, y)| y * *j).sum();
-            s * s * along
+        let linear = self.linear(kinds, theta);
+        let s: Vec<C64> = (0..pair.frequency_hz.len()).map(|k| pair.s(k)).collect();
+        let answers = coordinates(&linear, &s);
+        let line = |(k, s): (usize, &C64)| {
+            accelerance(&linear, &answers[k * linear.n..(k + 1) * linear.n], *s)
         };
-        responses.lines.iter().enumerate().map(line).collect()
+        let bare: Vec<Response> = s.iter().enumerate().map(line).collect();
+        let finite = |a: &Response| {
+            a.iter()
+                .flatten()
+                .all(|x| x.re.is_finite() && x.im.is_finite())
+        };
+        bare.iter().all(finite).then(|| Responses {
+            reading: self.reading(kinds, theta),
+            linear,
+            s,
+            answers,
+            bare,
+        })
     }
 
-    /// [`Pose::sensitivities`] from responses, what weight adds to them, and the entries of the
-    /// directions.
-    pub fn sensitivities_of(
+    /// Change of what is read with the value of each parameter: `[parameter][line]`. `entries`:
+    /// [`Pose::entries`].
+    pub fn slopes(
         &self,
         responses: &Responses,
-        weighed: &[DMatrix<Complex64>],
         kinds: &[Kind],
         entries: &[Vec<Entry>],
-        pair: &Measured,
-    ) -> (Vec<Complex64>, Vec<Vec<Complex64>>) {
-        let slope = |(kind, entries): (&Kind, &Vec<Entry>)| {
-            if *kind == Kind::Weight {
-                return self.slope_of_weight(responses, weighed, pair);
-            }
-            let line = |(k, y): (usize, &DMatrix<Complex64>)| {
-                let s = pair.s(k);
-                let (output, input) = (y.column(pair.output), y.column(pair.input));
-                let parts = entries
-                    .iter()
-                    .map(|(i, j, value)| output[*i] * input[*j] * *value);
-                -s * s * kind.factor(s) * parts.sum::<Complex64>()
-            };
-            responses.lines.iter().enumerate().map(line).collect()
+    ) -> Vec<Vec<Response>> {
+        let answers = (&responses.answers[..], responses.linear.n);
+        let read = |lines: Vec<_>| responses.read(lines.iter().map(whole));
+        let known = self.uncertain.as_ref();
+        let known = known.filter(|_| kinds.contains(&Kind::Body));
+        let bodies = known.map(|known| of_masses(&known.bodies, answers, &responses.s));
+        let mut bodies = bodies.into_iter().flatten();
+        let mut instrument = 0..;
+        let slope = |(kind, entries): (&Kind, &Vec<Entry>)| match kind {
+            Kind::Weight => self.slope_of_weight(responses),
+            Kind::Body => read(bodies.next().unwrap_or_default()),
+            Kind::Instrument => self.slope_of_instrument(responses, instrument.next()),
+            _ => read(of_entries(
+                entries,
+                |s| kind.factor(s),
+                answers,
+                &responses.s,
+            )),
         };
-        let slopes = kinds.iter().zip(entries).map(slope).collect();
-        (self.accelerance_of(responses, pair), slopes)
+        kinds.iter().zip(entries).map(slope).collect()
     }
 
-    /// `∂H/∂w = s²·(ΔJₒyᵢ + ΔJᵢyₒ) − s²·yₒᵀ(s²ΔM + ΔK)yᵢ`.
-    fn slope_of_weight(
-        &self,
-        responses: &Responses,
-        weighed: &[DMatrix<Complex64>],
-        pair: &Measured,
-    ) -> Vec<Complex64> {
+    /// `∂H/∂w = s²·(ΔJY + (ΔJY)ᵀ) − s²·Yᵀ(s²ΔM + ΔK)Y`.
+    fn slope_of_weight(&self, responses: &Responses) -> Vec<Response> {
         let Some(weight) = &self.weight else {
-            return vec![Complex64::default(); responses.lines.len()];
+            return vec![Response::default(); responses.s.len()];
         };
-        let turned = |row: usize, y: &DMatrix<Complex64>, column: usize| -> Complex64 {
-            let (row, column) = (weight.jacobian.row(row), y.column(column));
-            row.iter().zip(column.iter()).map(|(j, y)| y * *j).sum()
+        let n = responses.linear.n;
+        let line = |(k, s): (usize, &C64)| {
+            let y = responses.at(k);
+            let mut out = Response::default();
+            for i in 0..n {
+                let mut force = [C64::default(); 3];
+                for (j, y) in y.iter().enumerate() {
+                    let z = s * s * weight.mass[(i, j)] + weight.stiffness[(i, j)];
+                    force.iter_mut().zip(y).for_each(|(f, y)| *f += z * y);
+                }
+                for (a, row) in out.iter_mut().enumerate() {
+                    for (b, entry) in row.iter_mut().enumerate() {
+                        let turned =
+                            y[i][b] * weight.jacobian[(a, i)] + y[i][a] * weight.jacobian[(b, i)];
+                        *entry += turned - y[i][a] * force[b];
+                    }
+                }
+            }
+            out.map(|row| row.map(|x| x * s * s))
         };
-        let (o, i) = (pair.output, pair.input);
-        let line = |(k, (y, z)): (usize, (&DMatrix<Complex64>, &DMatrix<Complex64>))| {
-            let s = pair.s(k);
-            let inner = y.column(o).dot(&z.column(i));
-            s * s * (turned(o, y, i) + turned(i, y, o) - inner)
-        };
-        let lines = responses.lines.iter().zip(weighed).enumerate();
-        lines.map(line).collect()
+        responses.read(responses.s.iter().enumerate().map(line))
     }
 
-    /// The Jacobian at the values `theta`.
-    fn jacobian_at(&self, kinds: &[Kind], theta: &[f64]) -> DMatrix<f64> {
-        let shares = kinds
-            .iter()
-            .zip(theta)
-            .filter(|(kind, _)| **kind == Kind::Weight);
-        let share: f64 = shares.map(|(_, value)| value).sum();
-        match &self.weight {
-            Some(weight) => &self.jacobian + &weight.jacobian * share,
-            None => self.jacobian.clone(),
+    /// The slope in one parameter of kind instrument: nothing where it belongs to another pose.
+    fn slope_of_instrument(&self, responses: &Responses, number: Option<usize>) -> Vec<Response> {
+        let lines = || responses.bare.iter().zip(&responses.s);
+        let own = self.uncertain.as_ref().zip(number);
+        let own = own.and_then(|(known, number)| Some((known, known.own(number)?)));
+        match own {
+            Some((known, number)) => lines()
+                .map(|(a, s)| responses.reading.slope(number, &known.instrument, *s, a))
+                .collect(),
+            None => vec![Response::default(); responses.s.len()],
         }
+    }
+
+    fn reading(&self, kinds: &[Kind], theta: &[f64]) -> Reading {
+        let nothing = instrument::Spread::calibrated(0.0);
+        let Some(uncertain) = &self.uncertain else {
+            return Reading::of(std::iter::empty(), &nothing);
+        };
+        let mut amounts = [0.0; instrument::NUMBERS];
+        for (number, value) in of_kind(kinds, theta, Kind::Instrument).enumerate() {
+            if let Some(own) = uncertain.own(number) {
+                amounts[own] = value;
+            }
+        }
+        Reading::of(amounts.into_iter(), &uncertain.instrument)
     }
 
     /// Where each direction is not zero.
@@ -214,33 +240,65 @@ impl Pose {
         self.directions.iter().map(filled).collect()
     }
 
-    /// Mass, damping and stiffness matrix at the values `theta`.
-    fn matrices(&self, kinds: &[Kind], theta: &[f64]) -> [DMatrix<f64>; 3] {
-        let mut all = [&self.mass, &self.damping, &self.stiffness].map(DMatrix::clone);
+    /// The matrices at the values `theta`.
+    fn linear(&self, kinds: &[Kind], theta: &[f64]) -> Linear {
+        let [mut mass, mut damping, mut stiffness] =
+            [&self.mass, &self.damping, &self.stiffness].map(DMatrix::clone);
+        let mut jacobian = self.jacobian.clone();
         for ((kind, value), direction) in kinds.iter().zip(theta).zip(&self.directions) {
-            let matrix = match kind {
-                Kind::Mass => &mut all[0],
-                Kind::Damping => &mut all[1],
-                Kind::Stiffness => &mut all[2],
-                Kind::Weight => {
-                    if let Some(weight) = &self.weight {
-                        all[0] += &weight.mass * *value;
-                        all[2] += &weight.stiffness * *value;
-                    }
+            let matrix = match (kind, &self.weight) {
+                (Kind::Mass, _) => &mut mass,
+                (Kind::Damping, _) => &mut damping,
+                (Kind::Stiffness, _) => &mut stiffness,
+                (Kind::Weight, Some(weight)) => {
+                    mass += &weight.mass * *value;
+                    stiffness += &weight.stiffness * *value;
+                    jacobian += &weight.jacobian * *value;
                     continue;
                 }
+                _ => continue,
             };
             matrix.zip_apply(direction, |entry, d| *entry += value * d);
         }
-        all
+        let mut mass = rows(&mass);
+        if let Some(uncertain) = &self.uncertain {
+            let amounts = of_kind(kinds, theta, Kind::Body);
+            bodies::add(&mut mass, &uncertain.bodies, amounts);
+        }
+        Linear {
+            n: self.mass.nrows(),
+            names: Vec::new(),
+            mass,
+            damping: rows(&damping),
+            stiffness: rows(&stiffness),
+            tool: jacobian
+                .column_iter()
+                .map(|c| -> V3 { [c[0], c[1], c[2]] })
+                .collect(),
+        }
     }
 }
 
-/// `Z(s) = s²M + sD + K`.
-fn dynamic_stiffness(
-    [mass, damping, stiffness]: &[DMatrix<f64>; 3],
-    s: Complex64,
-) -> DMatrix<Complex64> {
-    let of = |i: usize, j: usize| s * s * mass[(i, j)] + s * damping[(i, j)] + stiffness[(i, j)];
-    DMatrix::from_fn(mass.nrows(), mass.ncols(), of)
+impl Uncertain {
+    /// Which number of this pose's instruments a parameter of kind instrument is.
+    fn own(&self, number: usize) -> Option<usize> {
+        let first = (instrument::NUMBERS - SHARED) * self.pose;
+        match number < SHARED {
+            true => Some(number),
+            false => number
+                .checked_sub(first)
+                .filter(|own| (SHARED..instrument::NUMBERS).contains(own)),
+        }
+    }
+}
+
+/// The values of the parameters of one kind.
+fn of_kind<'a>(kinds: &'a [Kind], theta: &'a [f64], kind: Kind) -> impl Iterator<Item = f64> + 'a {
+    let all = kinds.iter().zip(theta);
+    all.filter(move |(own, _)| **own == kind)
+        .map(|(_, value)| *value)
+}
+
+fn rows(matrix: &DMatrix<f64>) -> Vec<f64> {
+    matrix.transpose().as_slice().to_vec()
 }

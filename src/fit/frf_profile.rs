@@ -3,7 +3,8 @@
 //! the curvature at the best fit does not tell how wide the interval is.
 
 use super::frf_identifiability::Place;
-use super::frf_search::{Stop, descend};
+use super::frf_linear::Frozen;
+use super::frf_search::{Stop, descend_by};
 use nalgebra::DMatrix;
 
 /// Relative half width from which on the curvature is not trusted alone.
@@ -24,11 +25,16 @@ const GAIN: f64 = 0.02;
 /// end within the bounds. `inverse`: of the normal matrix.
 pub(super) fn widened(
     best: Place,
-    inverse: &DMatrix<f64>,
+    (inverse, frozen): (&DMatrix<f64>, &Frozen),
     p: usize,
     half: f64,
 ) -> [Option<f64>; 2] {
-    let profile = Profile { best, inverse, p };
+    let profile = Profile {
+        best,
+        inverse,
+        frozen,
+        p,
+    };
     [-1.0, 1.0].map(|side| match half < DOUBTED {
         true => Some(half),
         false => profile.side(side, half),
@@ -39,6 +45,7 @@ pub(super) fn widened(
 struct Profile<'a> {
     best: Place<'a>,
     inverse: &'a DMatrix<f64>,
+    frozen: &'a Frozen,
     p: usize,
 }
 
@@ -77,7 +84,7 @@ impl Profile<'_> {
         held.parameters[p].bounds = [value; 2];
         let by = value.ln() - start[p];
         let follow = |i: usize| {
-            let bounds = held.parameters[i].bounds.map(f64::ln);
+            let bounds = held.parameters[i].ends();
             let slope = self.inverse[(i, p)] / self.inverse[(p, p)];
             (start[i] + slope * by).clamp(bounds[0], bounds[1])
         };
@@ -86,7 +93,8 @@ impl Profile<'_> {
             steps: STEPS,
             gain: GAIN,
         };
-        let (reached, cost) = descend(&held, guess, stop)?;
+        let near = |theta: &[f64]| self.frozen.linearise(&held, theta);
+        let (reached, cost) = descend_by(&held, guess, stop, near)?;
         Some((reached, (cost - self.best.at.cost).max(0.0).sqrt()))
     }
 }

@@ -1,12 +1,13 @@
 //! A robot at a pose as the model of a tuning: which constants of it are tuned, and how they act.
 
-use super::frf_model::{Kind, Pose, Weight};
+use super::frf_model::{Kind, Pose, Uncertain, Weight};
 use super::frf_nuisance::{MODEL_FORM, stiffnesses, weight};
 use super::frf_tuning::Parameter;
 use super::parameter::{Identified, Status};
 use crate::ground::problem::Outcome;
 use crate::motion::linear::{Linear, gravity_stiffness};
 use crate::motion::swing::State;
+use crate::motion::uncertain::{Known, bodies};
 use crate::motion::{self, Chain, Work, linearise};
 use crate::robot::{Robot, Spring};
 use nalgebra::DMatrix;
@@ -102,7 +103,12 @@ fn about(site: &str, kind: Kind, start: f64, ci95: Option<[f64; 2]>) -> Paramete
 ///
 /// # Errors
 /// No equilibrium, or nothing elastic.
-pub fn pose(robot: &Robot, joints: &[f64], parameters: &[Parameter]) -> Outcome<Pose> {
+pub fn pose(
+    robot: &Robot,
+    joints: &[f64],
+    parameters: &[Parameter],
+    known: &Known,
+) -> Outcome<Pose> {
     let chain = motion::elastic(&without_play(robot));
     let rest = State::settled(&chain, joints)?.angles();
     let mut work = Work::new(&chain);
@@ -132,6 +138,11 @@ pub fn pose(robot: &Robot, joints: &[f64], parameters: &[Parameter]) -> Outcome<
             jacobian: jacobian(&bent) - jacobian(&linear),
         }),
         jacobian: jacobian(&linear),
+        uncertain: Some(Uncertain {
+            bodies: bodies::directions(robot, &straight, &known.bodies)?,
+            instrument: known.instrument,
+            pose: 0,
+        }),
         directions,
         measured: Vec::new(),
     })
@@ -162,6 +173,7 @@ fn value(robot: &Robot, parameter: &Parameter) -> f64 {
         Kind::Stiffness => spring.map_or(0.0, |(_, s)| s.stiffness),
         Kind::Mass => robot.tool.body.as_ref().map_or(0.0, |body| body.mass),
         Kind::Weight => 1.0,
+        Kind::Body | Kind::Instrument => 0.0,
     }
 }
 
@@ -183,7 +195,7 @@ fn tool_mass(robot: &Robot, chain: &Chain, rest: &[f64]) -> Outcome<DMatrix<f64>
 fn direction(linear: &Linear, tool: &DMatrix<f64>, parameter: &Parameter) -> DMatrix<f64> {
     match parameter.kind {
         Kind::Mass => return tool.clone(),
-        Kind::Weight => return DMatrix::zeros(0, 0),
+        Kind::Weight | Kind::Body | Kind::Instrument => return DMatrix::zeros(0, 0),
         Kind::Damping | Kind::Stiffness => {}
     }
     let own = |i: usize| f64::from(u8::from(linear.names[i] == parameter.site));
@@ -210,7 +222,7 @@ pub fn with_values(robot: &Robot, parameters: &[Parameter], values: &[f64]) -> R
             match parameter.kind {
                 Kind::Damping => spring.damping = *value,
                 Kind::Stiffness => spring.stiffness = *value,
-                Kind::Mass | Kind::Weight => {}
+                Kind::Mass | Kind::Weight | Kind::Body | Kind::Instrument => {}
             }
         }
     }

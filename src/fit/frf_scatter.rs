@@ -31,7 +31,7 @@ pub(super) fn scatter(task: &Tuning, theta: &[f64]) -> Option<Scatter> {
         hits: DMatrix::zeros(n, n),
         freedom: 0,
     };
-    for pose in channels(task, theta)? {
+    for pose in channels(task, theta, n)? {
         for direction in pose.chunk_by(|a, b| a.pair.input == b.pair.input) {
             for channel in direction {
                 sum.lines += under_window(channel.pair, &channel.jacobian);

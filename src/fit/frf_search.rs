@@ -1,7 +1,7 @@
 //! Levenberg-Marquardt descents on a tuning task, with parameters that stop at their bounds.
 
 use super::frf_linear::{Linearised, linearise};
-use super::frf_tuning::Tuning;
+use super::frf_tuning::{Parameter, Tuning};
 use nalgebra::{DMatrix, DVector};
 
 /// Where a descent ended: logarithms and cost.
@@ -17,14 +17,24 @@ pub(super) struct Stop {
 }
 
 /// Levenberg-Marquardt, steps cut at the bounds.
-pub(super) fn descend(task: &Tuning, mut theta: Vec<f64>, stop: Stop) -> Option<Run> {
-    let mut at = linearise(task, &theta)?;
+pub(super) fn descend(task: &Tuning, theta: Vec<f64>, stop: Stop) -> Option<Run> {
+    descend_by(task, theta, stop, |theta| linearise(task, theta))
+}
+
+/// The same with the normal equations of `linearised`.
+pub(super) fn descend_by(
+    task: &Tuning,
+    mut theta: Vec<f64>,
+    stop: Stop,
+    linearised: impl Fn(&[f64]) -> Option<Linearised>,
+) -> Option<Run> {
+    let mut at = linearised(&theta)?;
     let mut brake = 1e-3;
     for _ in 0..stop.steps {
         let before = at.cost;
         while brake < 1e10 {
             let trial = stepped(task, &theta, &at, brake);
-            let found = trial.and_then(|trial| Some((linearise(task, &trial)?, trial)));
+            let found = trial.and_then(|trial| Some((linearised(&trial)?, trial)));
             if let Some((lower, trial)) = found.filter(|(found, _)| found.cost < at.cost) {
                 (at, theta) = (lower, trial);
                 brake = (0.1 * brake).max(1e-10);
@@ -41,7 +51,8 @@ pub(super) fn descend(task: &Tuning, mut theta: Vec<f64>, stop: Stop) -> Option<
 
 /// A damped step; parameters that push against a bound stay there.
 fn stepped(task: &Tuning, theta: &[f64], at: &Linearised, brake: f64) -> Option<Vec<f64>> {
-    let bound = |i: usize, side: usize| task.parameters[i].bounds[side].ln();
+    let bounds: Vec<[f64; 2]> = task.parameters.iter().map(Parameter::ends).collect();
+    let bound = |i: usize, side: usize| bounds[i][side];
     let held = |i: &usize| {
         (at.slope[*i] < 0.0 && theta[*i] <= bound(*i, 0))
             || (at.slope[*i] > 0.0 && theta[*i] >= bound(*i, 1))

@@ -6,7 +6,7 @@
 
 use super::frf_data::{Errors, Measured};
 use super::frf_model::{Kind, Pose};
-use super::frf_tuning::Tuning;
+use super::frf_tuning::{Parameter, Tuning};
 use crate::ground::random::Random;
 use argmin::core::{CostFunction, Error, Executor, State};
 use argmin::solver::neldermead::NelderMead;
@@ -25,7 +25,8 @@ const ITERATIONS: u64 = 4;
 /// Logarithms from which to search, the first at the first guesses.
 pub(super) fn starts(task: &Tuning) -> Vec<Vec<f64>> {
     let mut random = Random::new(11);
-    let first: Vec<f64> = task.parameters.iter().map(|p| p.start.ln()).collect();
+    let own = |p: &Parameter| p.coordinate(p.start);
+    let first: Vec<f64> = task.parameters.iter().map(own).collect();
     let mut draw = || -> Vec<f64> {
         let near = first.iter().zip(&task.parameters).map(|(x, p)| {
             let own = p.prior_ln_std.filter(|_| p.nuisance);
@@ -42,7 +43,7 @@ pub(super) fn starts(task: &Tuning) -> Vec<Vec<f64>> {
     let thin = Thin {
         task,
         kinds: task.kinds(),
-        poses: task.poses.iter().map(thinned).collect(),
+        poses: thinned(task, LINES).poses,
     };
     let proposed = simplices
         .into_par_iter()
@@ -55,14 +56,23 @@ pub(super) fn starts(task: &Tuning) -> Vec<Vec<f64>> {
 fn inside(task: &Tuning, theta: &[f64]) -> Vec<f64> {
     let clamped = theta.iter().zip(&task.parameters);
     clamped
-        .map(|(x, p)| x.clamp(p.bounds[0].ln(), p.bounds[1].ln()))
+        .map(|(x, p)| x.clamp(p.ends()[0], p.ends()[1]))
         .collect()
 }
 
-/// The pose with a few lines of each pair, from the lowest to the highest.
-fn thinned(pose: &Pose) -> Pose {
+/// The task with at most so many lines of each pair, from the lowest to the highest, and without the errors
+/// of its data.
+pub(super) fn thinned(task: &Tuning, lines: usize) -> Tuning {
+    Tuning {
+        parameters: task.parameters.clone(),
+        poses: task.poses.iter().map(|pose| few(pose, lines)).collect(),
+        ..*task
+    }
+}
+
+fn few(pose: &Pose, lines: usize) -> Pose {
     let measured = pose.measured.iter().map(|pair| {
-        let step = pair.frf.len().div_ceil(LINES).max(1);
+        let step = pair.frf.len().div_ceil(lines).max(1);
         Measured {
             frequency_hz: pair.frequency_hz.iter().copied().step_by(step).collect(),
             frf: pair.frf.iter().copied().step_by(step).collect(),
@@ -105,7 +115,7 @@ impl CostFunction for &Thin<'_> {
 
     /// Sum of the squared differences of the logarithms of the amplitudes.
     fn cost(&self, theta: &Vec<f64>) -> Result<f64, Error> {
-        let values: Vec<f64> = inside(self.task, theta).iter().map(|t| t.exp()).collect();
+        let values = self.task.values(&inside(self.task, theta));
         let poses = self.poses.iter();
         let sum: Option<f64> = poses.map(|pose| self.apart(pose, &values)).sum();
         Ok(sum.filter(|sum| sum.is_finite()).unwrap_or(f64::MAX))
@@ -118,7 +128,7 @@ impl Thin<'_> {
         for pairs in pose.measured.chunk_by(Measured::on_lines_of) {
             let responses = pose.responses(&self.kinds, values, &pairs[0])?;
             for pair in pairs {
-                let simulated = pose.accelerance_of(&responses, pair);
+                let simulated = responses.of(pair);
                 let ratios = simulated
                     .iter()
                     .zip(&pair.frf)

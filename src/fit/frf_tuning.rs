@@ -8,31 +8,14 @@ use super::frf_linear::{Linearised, linearise};
 use super::frf_match::{FrfMatch, frf_match};
 use super::frf_model::{Kind, Pose};
 use super::frf_nuisance::{Pull, pulls};
+pub use super::frf_parameter::Parameter;
 pub use super::frf_residuals::Residuals;
 use super::frf_residuals::with_residuals;
 use super::frf_rivals::rivals;
 use super::frf_search::{Run, Stop, descend};
-use super::frf_starts::starts;
+use super::frf_starts::{starts, thinned};
 use crate::ground::problem::{Outcome, Problem};
 use rayon::prelude::*;
-
-/// One parameter.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Parameter {
-    /// Where it acts, as in `A6`, `A6-tilt`, `base`.
-    pub site: String,
-    /// What it multiplies.
-    pub kind: Kind,
-    /// First guess, SI.
-    pub start: f64,
-    /// Lowest and highest value, SI, positive.
-    pub bounds: [f64; 2],
-    /// Standard deviation of the logarithm about `start`, where a prior is stated.
-    pub prior_ln_std: Option<f64>,
-    /// Whether it is only fitted along, with its prior: what is said of the others holds its
-    /// uncertainty, of itself nothing is said. Such parameters stand last.
-    pub nuisance: bool,
-}
 
 /// Weighted sum of squares within which another minimum explains the data as well as the best: four
 /// standard deviations. Springs in series about nearly the same axis have two solutions for their
@@ -44,6 +27,12 @@ const SEARCH: Stop = Stop {
     steps: 200,
     gain: 1e-4,
 };
+/// Lines per pair on which is searched first.
+const LINES: usize = 64;
+/// At most so many places of that search are followed on all lines: those that are further apart in some
+/// logarithm than this.
+const PLACES: usize = 4;
+const APART: f64 = 0.05;
 /// How often a better solution found by exchanging dampings is exchanged in turn.
 const EXCHANGES: usize = 3;
 /// Gain in cost from which on a solution is a better one.
@@ -89,6 +78,18 @@ pub(super) struct Solved {
 }
 
 impl Tuning {
+    /// How many parameters are asked for: they stand first.
+    pub(super) fn asked_for(&self) -> usize {
+        self.parameters.iter().filter(|p| !p.nuisance).count()
+    }
+
+    /// The values from what is searched.
+    pub(super) fn values(&self, theta: &[f64]) -> Vec<f64> {
+        let all = self.parameters.iter().zip(theta);
+        all.map(|(parameter, theta)| parameter.value(*theta))
+            .collect()
+    }
+
     /// What each parameter multiplies.
     pub fn kinds(&self) -> Vec<Kind> {
         self.parameters.iter().map(|p| p.kind).collect()
@@ -103,26 +104,47 @@ pub fn tune(task: &Tuning) -> Outcome<Tuned> {
     Ok(solve(task)?.told(task))
 }
 
-/// Descends from all starts, then from where dampings are exchanged.
+/// Descends from all starts, then from where dampings are exchanged, on some of the lines; then on all from
+/// where that ended well.
 pub(super) fn solve(task: &Tuning) -> Outcome<Solved> {
     check(task)?;
-    let mut runs = descents(task, starts(task));
+    let thin = thinned(task, LINES);
+    let mut runs = descents(&thin, starts(task));
     let agreeing_starts = agreeing(&runs);
-    let mut at = at_best(task, &mut runs)?;
+    let mut at = at_best(&thin, &mut runs)?;
     for _ in 0..EXCHANGES {
         let cost = at.cost;
         let near = rivals(task, &runs[0].0, &inverse(&at.normal));
-        runs.extend(descents(task, near));
-        at = at_best(task, &mut runs)?;
+        runs.extend(descents(&thin, near));
+        at = at_best(&thin, &mut runs)?;
         if at.cost > cost - ENOUGH {
             break;
         }
     }
+    let mut runs = descents(task, distinct(task, runs));
+    let at = at_best(task, &mut runs)?;
     Ok(Solved {
         runs,
         agreeing_starts,
         at,
     })
+}
+
+/// The places of the best runs (sorted) that differ in what is asked for.
+fn distinct(task: &Tuning, runs: Vec<Run>) -> Vec<Vec<f64>> {
+    let count = task.asked_for();
+    let apart = |a: &[f64], b: &[f64]| {
+        let each = a[..count].iter().zip(&b[..count]);
+        each.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    };
+    let enough = runs.first().map_or(0.0, |best| 1.5 * best.1 + RIVAL);
+    let mut kept: Vec<Vec<f64>> = Vec::new();
+    for (theta, _) in runs.into_iter().filter(|run| run.1 <= enough) {
+        if kept.len() < PLACES && kept.iter().all(|other| apart(&theta, other) > APART) {
+            kept.push(theta);
+        }
+    }
+    kept
 }
 
 /// Where searches from `starts` end.
@@ -165,7 +187,7 @@ impl Solved {
         let reduced = self.at.cost / freedom;
         let near = |run: &&Run| run.1 <= self.at.cost + RIVAL * reduced.max(1.0);
         let rivals: Vec<&[f64]> = self.runs.iter().filter(near).map(|r| &r.0[..]).collect();
-        let values: Vec<f64> = self.theta().iter().map(|t| t.exp()).collect();
+        let values = task.values(self.theta());
         let place = Place {
             task,
             theta: self.theta(),
@@ -183,7 +205,9 @@ impl Solved {
 }
 
 fn check(task: &Tuning) -> Outcome<()> {
-    let wrong = |p: &&Parameter| !(p.bounds[0] > 0.0 && p.bounds[0] < p.bounds[1] && p.start > 0.0);
+    let positive = |p: &Parameter| p.bounds[0] > 0.0 && p.start > 0.0;
+    let wrong =
+        |p: &&Parameter| !(p.bounds[0] < p.bounds[1]) || !(p.kind.is_signed() || positive(p));
     if let Some(parameter) = task.parameters.iter().find(wrong) {
         return Err(Problem::new(
             "bounds and first guess must be positive, the lower bound below the upper",
@@ -207,7 +231,7 @@ fn check(task: &Tuning) -> Outcome<()> {
     Ok(())
 }
 
-fn singular() -> Problem {
+pub(super) fn singular() -> Problem {
     Problem::new(
         "the model has no finite FRF at these values",
         "check masses and stiffnesses of the robot file: each coordinate needs both",
@@ -233,8 +257,7 @@ fn freedom(task: &Tuning) -> f64 {
             - task.residuals.terms() as f64
     };
     let measured: f64 = pairs(task).map(|(_, pair)| of(pair)).sum();
-    let fitted = task.parameters.iter().filter(|p| !p.nuisance).count();
-    (measured - fitted as f64).max(1.0)
+    (measured - task.asked_for() as f64).max(1.0)
 }
 
 fn matches(task: &Tuning, values: &[f64]) -> Vec<Vec<[FrfMatch; 2]>> {

@@ -1,6 +1,7 @@
 //! Kind `hammer`: impulse-hammer tests, force and acceleration over time.
 
 use super::front::Front;
+use super::hammer_known::Known;
 use super::table::{Column, Table};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::units::{DEGREE, Dimension};
@@ -18,6 +19,8 @@ pub struct HammerRecord {
     pub accelerometer_noise: Option<f64>,
     /// Relative standard deviation of the stiffnesses of the present simulation.
     pub nominal_rel_std: Option<f64>,
+    /// How well the robot's bodies and dampings and the instruments are known.
+    pub known: Known,
     /// Time constant, s, of an exponential window already applied to both channels, counted from
     /// the first sample of each record.
     pub exponential_window_s: Option<f64>,
@@ -86,6 +89,7 @@ fn from_table(table: &Table) -> Outcome<HammerRecord> {
         joint_angles: joint_angles(front)?,
         accelerometer_noise: front.positive("accelerometer_noise_m_s2")?,
         nominal_rel_std: front.positive("nominal_stiffness_rel_std")?,
+        known: Known::read(front)?,
         exponential_window_s: front.positive("exponential_window_s")?,
         interval_s,
         outputs: outputs.into_iter().map(|(name, _)| name).collect(),

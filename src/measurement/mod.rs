@@ -8,6 +8,7 @@ pub mod force_sensor;
 pub mod foreign;
 pub mod front;
 pub mod hammer;
+pub mod hammer_known;
 pub mod hammer_uff;
 pub mod job;
 pub mod joint_motion;

@@ -16,6 +16,7 @@ pub mod receptance;
 pub mod statics;
 pub mod swing;
 pub mod swing_state;
+pub mod uncertain;
 pub mod work;
 
 pub use build::{elastic, rigid};

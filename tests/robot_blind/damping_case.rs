@@ -1,4 +1,5 @@
-//! Hammer tests of robots whose dampings nobody knows and whose file is right otherwise.
+//! Hammer tests of robots whose dampings nobody knows: their file is right otherwise, or as uncertain as
+//! files of real robots are.
 
 use super::case::Case;
 use super::dynamics::Dynamics;
@@ -7,30 +8,78 @@ use super::hammer::{Plan, Scene};
 use super::hammer_case::{note, text};
 use super::poses::random_pose;
 use super::random::Random;
+use super::robot::{M3, Robot};
 use nalgebra::DMatrix;
 
-/// Bodies as in the file, stiffnesses as far off as it says, dampings by up to a factor of three either
-/// way; sensors from quiet to noisy.
+/// Dampings off by up to a factor of three either way.
+const DAMPING: f64 = 0.4;
+/// What nobody knows better: masses, centres, inertias and springs of a robot file.
+const UNCERTAIN: Spread = Spread {
+    stiffness: 0.02,
+    damping: DAMPING,
+    mass: 0.02,
+    com: 0.005,
+    inertia: 0.05,
+};
+/// Calibration of hammer and sensor, relative.
+const GAIN: f64 = 0.01;
+
+/// Bodies as in the file, stiffnesses as far off as it says; sensors from quiet to noisy.
 pub fn damping_case(seed: u64) -> (Case, Vec<Mode>) {
     let mut random = Random::new(seed, "damping");
     let file = family::draw(0, &mut random);
-    let stiffness = random.choose(&[0.003, 0.03]);
     let spread = Spread {
-        stiffness,
-        damping: 0.4,
+        stiffness: random.choose(&[0.003, 0.03]),
+        damping: DAMPING,
         mass: 0.0,
         com: 0.0,
         inertia: 0.0,
     };
-    let real = family::real(&file, spread, &mut random);
-    let mut plan = Plan::draw(&real, random_pose(&file, &mut random), &mut random);
-    plan.noise.size = random.log_uniform(0.003, 0.1);
+    case(seed, file, (spread, [1.0; 3]), [0.003, 0.1], &mut random)
+}
+
+/// Bodies and springs as uncertain as those of real robots, quiet sensors.
+pub fn uncertain_case(seed: u64) -> (Case, Vec<Mode>) {
+    let mut random = Random::new(seed, "uncertain damping");
+    let file = family::draw(0, &mut random);
+    case(
+        seed,
+        file,
+        (UNCERTAIN, [1.0; 3]),
+        [0.003, 0.01],
+        &mut random,
+    )
+}
+
+/// The same with hammer and sensor off their calibration, and any sensor.
+pub fn miscalibrated_case(seed: u64) -> (Case, Vec<Mode>) {
+    let mut random = Random::new(seed, "miscalibrated damping");
+    let file = family::draw(0, &mut random);
+    let gain = |random: &mut Random| 1.0 + GAIN * random.normal_within(2.5);
+    let hammer = gain(&mut random);
+    let sensor = std::array::from_fn(|_| gain(&mut random) / hammer);
+    case(seed, file, (UNCERTAIN, sensor), [0.003, 0.1], &mut random)
+}
+
+fn case(
+    seed: u64,
+    file: Robot,
+    (spread, gains): (Spread, [f64; 3]),
+    noise: [f64; 2],
+    random: &mut Random,
+) -> (Case, Vec<Mode>) {
+    let stiffness = spread.stiffness;
+    let real = family::real(&file, spread, random);
+    let mut plan = Plan::draw(&real, random_pose(&file, random), random);
+    plan.noise.size = random.log_uniform(noise[0], noise[1]);
+    let mut scene = Scene::new(real.clone());
+    scene.sensor = M3::from_diagonal(&gains.into());
     let modes = poles(&Dynamics::of(&real, &plan.pose));
     let case = Case {
         kind: "damping".into(),
         seed,
         truths: Vec::new(),
-        csv: text(&Scene::new(real.clone()), &plan, stiffness, &mut random),
+        csv: text(&scene, &plan, stiffness, random),
         note: note(&plan, stiffness, &file),
         file,
         real,

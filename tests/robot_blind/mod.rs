@@ -33,7 +33,7 @@ mod workspace_effects;
 mod workspace_strength;
 
 pub use case::{Case, Truth};
-pub use damping_case::{Mode, damping_case};
+pub use damping_case::{Mode, damping_case, miscalibrated_case, uncertain_case};
 pub use dynamics::Dynamics;
 pub use hammer_case::hammer_case;
 pub use hammer_effects::{EFFECTS as HAMMER_EFFECTS, OUTSIDE as HAMMER_OUTSIDE};

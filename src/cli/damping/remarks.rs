@@ -63,14 +63,14 @@ impl Damped {
         ))
     }
 
-    /// Dampings that meet the FRFs only with other stiffnesses than the robot keeps.
+    /// Dampings that meet the FRFs only with other stiffnesses and bodies than the robot keeps.
     fn unmoved(&self) -> Option<String> {
         let pairs = || self.account.pairs.iter().flatten();
         let apart = |pair: &Pair| good(&pair.matches[1]) && !good(&pair.unmoved);
         let worst = pairs().map(|pair| pair.unmoved.frac).fold(1.0, f64::min);
         pairs().any(apart).then(|| {
             format!(
-                "the robot keeps its stiffnesses, with which the tuned dampings do not meet the FRFs (FRAC down to {worst:.3}); --release-stiffness writes those that do"
+                "the robot keeps its stiffnesses and bodies, with which the tuned dampings do not meet the FRFs (FRAC down to {worst:.3}): both were fitted along within what is known of them; --release-stiffness writes the stiffnesses"
             )
         })
     }

@@ -79,6 +79,8 @@ impl Damped {
                 Kind::Stiffness => " stiffness",
                 Kind::Mass => " mass",
                 Kind::Weight => " weight",
+                Kind::Body => " bodies",
+                Kind::Instrument => " instrument",
             };
             format!("{}{kind}^{}", constants[*i].site, significant(*weight, 2))
         };

@@ -14,6 +14,7 @@ use crate::findings::belief::Belief;
 use crate::fit::suitability::hammer::{doubts, refuse};
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::hammer::HammerRecord;
+use crate::motion::uncertain;
 use crate::robot::Robot;
 
 /// Unit of all errors.
@@ -26,11 +27,10 @@ const RATES: [f64; 2] = [7.0, 1.5];
 const END: f64 = 0.01;
 /// Least distances of lines, Hz.
 const STEPS_HZ: [f64; 2] = [1.4, 0.5];
-/// What a laboratory knows where the file does not say.
-const KNOWN: Known = Known {
-    stiffness: 0.05,
-    damping: 0.25,
-};
+/// Relative standard deviation of a stiffness, and of the logarithm of a damping, where the file states
+/// none.
+const STIFFNESS: f64 = 0.05;
+const DAMPING: f64 = 0.25;
 
 /// A diagnosed hammer test.
 pub struct Diagnosis {
@@ -98,8 +98,9 @@ fn undoubted(record: &HammerRecord, robot: &Robot) -> Outcome<Diagnosis> {
         ));
     }
     let known = Known {
-        stiffness: record.nominal_rel_std.unwrap_or(KNOWN.stiffness),
-        ..KNOWN
+        stiffness: record.nominal_rel_std.unwrap_or(STIFFNESS),
+        damping: record.known.damping_rel_std.unwrap_or(DAMPING),
+        laboratory: uncertain::Known::stated(record.known),
     };
     let case = Case {
         machine: Machine::new(robot, &joints, known, &wide)?,

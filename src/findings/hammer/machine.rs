@@ -2,10 +2,12 @@
 
 use super::data::Data;
 use super::map::weights;
-use super::nuisance::{INSTRUMENT, Known, Nuisance};
+use super::nuisance::{Known, Nuisance};
 use super::prediction::{Machine, Point};
 use super::structure::Structure;
 use crate::ground::problem::Outcome;
+use crate::motion::uncertain::bodies;
+use crate::motion::uncertain::instrument::NUMBERS as INSTRUMENT;
 use crate::robot::Robot;
 use nalgebra::DMatrix;
 use std::sync::Mutex;
@@ -22,7 +24,7 @@ impl<'a> Machine<'a> {
     /// No equilibrium, or nothing elastic.
     pub fn new(robot: &'a Robot, joints: &'a [f64], known: Known, data: &Data) -> Outcome<Self> {
         let structure = Structure::of(robot, joints)?;
-        let numbers = structure.bodies(robot).nrows();
+        let numbers = bodies::NUMBERS * (robot.dof() + 1);
         let mut machine = Self {
             robot,
             joints,
@@ -43,17 +45,12 @@ impl<'a> Machine<'a> {
         let nuisance: Nuisance = self.nuisance(&point)?;
         point.theta.resize(nuisance.len(), 0.0);
         let columns = self.slopes(&nuisance, &point, data)?.columns;
-        let mut bodies = columns.columns(INSTRUMENT, self.seen.nrows()).into_owned();
+        let mut all = columns.columns(INSTRUMENT, self.seen.nrows()).into_owned();
         let weights = weights(data);
-        for mut column in bodies.column_iter_mut() {
+        for mut column in all.column_iter_mut() {
             column.iter_mut().zip(&weights).for_each(|(x, w)| *x *= w);
         }
-        let eigen = (bodies.transpose() * &bodies).symmetric_eigen();
-        let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
-        order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
-        order.retain(|i| eigen.eigenvalues[*i] > UNSEEN * UNSEEN);
-        order.truncate(MOST);
-        Ok(eigen.eigenvectors.select_columns(&order).transpose())
+        Ok(bodies::seen(all.tr_mul(&all), UNSEEN, MOST))
     }
 }
 

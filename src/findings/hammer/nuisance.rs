@@ -1,10 +1,12 @@
 //! What is uncertain although nothing is wrong: stiffnesses, dampings, bodies, the sensor's mounting,
 //! the angle of the hits. Each is counted in its own standard deviations.
 
-use super::structure::triangle;
 use crate::causes::places::ADDED_DAMPING;
 use crate::motion::Linear;
 use crate::motion::frf::C64;
+use crate::motion::uncertain::instrument::{NUMBERS as INSTRUMENT, Reading};
+use crate::motion::uncertain::slopes::{Entry, Upper, of_entries, of_masses};
+use crate::motion::uncertain::{self, bodies as numbers};
 use crate::robot::Robot;
 use nalgebra::DMatrix;
 use std::sync::Arc;
@@ -16,19 +18,12 @@ pub struct Known {
     pub stiffness: f64,
     /// Of the logarithm of a damping.
     pub damping: f64,
+    /// Of the bodies and the instruments.
+    pub laboratory: uncertain::Known,
 }
 
 /// Standard deviation of the logarithm of a damping nobody stated: that of an axis which a cause adds.
 const ADDED: f64 = 1.0;
-/// Sensor gain (relative), its mounting (rad), angle of the hits (rad), skew (s).
-const GAIN: f64 = 0.005;
-const MOUNTING: f64 = 0.008;
-const HIT: f64 = 0.006;
-const SKEW: f64 = 2e-5;
-
-/// Instrument numbers: three gains, three angles, six angles of hits, one skew.
-pub const INSTRUMENT: usize = 13;
-
 /// The layout of the nuisances of one structure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Nuisance {
@@ -91,21 +86,19 @@ impl Nuisance {
         }
     }
 
+    /// What hammer and sensor make of an accelerance with the nuisances `theta`.
+    pub fn reading(&self, theta: &[f64]) -> Reading {
+        let own = theta.iter().copied().take(INSTRUMENT);
+        Reading::of(own, &self.known.laboratory.instrument)
+    }
+
     /// The matrices with the nuisances `theta` in them.
     pub fn applied(&self, linear: &Linear, theta: &[f64]) -> Linear {
         let mut out = linear.clone();
         let n = linear.n;
         let [bodies, stiffness, damping] = self.starts();
-        for (place, (i, j)) in triangle(n).enumerate() {
-            let rows = 0..self.mass.nrows();
-            let more: f64 = rows
-                .map(|r| theta[bodies + r] * self.mass[(r, place)])
-                .sum();
-            out.mass[i * n + j] += more;
-            if i != j {
-                out.mass[j * n + i] += more;
-            }
-        }
+        let amounts = theta[bodies..stiffness].iter().copied();
+        numbers::add(&mut out.mass, &self.mass, amounts);
         for (site, own) in self.coordinates.iter().enumerate() {
             let soft = match site < self.sites.len() {
                 true => (self.known.stiffness * theta[stiffness + site]).exp(),
@@ -123,29 +116,18 @@ impl Nuisance {
 
     /// Changes of the accelerance with every number of the structure, in the order of `theta` behind
     /// the instrument's: `[number][line][pair of directions as in upper]`.
-    pub fn slopes(&self, linear: &Linear, answers: &[[C64; 3]], s: &[C64]) -> Vec<Vec<[C64; 6]>> {
+    pub fn slopes(&self, linear: &Linear, answers: &[[C64; 3]], s: &[C64]) -> Vec<Vec<Upper>> {
         let n = linear.n;
-        let mut out = self.mass_slopes(n, answers, s);
-        let squares = |site: &Vec<usize>| -> Vec<[C64; 6]> {
-            let line = |k: usize| {
-                let mut sum = [C64::default(); 6];
-                for i in site {
-                    let y = &answers[k * n + i];
-                    for (entry, (a, b)) in sum.iter_mut().zip(UPPER) {
-                        *entry += y[a] * y[b];
-                    }
-                }
-                sum
-            };
-            (0..s.len()).map(line).collect()
+        let mut out = of_masses(&self.mass, (answers, n), s);
+        let unit = |site: &Vec<usize>| -> Vec<Upper> {
+            let entries: Vec<Entry> = site.iter().map(|i| (*i, *i, 1.0)).collect();
+            of_entries(&entries, |_| C64::new(1.0, 0.0), (answers, n), s)
         };
-        let scaled = |squares: &[[C64; 6]], factor: &dyn Fn(C64) -> C64| -> Vec<[C64; 6]> {
-            let lines = squares.iter().zip(s);
-            lines
-                .map(|(v, s)| v.map(|x| -*s * *s * factor(*s) * x))
-                .collect()
+        let scaled = |unit: &[Upper], factor: &dyn Fn(C64) -> C64| -> Vec<Upper> {
+            let lines = unit.iter().zip(s);
+            lines.map(|(v, s)| v.map(|x| factor(*s) * x)).collect()
         };
-        let all: Vec<Vec<[C64; 6]>> = self.coordinates.iter().map(squares).collect();
+        let all: Vec<Vec<Upper>> = self.coordinates.iter().map(unit).collect();
         for (site, own) in self.coordinates.iter().enumerate().take(self.sites.len()) {
             let k = own.first().map_or(0.0, |i| linear.stiffness[i * n + i]);
             let k = C64::new(self.known.stiffness * k, 0.0);
@@ -158,37 +140,6 @@ impl Nuisance {
         }
         out
     }
-
-    /// −s⁴ yᵀ G y of every direction G: one product of matrices for all lines.
-    fn mass_slopes(&self, n: usize, answers: &[[C64; 3]], s: &[C64]) -> Vec<Vec<[C64; 6]>> {
-        let places = n * (n + 1) / 2;
-        let mut products = DMatrix::zeros(places, 12 * s.len());
-        for (k, s) in s.iter().enumerate() {
-            let y = &answers[k * n..(k + 1) * n];
-            let factor = -(s * s) * (s * s);
-            for (p, (a, b)) in UPPER.into_iter().enumerate() {
-                let column = 12 * k + 2 * p;
-                for (place, (i, j)) in triangle(n).enumerate() {
-                    let both = match i == j {
-                        true => y[i][a] * y[i][b],
-                        false => y[i][a] * y[j][b] + y[j][a] * y[i][b],
-                    };
-                    let both = both * factor;
-                    products[(place, column)] = both.re;
-                    products[(place, column + 1)] = both.im;
-                }
-            }
-        }
-        let all = self.mass.as_ref() * products;
-        let line = |row: usize, k: usize| {
-            std::array::from_fn(|p| {
-                C64::new(all[(row, 12 * k + 2 * p)], all[(row, 12 * k + 2 * p + 1)])
-            })
-        };
-        (0..self.mass.nrows())
-            .map(|row| (0..s.len()).map(|k| line(row, k)).collect())
-            .collect()
-    }
 }
 
 /// A damping of zero cannot be scaled: it starts as that of an added spring.
@@ -197,43 +148,4 @@ fn floor(linear: &Linear, at: usize) -> f64 {
         true => linear.damping[at],
         false => ADDED_DAMPING * linear.stiffness[at],
     }
-}
-
-/// Pairs of directions of a symmetric 3×3 matrix.
-pub const UPPER: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
-
-/// An accelerance as it is read with the instrument's numbers `theta`.
-pub fn read(theta: &[f64], s: C64, a: &mut [[C64; 3]; 3]) {
-    let mut change = [[C64::default(); 3]; 3];
-    for (number, value) in theta.iter().enumerate().take(INSTRUMENT) {
-        let slope = instrument_slope(number, s, a);
-        for (sum, row) in change.iter_mut().flatten().zip(slope.iter().flatten()) {
-            *sum += row * *value;
-        }
-    }
-    for (entry, change) in a.iter_mut().flatten().zip(change.iter().flatten()) {
-        *entry += change;
-    }
-}
-
-/// Change of the reading with one of the instrument's numbers.
-pub fn instrument_slope(number: usize, s: C64, a: &[[C64; 3]; 3]) -> [[C64; 3]; 3] {
-    let mut out = [[C64::default(); 3]; 3];
-    match number {
-        0..=2 => out[number] = a[number].map(|x| x * GAIN),
-        3..=5 => {
-            let (i, j) = ((number - 2) % 3, (number - 1) % 3);
-            out[i] = a[j].map(|x| x * MOUNTING);
-            out[j] = a[i].map(|x| x * -MOUNTING);
-        }
-        6..=11 => {
-            let input = (number - 6) / 2;
-            let other = (input + 1 + (number - 6) % 2) % 3;
-            for (row, line) in out.iter_mut().zip(a) {
-                row[input] = line[other] * HIT;
-            }
-        }
-        _ => out = a.map(|row| row.map(|x| -x * s * SKEW)),
-    }
-    out
 }

@@ -1,7 +1,7 @@
 //! What a robot with a set of causes would have shown in a hammer test.
 
 use super::data::Data;
-use super::nuisance::{INSTRUMENT, Known, Nuisance, UPPER, instrument_slope, read};
+use super::nuisance::{Known, Nuisance};
 use super::structure::Structure;
 use super::suspect::Suspect;
 use crate::causes::contract::Accelerance;
@@ -9,6 +9,8 @@ use crate::ground::problem::Outcome;
 use crate::motion::Linear;
 use crate::motion::frf::C64;
 use crate::motion::receptance::{accelerance, coordinates};
+use crate::motion::uncertain::instrument::NUMBERS as INSTRUMENT;
+use crate::motion::uncertain::slopes::whole;
 use crate::robot::Robot;
 use nalgebra::DMatrix;
 use std::collections::BTreeMap;
@@ -104,26 +106,29 @@ impl Machine<'_> {
     /// The nuisances of the structure of `point`.
     pub fn nuisance(&self, point: &Point) -> Outcome<Nuisance> {
         let structure = self.structure_of(point)?;
-        let mass = self.masses(&structure, point);
+        let mass = self.masses(&structure, point)?;
         let known = self.known;
         Ok(Nuisance::new(self.robot, &structure.linear, mass, known))
     }
 
     /// Computed once per set of coordinates, with the bodies as simulated now.
-    fn masses(&self, structure: &Structure, point: &Point) -> Arc<DMatrix<f64>> {
+    fn masses(&self, structure: &Structure, point: &Point) -> Outcome<Arc<DMatrix<f64>>> {
         let mut known = match self.masses.lock() {
             Ok(known) => known,
             Err(poisoned) => poisoned.into_inner(),
         };
         let names = structure.linear.names.clone();
-        let made = known.entry(names).or_insert_with(|| {
-            let mut robot = point.robot(self.robot);
-            robot.tool.body = self.robot.tool.body;
-            let links = robot.joints.iter_mut().zip(&self.robot.joints);
-            links.for_each(|(joint, own)| joint.link = own.link);
-            Arc::new(&self.seen * structure.bodies(&robot))
-        });
-        Arc::clone(made)
+        if let Some(made) = known.get(&names) {
+            return Ok(Arc::clone(made));
+        }
+        let mut robot = point.robot(self.robot);
+        robot.tool.body = self.robot.tool.body;
+        let links = robot.joints.iter_mut().zip(&self.robot.joints);
+        links.for_each(|(joint, own)| joint.link = own.link);
+        let directions = structure.bodies(&robot, &self.known.laboratory.bodies)?;
+        let made = Arc::new(&self.seen * directions);
+        known.insert(names, Arc::clone(&made));
+        Ok(made)
     }
 
     /// The predicted accelerances on the lines of `data`.
@@ -140,7 +145,10 @@ impl Machine<'_> {
         if let Some(joint) = self.sensor {
             linear.tool = structure.sensor(&point.robot(self.robot), joint);
         }
-        Ok(read_all(point, &linear, &answers, &s))
+        let bare = bare(point, &linear, &answers, &s);
+        let reading = nuisance.reading(&point.theta);
+        let lines = bare.iter().zip(&s);
+        Ok(lines.map(|(a, s)| reading.read(*s, a)).collect())
     }
 
     /// Prediction and slopes.
@@ -148,30 +156,27 @@ impl Machine<'_> {
         let linear = nuisance.applied(&self.structure_of(point)?.linear, &point.theta);
         let s = shifted(point, data);
         let answers = coordinates(&linear, &s);
-        let values = read_all(point, &linear, &answers, &s);
+        let bare = bare(point, &linear, &answers, &s);
+        let reading = nuisance.reading(&point.theta);
+        let lines = || bare.iter().zip(&s);
+        let values: Vec<Accelerance> = lines().map(|(a, s)| reading.read(*s, a)).collect();
         let mut columns =
             Vec::with_capacity(data.rows() * (point.theta.len() + point.amounts.len()));
+        let spread = &self.known.laboratory.instrument;
         for number in 0..INSTRUMENT {
-            let slope: Vec<Accelerance> = values
-                .iter()
-                .zip(&s)
-                .map(|(a, s)| instrument_slope(number, *s, a))
-                .collect();
-            stack(data, &slope, &mut columns);
+            let slope = lines().map(|(a, s)| reading.slope(number, spread, *s, a));
+            stack(data, &slope.collect::<Vec<_>>(), &mut columns);
         }
         let each = point.each();
         for slope in nuisance.slopes(&linear, &answers, &s) {
-            let full: Vec<Accelerance> = slope
-                .iter()
-                .zip(&s)
-                .map(|(v, s)| {
-                    let mut a = symmetric(v);
-                    each.iter().for_each(|(c, amounts)| {
-                        c.cause.read_accelerance(&c.site, amounts, *s, &mut a)
-                    });
-                    a
-                })
-                .collect();
+            let read = |(v, s): (_, &C64)| {
+                let mut a = whole(v);
+                each.iter().for_each(|(c, amounts)| {
+                    c.cause.read_accelerance(&c.site, amounts, *s, &mut a)
+                });
+                reading.read(*s, &a)
+            };
+            let full: Vec<Accelerance> = slope.iter().zip(&s).map(read).collect();
             stack(data, &full, &mut columns);
         }
         for index in 0..point.amounts.len() {
@@ -214,25 +219,16 @@ fn shifted(point: &Point, data: &Data) -> Vec<C64> {
     data.s.iter().map(|s| s + rate).collect()
 }
 
-fn read_all(point: &Point, linear: &Linear, answers: &[[C64; 3]], s: &[C64]) -> Vec<Accelerance> {
+/// What a sensor would read that is calibrated and mounted as it should be.
+fn bare(point: &Point, linear: &Linear, answers: &[[C64; 3]], s: &[C64]) -> Vec<Accelerance> {
     let each = point.each();
     let line = |(k, s): (usize, &C64)| {
         let mut a = accelerance(linear, &answers[k * linear.n..(k + 1) * linear.n], *s);
         each.iter()
             .for_each(|(c, amounts)| c.cause.read_accelerance(&c.site, amounts, *s, &mut a));
-        read(&point.theta, *s, &mut a);
         a
     };
     s.iter().enumerate().map(line).collect()
-}
-
-fn symmetric(upper: &[C64; 6]) -> Accelerance {
-    let mut a = Accelerance::default();
-    for ((i, j), v) in UPPER.into_iter().zip(upper) {
-        a[i][j] = *v;
-        a[j][i] = *v;
-    }
-    a
 }
 
 /// Appends the rows of `data`: per pair, real and imaginary part of every line.

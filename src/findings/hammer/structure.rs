@@ -1,20 +1,17 @@
-//! A robot at the pose of the test as matrices, and how its bodies' uncertain numbers change them.
+//! A robot at the pose of the test as matrices.
 
 use crate::ground::problem::Outcome;
 use crate::ground::spatial::V3;
 use crate::motion::linear::gravity_stiffness;
 use crate::motion::swing::State;
+use crate::motion::uncertain::bodies::{self, Spread};
 use crate::motion::{self, Linear, Work, linearise};
+use crate::robot::Robot;
 use crate::robot::model::Tool;
-use crate::robot::{Body, Robot};
 use nalgebra::DMatrix;
 
-/// Masses are known to this share, centres of mass to these metres, inertias to that share.
-const BODY: (f64, f64, f64) = (0.02, 0.005, 0.05);
 /// Where a sensor on the foot sits, m, base frame.
 const FOOT: V3 = [0.4, 0.4, 0.0];
-/// Uncertain numbers of a body: mass, centre, inertia.
-const NUMBERS: usize = 10;
 
 /// The robot with play closed, at rest under its weight.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,58 +85,13 @@ impl Structure {
         levers
     }
 
-    /// What one standard deviation of every uncertain number of every body adds to the mass matrix,
-    /// one row per number: the upper triangle by rows. `robot` has the axes of this structure and
-    /// the bodies of the robot as simulated now.
-    pub fn bodies(&self, robot: &Robot) -> DMatrix<f64> {
-        let n = self.linear.n;
-        let Ok(own) = self.altered(robot) else {
-            return DMatrix::zeros(0, 0);
-        };
-        let count = NUMBERS * (robot.dof() + 1);
-        let mut out = DMatrix::zeros(count, n * (n + 1) / 2);
-        for number in 0..count {
-            let mut other = robot.clone();
-            let Some(body) = body(&mut other, number / NUMBERS) else {
-                continue;
-            };
-            disturb(body, number % NUMBERS);
-            let chain = motion::elastic(&other);
-            let Ok(moved) = linearise(&chain, &mut Work::new(&chain), &self.angles(&chain.names))
-            else {
-                continue;
-            };
-            for (place, (i, j)) in triangle(n).enumerate() {
-                out[(number, place)] = moved.mass[i * n + j] - own.linear.mass[i * n + j];
-            }
-        }
-        out
-    }
-}
-
-/// Upper triangle by rows.
-pub fn triangle(n: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..n).flat_map(move |i| (i..n).map(move |j| (i, j)))
-}
-
-fn body(robot: &mut Robot, index: usize) -> Option<&mut Body> {
-    match index < robot.dof() {
-        true => robot.joints[index].link.as_mut(),
-        false => robot.tool.body.as_mut(),
-    }
-}
-
-fn disturb(body: &mut Body, number: usize) {
-    let [xx, yy, zz, ..] = body.inertia;
-    match number {
-        0 => {
-            body.mass *= 1.0 + BODY.0;
-            body.inertia.iter_mut().for_each(|i| *i *= 1.0 + BODY.0);
-        }
-        1..=3 => body.com[number - 1] += BODY.1,
-        4..=6 => body.inertia[number - 4] *= 1.0 + BODY.2,
-        7 => body.inertia[3] += BODY.2 * (xx * yy).sqrt(),
-        8 => body.inertia[4] += BODY.2 * (xx * zz).sqrt(),
-        _ => body.inertia[5] += BODY.2 * (yy * zz).sqrt(),
+    /// What one standard deviation of every uncertain number of every body adds to the mass matrix
+    /// (`motion::uncertain::bodies`). `robot` has the axes of this structure and the bodies of the robot as
+    /// simulated now.
+    ///
+    /// # Errors
+    /// Nothing elastic.
+    pub fn bodies(&self, robot: &Robot, spread: &Spread) -> Outcome<DMatrix<f64>> {
+        bodies::directions(robot, &self.angles(&motion::elastic(robot).names), spread)
     }
 }

@@ -1,0 +1,137 @@
+//! Hammer and accelerometer: calibration of both, the mounting of the sensor, the angle of the hits, the
+//! delay between the channels. A reading is `S·A·F·(1 − sτ)`: S gains and mounting of the sensor, A the
+//! accelerance, F the directions of the hits with the gain of the hammer.
+
+use crate::motion::frf::{C64, Response};
+
+/// Uncertain numbers that all tests with one set of instruments share: three gains of the sensor, the gain
+/// of the hammer, the delay.
+pub const SHARED: usize = 5;
+/// All numbers of one test: those, then three angles of the sensor, then two angles of the hits along each
+/// direction.
+pub const NUMBERS: usize = SHARED + 9;
+
+/// How well instruments are known: one standard deviation each.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spread {
+    /// Calibration of each axis of the sensor, relative.
+    pub sensor: f64,
+    /// Calibration of the hammer, relative.
+    pub hammer: f64,
+    /// Mounting of the sensor, rad.
+    pub mounting_rad: f64,
+    /// Angle of the hits, rad.
+    pub hit_rad: f64,
+    /// Delay of the acceleration against the force, s.
+    pub delay_s: f64,
+}
+
+/// A real 3×3 matrix.
+type Matrix = [[f64; 3]; 3];
+
+const ONE: Matrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// What instruments make of an accelerance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reading {
+    sensor: Matrix,
+    force: Matrix,
+    delay_s: f64,
+}
+
+/// One number alone: what one standard deviation of it adds.
+enum Part {
+    Sensor(Matrix),
+    Force(Matrix),
+    Delay(f64),
+}
+
+impl Spread {
+    /// A spread with the calibration of hammer and sensor at `gain` (relative): a stud on a casting and a
+    /// hand with a hammer are right to half a degree, clocks of one recorder to a fiftieth of a
+    /// millisecond.
+    pub fn calibrated(gain: f64) -> Self {
+        Self {
+            sensor: gain,
+            hammer: gain,
+            mounting_rad: 0.008,
+            hit_rad: 0.006,
+            delay_s: 2e-5,
+        }
+    }
+
+    fn part(&self, number: usize) -> Part {
+        let mut matrix = Matrix::default();
+        match number {
+            0..=2 => {
+                matrix[number][number] = self.sensor;
+                Part::Sensor(matrix)
+            }
+            3 => {
+                (0..3).for_each(|i| matrix[i][i] = self.hammer);
+                Part::Force(matrix)
+            }
+            4 => Part::Delay(self.delay_s),
+            5..=7 => {
+                let (i, j) = ((number - 4) % 3, (number - 3) % 3);
+                (matrix[i][j], matrix[j][i]) = (self.mounting_rad, -self.mounting_rad);
+                Part::Sensor(matrix)
+            }
+            _ => {
+                let input = (number - 8) / 2;
+                let other = (input + 1 + (number - 8) % 2) % 3;
+                matrix[other][input] = self.hit_rad;
+                Part::Force(matrix)
+            }
+        }
+    }
+}
+
+impl Reading {
+    /// With the numbers `amounts` (standard deviations), in the order of [`NUMBERS`].
+    pub fn of(amounts: impl Iterator<Item = f64>, spread: &Spread) -> Self {
+        let mut all = Self {
+            sensor: ONE,
+            force: ONE,
+            delay_s: 0.0,
+        };
+        for (number, amount) in amounts.enumerate() {
+            match spread.part(number) {
+                Part::Sensor(part) => add(&mut all.sensor, &part, amount),
+                Part::Force(part) => add(&mut all.force, &part, amount),
+                Part::Delay(part) => all.delay_s += amount * part,
+            }
+        }
+        all
+    }
+
+    /// What is read of the accelerance `a` (or of a change of it) at `s`.
+    pub fn read(&self, s: C64, a: &Response) -> Response {
+        let late = C64::new(1.0, 0.0) - s * self.delay_s;
+        through(&self.sensor, a, &self.force).map(|row| row.map(|x| x * late))
+    }
+
+    /// Change of what is read of `a` with one of the numbers, per standard deviation.
+    pub fn slope(&self, number: usize, spread: &Spread, s: C64, a: &Response) -> Response {
+        let late = C64::new(1.0, 0.0) - s * self.delay_s;
+        let (out, factor) = match spread.part(number) {
+            Part::Sensor(part) => (through(&part, a, &self.force), late),
+            Part::Force(part) => (through(&self.sensor, a, &part), late),
+            Part::Delay(part) => (through(&self.sensor, a, &self.force), -s * part),
+        };
+        out.map(|row| row.map(|x| x * factor))
+    }
+}
+
+fn add(sum: &mut Matrix, part: &Matrix, amount: f64) {
+    let entries = sum.iter_mut().flatten().zip(part.iter().flatten());
+    entries.for_each(|(sum, part)| *sum += amount * part);
+}
+
+/// `left · a · right`.
+fn through(left: &Matrix, a: &Response, right: &Matrix) -> Response {
+    let half: Response = std::array::from_fn(|i| {
+        std::array::from_fn(|j| (0..3).map(|k| a[k][j] * left[i][k]).sum())
+    });
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| half[i][k] * right[k][j]).sum()))
+}
