@@ -141,7 +141,7 @@ fn sound(path: &Toolpath) {
             assert!(arc.angle > 0.0 && arc.angle.is_finite(), "{m:?}");
             let out = sub(m.to, arc.centre);
             let flat = norm(sub(out, scale(dot(out, arc.axis), arc.axis)));
-            let allowed = 1e-5 + 2e-4 * flat;
+            let allowed = 2.1e-6 + 1e-9 * flat;
             assert!((flat - arc.radius(from)).abs() < allowed, "{m:?}");
         }
     }

@@ -28,8 +28,13 @@ pub struct Arc {
 
 /// Ends closer than this make a full circle, m.
 const CLOSED: f64 = 2e-6;
-/// Difference of radii that rounding to hundredths of a millimetre makes, m, and share of the radius.
-const ROUNDING: (f64, f64) = (2e-5, 1e-4);
+/// Smallest angle of an arc, rad.
+const FLAT: f64 = 1e-12;
+
+/// Difference of radii that rounding to hundredths of a millimetre makes, m.
+fn rounding(radius: f64) -> f64 {
+    2e-5 + (1e-5 * radius).min(8e-5)
+}
 
 impl Arc {
     /// The arc from one point to another about an axis (a unit vector) through `centre`, with whole
@@ -42,23 +47,25 @@ impl Arc {
         let flat = |v: V3| sub(v, scale(dot(v, axis), axis));
         let (start, end) = (flat(sub(from, centre)), flat(sub(to, centre)));
         let (first, last) = (norm(start), norm(end));
-        let allowed = ROUNDING.0 + ROUNDING.1 * first.max(last);
-        if (first - last).abs() > allowed || first.min(last) < CLOSED {
+        let (apart, chord) = ((first - last).abs(), sub(end, start));
+        let closed = norm(chord) < CLOSED;
+        let allowed = rounding(first.max(last));
+        let radial = !closed && norm(chord) < 4.0 * apart;
+        if apart > allowed || first.min(last) < CLOSED || radial {
             return Err(off_circle(first, last));
         }
-        let chord = sub(end, start);
-        let closed = norm(chord) < CLOSED;
+        let shift = match closed {
+            true => [0.0; 3],
+            false => scale(0.5 * dot(add(start, end), chord) / dot(chord, chord), chord),
+        };
+        let (start, end) = (sub(start, shift), sub(end, shift));
         let swept = match closed {
             true => TAU,
             false => dot(axis, cross(start, end))
                 .atan2(dot(start, end))
                 .rem_euclid(TAU),
         };
-        let shift = match closed {
-            true => [0.0; 3],
-            false => scale(0.5 * dot(add(start, end), chord) / dot(chord, chord), chord),
-        };
-        if swept > PI && norm(shift) > 2.0 * allowed {
+        if swept < FLAT || (swept > PI && norm(shift) > 2.0 * allowed) {
             return Err(off_circle(first, last));
         }
         let height = scale(dot(sub(from, centre), axis), axis);
