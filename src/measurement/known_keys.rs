@@ -1,7 +1,7 @@
 //! Keys that a kind knows; any other is an error that names the nearest.
 
 use crate::ground::problem::{Outcome, Problem};
-use crate::ground::words::nearest;
+use crate::ground::nearest::nearest;
 use crate::measurement::front::Front;
 
 /// Facts that every kind knows.
