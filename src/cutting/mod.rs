@@ -7,9 +7,9 @@
 
 mod chebyshev;
 pub mod chip;
-pub mod directional;
 pub mod cutter;
 pub mod dexel;
+pub mod directional;
 pub mod law;
 pub mod mean;
 pub mod stability;

@@ -159,6 +159,34 @@ fn with_sizes(
     })
 }
 
+/// The amounts x that minimise ½ xᵀHx − bᵀx with |x| at most `most` (infinite: free), by an active set: the
+/// worst offender is held at its limit and the rest solved again. Zeros where H is not positive definite.
+pub fn limited(hessian: &DMatrix<f64>, right: &DVector<f64>, most: &[f64]) -> DVector<f64> {
+    let n = right.len();
+    let mut held: Vec<Option<f64>> = vec![None; n];
+    loop {
+        let free: Vec<usize> = (0..n).filter(|i| held[*i].is_none()).collect();
+        let fixed = |j: usize| held[j].unwrap_or(0.0);
+        let pull = |i: &usize| right[*i] - (0..n).map(|j| hessian[(*i, j)] * fixed(j)).sum::<f64>();
+        let own = hessian.select_rows(&free).select_columns(&free);
+        let own_right = DVector::from_iterator(free.len(), free.iter().map(pull));
+        let Some(root) = own.cholesky() else {
+            return DVector::zeros(n);
+        };
+        let solved = root.solve(&own_right);
+        let over = |k: &usize| solved[*k].abs() / most[free[*k]];
+        let worst = (0..free.len()).max_by(|a, b| over(a).total_cmp(&over(b)));
+        match worst.filter(|k| over(k) > 1.0) {
+            Some(k) => held[free[k]] = Some(most[free[k]].copysign(solved[k])),
+            None => {
+                let mut x = DVector::from_fn(n, |j, _| fixed(j));
+                free.iter().zip(solved.iter()).for_each(|(i, v)| x[*i] = *v);
+                return x;
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -212,6 +240,17 @@ mod tests {
         .unwrap();
         assert!((found.mean[0] - 6.0).abs() < 0.3, "{found:?}");
         assert!(found.sizes[1] < 0.2 * found.sizes[0], "{found:?}");
+    }
+
+    #[test]
+    fn a_limit_holds_and_the_others_make_up_for_it() {
+        let hessian = DMatrix::from_row_slice(2, 2, &[2.0, 1.0, 1.0, 2.0]);
+        let right = DVector::from_row_slice(&[6.0, 0.0]);
+        let found = limited(&hessian, &right, &[1.0, f64::INFINITY]);
+        assert!(
+            (found[0] - 1.0).abs() < 1e-12 && (found[1] + 0.5).abs() < 1e-12,
+            "{found}"
+        );
     }
 
     #[test]

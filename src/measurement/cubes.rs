@@ -1,7 +1,7 @@
 //! Kind `cubes`: measuring cubes on the structure of a robot, loaded less unloaded (source 002,
 //! section 2.5).
 
-use super::facts::{known_keys, measured, missing, needed, stem};
+use super::facts::{measured, missing, needed, stem};
 use super::front::Front;
 use super::table::Table;
 use crate::ground::problem::{Outcome, Problem};
@@ -101,7 +101,7 @@ impl CubeTest {
     /// As [`CubeTest::read`].
     pub fn from_table(table: Table) -> Outcome<Self> {
         table.front.expect_kind("cubes")?;
-        known_keys(&table.front, KEYS)?;
+        table.front.only(KEYS)?;
         let facts = Facts::of(&table.front)?;
         let readings = readings(&table, &facts.cubes)?;
         if readings.is_empty() {

@@ -1,48 +1,8 @@
 //! What every kind asks of its front matter and columns: known keys, columns with the right unit.
 
-use super::front::Front;
 use super::table::{Cells, Table};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::units::Dimension;
-
-/// Keys that every kind knows.
-const COMMON: &[&str] = &["kind", "source", "synthetic", "notes", "campaign", "title"];
-
-/// Refuses a key that the kind does not know, with the nearest known one.
-///
-/// # Errors
-/// Names key and line.
-pub(super) fn known_keys(front: &Front, own: &[&str]) -> Outcome<()> {
-    let known: Vec<&str> = COMMON.iter().chain(own).copied().collect();
-    let stranger = front
-        .facts
-        .keys()
-        .find(|key| !known.contains(&key.as_str()));
-    let Some(key) = stranger else { return Ok(()) };
-    let nearest = known.iter().min_by_key(|known| distance(known, key));
-    let nearest = nearest.copied().unwrap_or_default();
-    Err(front.problem(
-        key,
-        "is no fact that this kind knows",
-        format!("did you mean `{nearest}`? What is free goes into `notes = {{ ... }}`"),
-    ))
-}
-
-/// Letters to insert, delete or exchange (Levenshtein 1966).
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut corner = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let exchanged = corner + usize::from(x != *y);
-            corner = row[j + 1];
-            row[j + 1] = exchanged.min(row[j] + 1).min(corner + 1);
-        }
-    }
-    row[b.len()]
-}
 
 /// The numbers of a column, if the file has it, after a look at its unit.
 ///

@@ -1,7 +1,7 @@
 //! Kind `force-sensor`: what a force-torque sensor at the flange reads while the robot turns it, without
 //! touching anything (source 002, section 2.6).
 
-use super::facts::{known_keys, measured, missing, needed, stem};
+use super::facts::{measured, missing, needed, stem};
 use super::front::Front;
 use super::table::Table;
 use crate::ground::problem::{Outcome, Problem};
@@ -92,7 +92,7 @@ impl SensorTest {
     /// As [`SensorTest::read`].
     pub fn from_table(table: Table) -> Outcome<Self> {
         table.front.expect_kind("force-sensor")?;
-        known_keys(&table.front, KEYS)?;
+        table.front.only(KEYS)?;
         let facts = Facts::of(&table.front)?;
         let readings = readings(&table)?;
         if readings.is_empty() {

@@ -1,7 +1,7 @@
 //! Front matter: the leading `#` lines of a measurement file, one TOML document.
 
 use super::foreign::Sidecar;
-use crate::ground::nearest::nearest;
+use super::known_keys::unknown_key;
 use crate::ground::problem::{Outcome, Problem};
 use std::collections::BTreeSet;
 use toml::{Table, Value};
@@ -188,16 +188,11 @@ impl Front {
         let Some(key) = self.facts.keys().find(unknown) else {
             return Ok(());
         };
-        let remedy = match nearest(key, &all) {
-            Some(near) => {
-                format!("write `{near}`, or put what is free into `notes = {{ {key} = .. }}`")
-            }
-            None => format!(
-                "put what is free into `notes = {{ {key} = .. }}`; known here: {}",
-                all.join(", ")
-            ),
-        };
-        Err(self.problem(key, "is no fact of this kind", remedy))
+        let unknown = unknown_key(key, &all);
+        Err(match self.line_of(key) {
+            Some(line) => unknown.at_line(line),
+            None => unknown,
+        })
     }
 
     /// A list of finite numbers, if given.

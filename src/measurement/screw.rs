@@ -1,7 +1,7 @@
 //! Kind `screw`: positions that a linear axis was told and those that a scale read, run by run in both
 //! directions (source 003, section 3.2; ISO 230-2).
 
-use super::facts::{known_keys, measured, missing, needed, stem};
+use super::facts::{measured, missing, needed, stem};
 use super::front::Front;
 use super::table::Table;
 use crate::ground::problem::{Outcome, Problem};
@@ -71,7 +71,7 @@ impl ScrewTest {
     /// As [`ScrewTest::read`].
     pub fn from_table(table: Table) -> Outcome<Self> {
         table.front.expect_kind("screw")?;
-        known_keys(&table.front, KEYS)?;
+        table.front.only(KEYS)?;
         let facts = Facts::of(&table.front)?;
         let readings = readings(&table)?;
         if readings.is_empty() {

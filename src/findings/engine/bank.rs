@@ -4,10 +4,13 @@
 //! (Woodbury 1950): every product of columns is taken so, and nuisances are never seen again.
 
 use super::statement::{Member, Statement, Suspect};
-use crate::inference::gaussian::{Posterior, Products, Reading, Size, update};
+use crate::inference::gaussian::{Posterior, Products, Reading, Size, limited, update};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use std::collections::BTreeMap;
 use std::ops::Range;
+
+/// What is merely uncertain may be off by so many of its standard deviations; beyond, something is wrong.
+pub(super) const ALLOWED: f64 = 2.5;
 
 /// A set of members (indices into the bank), ascending by suspect.
 pub type Members = Vec<usize>;
@@ -55,8 +58,12 @@ pub struct Fit {
 struct Nuisances {
     columns: DMatrix<f64>,
     root: Option<Cholesky<f64, Dyn>>,
+    /// NᵀN + P⁻¹ of the scaled columns.
+    inner: DMatrix<f64>,
     /// By which the columns were divided.
     lengths: Vec<f64>,
+    /// Standard deviations before the data, in units of the scaled columns.
+    spreads: Vec<f64>,
     /// How many are without prior.
     flat: usize,
 }
@@ -80,15 +87,19 @@ impl Nuisances {
         };
         let mut inner = matrix.tr_mul(&matrix);
         let mut flat = 0;
+        let mut spreads = Vec::new();
         for (k, nuisance) in statement.nuisances.iter().enumerate() {
             let spread = nuisance.spread * lengths[k];
             flat += usize::from(spread.is_infinite());
+            spreads.push(spread);
             inner[(k, k)] += (spread * spread).recip().max(1e-12);
         }
         Self {
-            root: inner.cholesky(),
+            root: inner.clone().cholesky(),
+            inner,
             columns: matrix,
             lengths,
+            spreads,
             flat,
         }
     }
@@ -253,12 +264,12 @@ impl<'a> Bank<'a> {
         })
     }
 
-    /// The most probable amounts of the nuisances in whitened numbers, in the kind's own units.
+    /// The most probable amounts of the nuisances in whitened numbers, in the kind's own units, none beyond
+    /// what is allowed to it.
     pub(super) fn nuisances_in(&self, whitened: &DVector<f64>) -> Vec<f64> {
-        let Some(root) = &self.nuisances.root else {
-            return vec![0.0; self.nuisances.lengths.len()];
-        };
-        let solved = root.solve(&self.nuisances.columns.tr_mul(whitened));
+        let right = self.nuisances.columns.tr_mul(whitened);
+        let most: Vec<f64> = self.nuisances.spreads.iter().map(|s| ALLOWED * s).collect();
+        let solved = limited(&self.nuisances.inner, &right, &most);
         let each = solved.iter().zip(&self.nuisances.lengths);
         each.map(|(x, length)| x / length).collect()
     }

@@ -1,9 +1,9 @@
 //! What a cause gains on rows that were not fitted.
 
-use super::bank::{Bank, Fit};
+use super::bank::{ALLOWED, Bank, Fit};
 use super::statement::Statement;
 use crate::findings::gain::Gain;
-use crate::inference::gaussian::Size;
+use crate::inference::gaussian::{Size, limited};
 use crate::inference::stats::{Z95, mean, t95};
 use nalgebra::{DMatrix, DVector};
 
@@ -30,10 +30,12 @@ pub fn gain(statement: &Statement, bank: &Bank, fit: &Fit, member: usize) -> Gai
     first.unwrap_or(Gain::of(1.0, 1.0, f64::INFINITY))
 }
 
-/// Rows in noise deviations, and how stiffly every amount is held by its prior.
+/// Rows in noise deviations, how stiffly every amount is held by its prior, and how far it may go: what is
+/// merely uncertain must not take over what a cause explains.
 struct Design {
     matrix: DMatrix<f64>,
     precision: Vec<f64>,
+    most: Vec<f64>,
 }
 
 impl Design {
@@ -45,11 +47,13 @@ impl Design {
         };
         let mut columns = Vec::new();
         let mut precision = Vec::new();
+        let mut most = Vec::new();
         for nuisance in &statement.nuisances {
             let column = white(&nuisance.column, 1.0);
             let least = 1e-12 * column.norm_squared().max(f64::MIN_POSITIVE);
             precision.push((nuisance.spread * nuisance.spread).recip().max(least));
             columns.push(column);
+            most.push(ALLOWED * nuisance.spread);
         }
         for member in members {
             let own = bank.member(*member);
@@ -64,13 +68,18 @@ impl Design {
             };
             columns.extend(own.columns.iter().map(|c| white(c, scale)));
             precision.extend(own.columns.iter().map(|_| (size * size).recip()));
+            most.extend(own.columns.iter().map(|_| f64::INFINITY));
         }
         let rows = statement.reading.len();
         let matrix = match columns.is_empty() {
             true => DMatrix::zeros(rows, 0),
             false => DMatrix::from_columns(&columns),
         };
-        Self { matrix, precision }
+        Self {
+            matrix,
+            precision,
+            most,
+        }
     }
 
     /// Error of every row in the unit of the readings, each fold predicted from the others.
@@ -89,10 +98,7 @@ impl Design {
             for (i, p) in self.precision.iter().enumerate() {
                 rest[(i, i)] += p;
             }
-            let Some(root) = rest.cholesky() else {
-                continue;
-            };
-            let left = held - own * root.solve(&pull);
+            let left = held - own * limited(&rest, &pull, &self.most);
             rows.iter()
                 .zip(left.iter())
                 .for_each(|(i, l)| error[*i] = l * spread[*i]);

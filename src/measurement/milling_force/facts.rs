@@ -3,7 +3,7 @@
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::units::DEGREE;
 use crate::measurement::front::Front;
-use crate::measurement::known_keys::{refuse_unknown, unknown_key};
+use crate::measurement::known_keys::unknown_key;
 use std::f64::consts::TAU;
 use toml::{Table, Value};
 
@@ -93,7 +93,7 @@ const MOST_TEETH: f64 = 64.0;
 
 impl Facts {
     pub(super) fn of(front: &Front) -> Outcome<Self> {
-        refuse_unknown(front, KEYS)?;
+        front.only(KEYS)?;
         let diameter_m = required(front, "diameter_mm", "16.0")? * 1e-3;
         Ok(Self {
             diameter_m,
