@@ -177,13 +177,13 @@ fn cubes() -> Vec<Cube> {
     ]
 }
 
-/// Pure forces and moments in all directions.
-fn loads() -> Vec<[f64; 6]> {
+/// Pure forces (1200 N) and moments (500 N·m) in all directions, times `times`.
+fn loads(times: f64) -> Vec<[f64; 6]> {
     let mut all = Vec::new();
     for k in 0..6 {
         for sign in [1.0, -1.0] {
             let mut load = [0.0; 6];
-            load[k] = sign * if k < 3 { 1200.0 } else { 500.0 };
+            load[k] = sign * times * if k < 3 { 1200.0 } else { 500.0 };
             all.push(load);
         }
     }
@@ -195,6 +195,7 @@ struct Bench<'a> {
     degrees: [f64; 6],
     noise: [f64; 2],
     frame_mm: f64,
+    times: f64,
     cubes: Vec<Cube>,
     change: &'a dyn Fn(&str) -> f64,
 }
@@ -230,7 +231,7 @@ impl Bench<'_> {
             self.noise[1] * 1e3,
             self.frame_mm
         );
-        for (number, load) in loads().iter().enumerate() {
+        for (number, load) in loads(self.times).iter().enumerate() {
             let bent = self.bent(robot, &hinges, load);
             let frame: V = std::array::from_fn(|_| self.frame_mm * 1e-3 * random.normal());
             for cube in &self.cubes {
@@ -329,6 +330,7 @@ fn table_1_of_the_source_comes_back_within_a_percent() {
         degrees: *degrees,
         noise: [1e-6, 5e-6],
         frame_mm: 0.0,
+        times: 3.0,
         cubes: cubes(),
         change: &change,
     };
@@ -368,6 +370,7 @@ fn intervals_hold_the_truth_as_often_as_they_claim() {
             degrees: POSE,
             noise: [2e-6, 1e-5],
             frame_mm: 0.01,
+            times: 1.0,
             cubes: cubes(),
             change: &|_| 1.0,
         };
@@ -395,6 +398,7 @@ fn what_single_cubes_see_together_is_said_to_be_together() {
         degrees: POSE,
         noise: [1e-6, 5e-6],
         frame_mm: 0.0,
+        times: 1.0,
         cubes,
         change: &|_| 1.0,
     };
@@ -427,6 +431,7 @@ fn subsequent_cubes_carry_the_moment_between_them() {
         degrees: POSE,
         noise: [1e-9, 1e-9],
         frame_mm: 0.0,
+        times: 1.0,
         cubes: cubes(),
         change: &|_| 1.0,
     };
@@ -451,6 +456,7 @@ fn what_cannot_be_read_is_refused_with_line_and_remedy() {
         degrees: POSE,
         noise: [1e-6, 5e-6],
         frame_mm: 0.0,
+        times: 1.0,
         cubes: cubes(),
         change: &|_| 1.0,
     };
