@@ -207,7 +207,10 @@ impl State {
         self.place = place;
         match to {
             Some(to) => self.push(to, shape, motion, from.is_none(), line),
-            None => Ok(self.draft.pass_over("way to the first point", line)),
+            None => {
+                self.draft.pass_over("way to the first point", line);
+                Ok(())
+            }
         }
     }
 
