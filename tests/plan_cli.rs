@@ -1,5 +1,6 @@
 //! `ident plan` from the command line: files, JSON, refusals.
 
+#[allow(dead_code)]
 mod bench_of_files;
 
 use bench_of_files::Bench;

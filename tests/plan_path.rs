@@ -501,3 +501,32 @@ fn a_straight_passage_changes_the_sign_of_a5_and_adapt_slows_a_near_one() {
     assert!(slow.feed.held_share < 1.0 && slow.feed.min < 0.1);
     assert!(missed(&slow)[0] < 1e-9);
 }
+
+#[test]
+fn the_stiffest_turn_of_an_angled_spindle_is_stiffer_and_turns_slowly() {
+    let ring = (0..=24).map(|k| {
+        let (sin, cos) = (f64::from(k) * 15.0 * DEGREE).sin_cos();
+        to(100.0 * cos, 100.0 * sin, 0.0)
+    });
+    let path = toolpath(ring.collect());
+    let with = |spin: &str| {
+        let text = format!(
+            "kind = \"job\"\nrobot = \"kr210\"\npath = \"part.csv\"\nfeed_mm_min = 3000.0\n\
+             start_joints_deg = [0, -90, 90, 0, 30, 0]\nblend_radius_mm = 10.0\nspin = \"{spin}\"\n\
+             [workpiece]\norigin_m = [1.6, 0.0, 0.9]\n[spindle]\ntcp_m = [3.13, 0.0, 0.495]\n"
+        );
+        let job = Job::of_bytes(Path::new("job.toml"), text.as_bytes()).unwrap();
+        kept(&job, &path)
+    };
+    let [fixed, smooth, stiffest] = ["fixed", "smooth", "stiffest"].map(with);
+    let compliance = |plan: &Plan| plan.compliance.unwrap()[1];
+    assert_eq!(fixed.compliance.unwrap()[0], fixed.compliance.unwrap()[1]);
+    assert!(compliance(&stiffest) < 0.99 * compliance(&fixed));
+    assert!(compliance(&stiffest) < compliance(&smooth));
+    assert!(motion(&smooth) < motion(&fixed));
+    for pair in stiffest.rows.windows(2) {
+        let turned = stiffest.spin.turn(pair[1].s) - stiffest.spin.turn(pair[0].s);
+        assert!(turned.abs() <= 1.2 * (0.5 * PI / 0.1) * (pair[1].s - pair[0].s) + 1e-9);
+    }
+    assert!(missed(&stiffest)[0] < 1e-9);
+}

@@ -116,16 +116,14 @@ pub fn turns_at(
         .copied()
         .collect();
     let at = turns.last().map(|turn| turn.ends[1]).or(before);
-    if let (Some(at), Some(after)) = (at, after) {
-        if norm(at.way_to(after)) > SAME_ORIENTATION {
-            let line = programme.elements[index.saturating_sub(1)].line;
-            let ends = [at, after];
-            turns.push(SpotTurn {
-                before: index,
-                ends,
-                line,
-            });
-        }
+    if let (Some(at), Some(after)) = (at, after)
+        && norm(at.way_to(after)) > SAME_ORIENTATION
+    {
+        turns.push(SpotTurn {
+            before: index,
+            ends: [at, after],
+            line: programme.elements[index.saturating_sub(1)].line,
+        });
     }
     turns
 }

@@ -43,7 +43,10 @@ impl SpinLaw {
             Spin::Stiffest => Some(Goal::Stiffest),
         };
         let goal = goal.filter(|_| path.programme.free_spin);
-        let stations = stations(path);
+        let stations = match goal {
+            Some(Goal::Stiffest) => apart(path, turn_search::SLOWEST),
+            _ => stations(path),
+        };
         let found = goal.and_then(|goal| turn_search::search(cell, path, &stations, goal));
         found.map_or_else(
             || Self::none(cell),
@@ -92,23 +95,31 @@ pub fn stations(path: &Path) -> Vec<f64> {
     (0..=count as usize).map(|k| k as f64 * step).collect()
 }
 
+/// Evenly spaced arc lengths that lie at least `least` (m) apart, or only the ends, m.
+fn apart(path: &Path, least: f64) -> Vec<f64> {
+    let count = (path.length / least).clamp(1.0, STATIONS).floor();
+    let step = path.length / count;
+    (0..=count as usize).map(|k| k as f64 * step).collect()
+}
+
 /// Mean compliance of the robot normal to the path (the direction spindle axis × feed), m/N; `None`
-/// if the robot is rigid or a station is out of reach.
+/// if the robot is rigid or a station is out of reach. Where the tool plunges along its spindle there
+/// is no normal: those stations do not count.
 pub fn mean_compliance(cell: &Cell, path: &Path, law: &SpinLaw) -> Option<f64> {
     let chain = motion::elastic(&cell.robot);
     chain.springs.iter().flatten().next()?;
     let (mut work, mut follower) = (Work::new(&chain), Follower::new(cell));
-    let stations = stations(path);
-    let mut sum = 0.0;
-    for s in &stations {
-        let orientation = law.apply(*s, path.orientation(*s, Side::Before));
-        let q = follower
-            .next(&cell.in_base(path.point(*s), orientation))
-            .ok()?;
-        let normal = normal(cell, path, *s, orientation)?;
-        sum += compliance_along(&chain, &mut work, &q, normal);
+    let (mut sum, mut count) = (0.0, 0.0);
+    for s in stations(path) {
+        let orientation = law.apply(s, path.orientation(s, Side::Before));
+        let pose = cell.in_base(path.point(s), orientation);
+        let q = follower.next(&pose).ok()?;
+        if let Some(normal) = normal(cell, path, s, orientation) {
+            sum += compliance_along(&chain, &mut work, &q, normal);
+            count += 1.0;
+        }
     }
-    Some(sum / stations.len() as f64)
+    (count > 0.0).then(|| sum / count)
 }
 
 /// Spindle axis × feed direction, a unit vector in the base frame; `None` where they are parallel.
@@ -116,7 +127,8 @@ pub fn normal(cell: &Cell, path: &Path, s: f64, orientation: Quaternion) -> Opti
     let spindle = rotate(&orientation.matrix(), cell.spindle);
     let feed = path.piece(s).direction(s, &path.programme.elements);
     let across = cross(spindle, feed);
-    let across = unit(across).filter(|_| dot(across, across) > 1e-12)?;
+    let there = dot(across, across) > 1e-12;
+    let across = unit(across).filter(|_| there)?;
     Some(rotate(&cell.workpiece.rotation, across))
 }
 

@@ -26,6 +26,8 @@ const ANGLES: usize = 72;
 const GRID: f64 = TAU / ANGLES as f64;
 /// A stiffest turn runs at most this fast, rad/m (90 degrees in 0.1 m).
 const TURNING: f64 = 0.5 * PI / 0.1;
+/// Stations of a stiffest turn lie at least this far apart, m: one angle of the grid is then not too fast.
+pub const SLOWEST: f64 = GRID / TURNING;
 /// A smooth turn runs at most this many angles of the grid from one station to the next.
 const WINDOW: usize = 6;
 /// Weight of squared joint motion (rad²) beside relative compliance: decides where nothing else does.
@@ -72,7 +74,7 @@ pub fn search(cell: &Cell, path: &Path, stations: &[f64], goal: Goal) -> Option<
 /// Steps of the grid that a stiffest turn may take between stations.
 fn window(stations: &[f64]) -> usize {
     let apart = stations.get(1).map_or(0.0, |s| s - stations[0]);
-    ((TURNING * apart / GRID).floor() as usize).clamp(1, ANGLES / 4)
+    ((TURNING * apart / GRID * (1.0 + 1e-9)).floor() as usize).clamp(1, ANGLES / 4)
 }
 
 /// All postures over stations and turns.
@@ -162,8 +164,8 @@ impl Grid {
             }
         }
         let mut from: Vec<[[(u16, u8); 2]; ANGLES]> = Vec::with_capacity(self.nodes.len());
-        for k in 1..self.nodes.len() {
-            let (next, came) = self.step(k, &reached, &costs[k], motion, window);
+        for (k, costs) in costs.iter().enumerate().skip(1) {
+            let (next, came) = self.step(k, &reached, costs, motion, window);
             reached = next;
             from.push(came);
         }
@@ -186,11 +188,11 @@ impl Grid {
                 continue;
             };
             for i in (0..=2 * window).map(|d| (j + ANGLES + d - window) % ANGLES) {
-                for other in 0..2 {
+                for (other, reached) in reached[i].iter().enumerate() {
                     let Some(before) = &self.nodes[k - 1][i][other] else {
                         continue;
                     };
-                    let cost = reached[i][other] + motion * wrapped_squares(q, before);
+                    let cost = reached + motion * wrapped_squares(q, before);
                     if cost < next[j][hand] {
                         next[j][hand] = cost;
                         came[j][hand] = (i as u16, other as u8);
@@ -262,7 +264,7 @@ fn wrapped_squares(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> f64 {
 fn rounded(mut turns: Vec<f64>) -> Vec<f64> {
     for _ in 0..8 {
         let old = turns.clone();
-        for i in 1..turns.len() - 1 {
+        for i in 1..turns.len().saturating_sub(1) {
             turns[i] = 0.25 * (old[i - 1] + 2.0 * old[i] + old[i + 1]);
         }
     }
