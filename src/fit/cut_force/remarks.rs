@@ -96,7 +96,8 @@ fn short(cuts: &[&CutData]) -> Option<String> {
 fn left_out(files: &[MillingForce], cuts: &[&CutData]) -> Option<String> {
     let empty: usize = files.iter().map(|f| f.left_out).sum();
     let settling: usize = cuts.iter().map(|c| c.settling).sum();
-    (empty + settling > 0).then(|| {
-        format!("Left out: {empty} rows for an empty cell, {settling} at the starts of cuts until the low pass has settled.")
+    let beyond: usize = cuts.iter().map(|c| c.beyond).sum();
+    (empty + settling + beyond > 0).then(|| {
+        format!("Left out: {empty} rows for an empty cell, {settling} at the starts of cuts until the low pass has settled, {beyond} at the ends of cuts longer than need be.")
     })
 }
