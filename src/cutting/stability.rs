@@ -90,7 +90,7 @@ impl Passing {
             passing.add(i, mode, &carried(mode, &grid, total), &force, &axes);
         }
         for mode in &springs {
-            passing.add_spring(mode, &force, &axes, total);
+            passing.add_spring(mode, &force, &axes);
         }
         passing
     }
@@ -147,12 +147,12 @@ impl Passing {
         }
     }
 
-    fn add_spring(&mut self, mode: &TipMode, force: &[Vec<V3>], axes: &[usize], total: usize) {
+    fn add_spring(&mut self, mode: &TipMode, force: &[Vec<V3>], axes: &[usize]) {
         let d = axes.len();
-        for node in 0..total {
+        for (node, columns) in force.iter().enumerate() {
             for (k, axis) in axes.iter().enumerate() {
                 let answer = mode.direction[*axis] / mode.stiffness;
-                for (c, column) in force[node].iter().enumerate() {
+                for (c, column) in columns.iter().enumerate() {
                     self.nodes[(node * d + k, node * d + c)] += answer * drive(mode, column);
                 }
             }

@@ -72,7 +72,7 @@ fn offset(cuts: &[&CutData]) -> Option<String> {
         a.side == Side::Slot && (a.depth_m / b.depth_m - 1.0).abs() < 1e-6
     };
     let teeth = cuts.first()?.scene.tool.teeth;
-    (cuts.iter().all(alike) && teeth % 2 == 0).then(|| {
+    (cuts.iter().all(alike) && teeth.is_multiple_of(2)).then(|| {
         "In slots of one depth an offset of z is the same as Kae: zero the dynamometer before each cut.".into()
     })
 }
