@@ -28,7 +28,7 @@ pub fn differentiation(count: usize) -> DMatrix<f64> {
     let n = x.len();
     let weight = |i: usize| {
         let end = if i == 0 || i == n - 1 { 2.0 } else { 1.0 };
-        if i % 2 == 0 { end } else { -end }
+        if i.is_multiple_of(2) { end } else { -end }
     };
     let mut slope = DMatrix::from_fn(n, n, |i, j| match i == j {
         true => 0.0,

@@ -102,10 +102,8 @@ impl CutScene {
             let basis = wave.basis(D::variable(angle, 3), 0.0);
             let f = force(&basis, &p[..6]);
             predicted.set(i, &basis, &f);
-            for k in 0..3 {
-                predicted.slopes[PHASE][i][k] = f[k].eps[3];
-                predicted.slopes[SPEED][i][k] = f[k].eps[3] * rate * self.time[i];
-            }
+            predicted.slopes[PHASE][i] = f.map(|part| part.eps[3]);
+            predicted.slopes[SPEED][i] = f.map(|part| part.eps[3] * rate * self.time[i]);
         }
         predicted
     }
@@ -192,8 +190,8 @@ impl LowPass {
             for j in [0, 1, 2, 3, 4, 5, RUNOUT, RUNOUT + 1, WIDTH] {
                 let lines = self.spectrum(&around.slopes[j], k);
                 let own = self.turned(&lines, &|f, _| butterworth2(f, corner));
-                for i in 0..GRID {
-                    passed.slopes[j][i][k] = own[i];
+                for (slope, value) in passed.slopes[j].iter_mut().zip(own) {
+                    slope[k] = value;
                 }
             }
         }

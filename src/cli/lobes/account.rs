@@ -48,7 +48,7 @@ impl Lobes<'_> {
         match self.least() {
             None => format!("No chatter down to {deepest} mm at any of these speeds."),
             Some((rpm, mm)) => format!(
-                "At any of these speeds {} mm are safe; the least limit stands at {rpm:.0} rev/min (looked at down to {deepest} mm).",
+                "The limit is nowhere below {} mm; that is at {rpm:.0} rev/min (looked at down to {deepest} mm).",
                 significant(mm, 3)
             ),
         }

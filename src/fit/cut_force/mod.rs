@@ -31,12 +31,16 @@ pub struct CutData {
     pub force: Vec<V3>,
     /// Rows left out at the start, until the low pass has settled.
     pub settling: usize,
+    /// Rows at the end that were not used: the record is longer than it need be.
+    pub beyond: usize,
     /// Corner of the low pass as stated, Hz.
     pub bandwidth_hz: Option<f64>,
     /// Number of the file and of its cut, from 0.
     pub place: [usize; 2],
 }
 
+/// Most rows of a cut that are used: with more, what the law leaves counts, not the noise.
+const MOST_ROWS: usize = 40_000;
 /// Largest share of a record that settling may take.
 const SETTLING_SHARE: f64 = 0.2;
 
@@ -58,15 +62,20 @@ fn one(file: &MillingForce, place: [usize; 2], record: &Record) -> CutData {
     let most = (SETTLING_SHARE * record.time.len() as f64) as usize;
     let settled = record.time.partition_point(|t| t - start < until).min(most);
     let first = record.time[settled];
+    let last = record.time.len().min(settled + MOST_ROWS);
     CutData {
         scene: CutScene {
             tool: tool(&file.facts),
             cut: cut(&file.facts.cuts[place[1]]),
-            time: record.time[settled..].iter().map(|t| t - first).collect(),
+            time: record.time[settled..last]
+                .iter()
+                .map(|t| t - first)
+                .collect(),
             low_pass: bandwidth.is_some(),
         },
-        force: record.force[settled..].to_vec(),
+        force: record.force[settled..last].to_vec(),
         settling: settled,
+        beyond: record.time.len() - last,
         bandwidth_hz: bandwidth,
         place,
     }

@@ -72,7 +72,7 @@ fn offset(cuts: &[&CutData]) -> Option<String> {
         a.side == Side::Slot && (a.depth_m / b.depth_m - 1.0).abs() < 1e-6
     };
     let teeth = cuts.first()?.scene.tool.teeth;
-    (cuts.iter().all(alike) && teeth % 2 == 0).then(|| {
+    (cuts.iter().all(alike) && teeth.is_multiple_of(2)).then(|| {
         "In slots of one depth an offset of z is the same as Kae: zero the dynamometer before each cut.".into()
     })
 }
@@ -96,7 +96,8 @@ fn short(cuts: &[&CutData]) -> Option<String> {
 fn left_out(files: &[MillingForce], cuts: &[&CutData]) -> Option<String> {
     let empty: usize = files.iter().map(|f| f.left_out).sum();
     let settling: usize = cuts.iter().map(|c| c.settling).sum();
-    (empty + settling > 0).then(|| {
-        format!("Left out: {empty} rows for an empty cell, {settling} at the starts of cuts until the low pass has settled.")
+    let beyond: usize = cuts.iter().map(|c| c.beyond).sum();
+    (empty + settling + beyond > 0).then(|| {
+        format!("Left out: {empty} rows for an empty cell, {settling} at the starts of cuts until the low pass has settled, {beyond} at the ends of cuts longer than need be.")
     })
 }

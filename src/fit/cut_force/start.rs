@@ -114,11 +114,11 @@ impl Folded {
         let mut total = 0.0;
         for (force, at) in self.seen(shift) {
             let left = left(&force, at);
-            for k in 0..3 {
+            for (k, left) in left.iter().enumerate() {
                 let slope = |j: usize| self.predicted.slopes[kinds[j]][at][k];
-                total += left[k] * left[k];
+                total += left * left;
                 for a in 0..n {
-                    right[a] += slope(a) * left[k];
+                    right[a] += slope(a) * left;
                     for b in 0..n {
                         normal[(a, b)] += slope(a) * slope(b);
                     }

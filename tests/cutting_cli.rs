@@ -1,0 +1,169 @@
+//! `ident force` and `ident lobes` as typed: account, JSON, files, exit status, refusals.
+
+mod milling_bench;
+
+use ident::ground::random::Random;
+use ident::measurement::job::Material;
+use milling_bench::{Cutter, Pass, Recording, csv, record};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn ident(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_ident"))
+        .current_dir(folder)
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn json(output: &Output) -> Value {
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+const TRUTH: [f64; 6] = [1319.41, 788.83, 48.75, 19.65, 26.77, 2.05];
+
+/// A campaign of four cuts; where its file is.
+fn campaign(folder: &Path) -> PathBuf {
+    let cutter = Cutter {
+        radius: 8e-3,
+        teeth: 3,
+        helix: 0.5235987755982988,
+        runout: 8e-6,
+        runout_angle: 0.6,
+    };
+    let pass = |feed: f64, depth: f64, width: f64, side: &'static str| Pass {
+        rpm: 8000.0,
+        feed,
+        depth,
+        width,
+        side,
+    };
+    let passes = [
+        pass(1200.0, 1.5, 16.0, "slot"),
+        pass(2400.0, 1.5, 16.0, "slot"),
+        pass(2400.0, 3.0, 5.0, "down"),
+        pass(2400.0, 3.0, 8.0, "up"),
+    ];
+    let recording = Recording {
+        rate_hz: 20_000.0,
+        turns: 6.0,
+        bandwidth_hz: Some(1500.0),
+        noise: 4.0,
+        colour: 0.0,
+        clipped: true,
+    };
+    let rows = record(&cutter, &passes, &TRUTH, &recording, &mut Random::new(7));
+    let path = folder.join("measurements/al/cuts.csv");
+    std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+    std::fs::write(&path, csv(&cutter, &passes, &recording, &rows)).unwrap();
+    path
+}
+
+#[test]
+fn force_writes_a_material_that_a_job_loads_and_a_dry_run_writes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    campaign(folder.path());
+    let file = "measurements/al/cuts.csv";
+    let dry = ident(folder.path(), &["force", file, "--json", "--dry-run"]);
+    assert_eq!(dry.status.code(), Some(0));
+    assert!(json(&dry)["material"].is_null() && !folder.path().join("fits").exists());
+    let output = ident(folder.path(), &["force", file, "--json"]);
+    let document = json(&output);
+    assert_eq!(document["schema"], "ident/1");
+    for (parameter, truth) in document["parameters"].as_array().unwrap().iter().zip(TRUTH) {
+        let stderr = parameter["stderr"].as_f64().unwrap();
+        let value = parameter["value"].as_f64().unwrap();
+        assert!((value - truth).abs() < 4.0 * stderr, "{parameter}");
+    }
+    let path = folder.path().join(document["material"].as_str().unwrap());
+    let material = Material::of_bytes(&std::fs::read(path).unwrap()).unwrap();
+    assert!((material.cutting[0] / 1319.41e6 - 1.0).abs() < 0.02 && material.ci95[5].is_some());
+    assert!(folder.path().join("reports/al/force-cuts.html").exists());
+    let again = ident(folder.path(), &["force", file, "--json"]);
+    assert_eq!(output.stdout, again.stdout);
+}
+
+#[test]
+fn files_that_are_wrong_are_refused_with_their_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = campaign(folder.path());
+    let text = std::fs::read_to_string(&path).unwrap();
+    for (from, to, line) in [
+        ("teeth = 3", "teth = 3", 4),
+        ("depth_mm = 1.5", "depth_mm = -1.5", 6),
+        ("cut = \"slot\"", "cut = \"round\"", 6),
+    ] {
+        std::fs::write(&path, text.replacen(from, to, 1)).unwrap();
+        let output = ident(folder.path(), &["force", "measurements/al/cuts.csv"]);
+        let said = String::from_utf8_lossy(&output.stderr).to_string();
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(
+            said.contains(&format!("cuts.csv:{line}:")) && said.contains("help:"),
+            "{said}"
+        );
+    }
+    assert!(!folder.path().join("fits").exists());
+}
+
+const MODAL: &str = r#"kind = "modal"
+[[modes]]
+direction = [1, 0, 0]
+frequency_Hz = 922.0
+damping_ratio = 0.011
+stiffness_N_m = 1340049.648
+[tool]
+diameter_mm = 10.0
+teeth = 2
+[material]
+Ktc_N_mm2 = 600
+Krc_N_mm2 = 200
+Kac_N_mm2 = 0
+Kte_N_mm = 0
+Kre_N_mm = 0
+Kae_N_mm = 0
+[cut]
+cut = "slot"
+"#;
+
+#[test]
+fn lobes_of_a_modal_file_are_those_of_the_benchmark() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("m.toml"), MODAL).unwrap();
+    let at = ident(
+        folder.path(),
+        &["lobes", "m.toml", "--at", "5000,0.5", "--json"],
+    );
+    let radius = json(&at)["spectral_radius"].as_f64().unwrap();
+    assert!((radius - 1.073976).abs() < 1e-4, "{radius}");
+    let arguments = [
+        "lobes",
+        "m.toml",
+        "--rpm",
+        "6000:9000:3000",
+        "--depth-mm",
+        "2",
+        "--json",
+    ];
+    let lobes = json(&ident(folder.path(), &arguments));
+    let limit = lobes["limit_depth_mm"][0].as_f64().unwrap();
+    assert!((limit / 0.35322 - 1.0).abs() < 0.01, "{limit}");
+    assert!(lobes["limit_depth_mm"][1].is_null() && lobes["chatter_Hz"][1].is_null());
+}
+
+#[test]
+fn a_modal_file_that_is_wrong_is_refused_with_its_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.toml");
+    for (from, to, line) in [
+        ("damping_ratio = 0.011", "damping = 0.011", 5),
+        ("direction = [1, 0, 0]", "direction = [0, 0, 0]", 3),
+        ("cut = \"slot\"", "cut = \"down\"", 17),
+    ] {
+        std::fs::write(&path, MODAL.replacen(from, to, 1)).unwrap();
+        let output = ident(folder.path(), &["lobes", "m.toml", "--at", "5000,0.5"]);
+        let said = String::from_utf8_lossy(&output.stderr).to_string();
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains(&format!("m.toml:{line}:")), "{said}");
+    }
+}
