@@ -151,9 +151,10 @@ impl Cutter {
         let (from, _) = self.place.unwrap_or((tip, axis));
         self.place = Some((tip, axis));
         let way = sub(tip, from);
-        if axis != self.engagement.frame.z {
+        if turned_from(axis, self.engagement.frame.z) {
             self.engagement.frame = Frame::towards(self.forward, axis);
         }
+        let axis = self.engagement.frame.z;
         // in the middle of the way the engagement is its mean, to second order
         let middle = add(from, scale(0.5, way));
         let curved = self.curved(middle, way);
@@ -176,7 +177,7 @@ impl Cutter {
         let ahead = unit(way);
         let aside = |solid: &&Solid| {
             let from = unit(sub(tip, solid.tip));
-            let turned = solid.axis != self.engagement.frame.z;
+            let turned = turned_from(solid.axis, self.engagement.frame.z);
             match (ahead, from) {
                 (Some(a), Some(f)) => turned || norm(sub(a, f)) > ALIGNED.sqrt(),
                 _ => turned,
@@ -314,6 +315,11 @@ impl Cutter {
 const MOST_WAYS: usize = 3;
 /// Step of the slope over the chip, m.
 const NUDGE: f64 = 1e-8;
+
+/// Whether an axis differs from another by more than rounding.
+fn turned_from(axis: V3, other: V3) -> bool {
+    norm(sub(axis, other)) > 1e-9
+}
 
 #[derive(Default)]
 struct Sum {
