@@ -37,7 +37,9 @@ fn way() -> Way {
             s_m: x + 0.010,
             tip: [x, 0.0, -2.0 * MM],
             axis: [0.0, 0.0, 1.0],
-            joints: [0.0, -60.0, 80.0, 0.0, 70.0, 0.0].map(f64::to_radians).to_vec(),
+            joints: [0.0, -60.0, 80.0, 0.0, 70.0, 0.0]
+                .map(f64::to_radians)
+                .to_vec(),
         }
     };
     Way::new((0..60).map(row).collect()).unwrap()
@@ -52,13 +54,19 @@ fn cutter(width: f64, steps: usize) -> Cutter {
         steps,
         ..Fineness::usual(&tool)
     };
-    let stock = Stock::block([0.0, -15.0 * MM, -8.0 * MM], [40.0 * MM, width, 0.0], fineness.spacing_m);
+    let stock = Stock::block(
+        [0.0, -15.0 * MM, -8.0 * MM],
+        [40.0 * MM, width, 0.0],
+        fineness.spacing_m,
+    );
     let al7075 = Material::linear_edge([1319.41, 788.83, 48.75, 19.65, 26.77, 2.05]);
     Cutter::new(&tool, &al7075, stock.unwrap(), fineness, [0.0, 0.0, 1.0])
 }
 
 fn run(structure: &mut dyn Structure, cutter: &mut Cutter) -> Outcome {
-    let settings = Settings { spindle_rad_s: SPINDLE };
+    let settings = Settings {
+        spindle_rad_s: SPINDLE,
+    };
     mill(&way(), cutter, structure, &settings, |_| {}).unwrap()
 }
 
@@ -76,7 +84,11 @@ fn swinging(stiffer: f64, steps: usize) -> Swinging {
 
 /// Force and deviation in the middle of the cut: mean over the stations from x = 14 to 24 mm.
 fn middle(out: &Outcome) -> (V3, V3) {
-    let inside: Vec<_> = out.course.iter().filter(|c| (14.0 * MM..24.0 * MM).contains(&c.tip[0])).collect();
+    let inside: Vec<_> = out
+        .course
+        .iter()
+        .filter(|c| (14.0 * MM..24.0 * MM).contains(&c.tip[0]))
+        .collect();
     let mean = |of: &dyn Fn(usize) -> V3| {
         [0, 1, 2].map(|k| (0..inside.len()).map(|i| of(i)[k]).sum::<f64>() / inside.len() as f64)
     };
@@ -84,7 +96,10 @@ fn middle(out: &Outcome) -> (V3, V3) {
 }
 
 fn compliance() -> M3 {
-    carrier(1.0).held(&way().at(0.0).joints).unwrap().compliance()
+    carrier(1.0)
+        .held(&way().at(0.0).joints)
+        .unwrap()
+        .compliance()
 }
 
 fn close(a: V3, b: V3, share: f64) {

@@ -47,7 +47,12 @@ impl Planned {
         inputs.extend(further.map(|(path, hash)| (path.display().to_string(), hash.clone())));
         let plan = plan(&job, &toolpath, &robot.robot)?
             .map_err(|unreached| unreached.problem().in_file(&toolpath.path))?;
-        Ok(Self { job, toolpath, plan, inputs })
+        Ok(Self {
+            job,
+            toolpath,
+            plan,
+            inputs,
+        })
     }
 
     /// Made ready to be milled; `step_s` is the step of time, if it is not to be chosen.

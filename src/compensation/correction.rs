@@ -42,14 +42,22 @@ impl Correction {
     /// Takes what is left, given at ascending arc lengths, away: smoothed, times `share`.
     pub fn take(&mut self, left: &[(f64, V3)], share: f64) {
         let even = resampled(left, self.step_m, self.values.len());
-        for (value, left) in self.values.iter_mut().zip(smoothed(&even, SMOOTH / self.step_m)) {
+        for (value, left) in self
+            .values
+            .iter_mut()
+            .zip(smoothed(&even, SMOOTH / self.step_m))
+        {
             *value = sub(*value, scale(share, left));
         }
     }
 
     /// Largest correction, m, and its arc length, m.
     pub fn largest(&self) -> (f64, f64) {
-        let sizes = self.values.iter().enumerate().map(|(i, v)| (norm(*v), i as f64 * self.step_m));
+        let sizes = self
+            .values
+            .iter()
+            .enumerate()
+            .map(|(i, v)| (norm(*v), i as f64 * self.step_m));
         sizes.fold((0.0, 0.0), |a, b| if b.0 > a.0 { b } else { a })
     }
 
@@ -68,7 +76,10 @@ fn resampled(samples: &[(f64, V3)], step: f64, count: usize) -> Vec<V3> {
         while after < samples.len() && samples[after].0 < s {
             after += 1;
         }
-        let (Some(b), Some(a)) = (samples.get(after), after.checked_sub(1).and_then(|i| samples.get(i))) else {
+        let (Some(b), Some(a)) = (
+            samples.get(after),
+            after.checked_sub(1).and_then(|i| samples.get(i)),
+        ) else {
             return [0.0; 3];
         };
         let share = (s - a.0) / (b.0 - a.0).max(f64::MIN_POSITIVE);
@@ -80,7 +91,9 @@ fn resampled(samples: &[(f64, V3)], step: f64, count: usize) -> Vec<V3> {
 /// Smoothed by a bell of this standard deviation in stations.
 fn smoothed(values: &[V3], width: f64) -> Vec<V3> {
     let reach = (4.0 * width).ceil() as i64;
-    let bell: Vec<f64> = (-reach..=reach).map(|k| (-0.5 * (k as f64 / width).powi(2)).exp()).collect();
+    let bell: Vec<f64> = (-reach..=reach)
+        .map(|k| (-0.5 * (k as f64 / width).powi(2)).exp())
+        .collect();
     let total: f64 = bell.iter().sum();
     let mean = |i: usize| {
         let weighed = bell.iter().enumerate().map(|(k, w)| {

@@ -77,7 +77,12 @@ fn mirror(setup: &Setup, plan: &Plan, mut correction: Correction) -> Outcome<Sea
         correction.take(&windowed(&stations), 1.0);
         change = correction.farthest(&before);
         if change <= STILL * first {
-            return Ok(Search { correction, iterations, converged: true, last_change_m: change });
+            return Ok(Search {
+                correction,
+                iterations,
+                converged: true,
+                last_change_m: change,
+            });
         }
     }
     Ok(Search {
@@ -109,14 +114,20 @@ fn ideal_force(setup: &Setup, plan: &Plan, mut correction: Correction) -> Outcom
     let _ = plan;
     correction.take(&windowed(&stations), 1.0);
     let last_change_m = correction.largest().0;
-    Ok(Search { correction, iterations: 1, converged: true, last_change_m })
+    Ok(Search {
+        correction,
+        iterations: 1,
+        converged: true,
+        last_change_m,
+    })
 }
 
 /// Deflection of the springs under the forces of a course, m.
 fn bent(setup: &Setup, milled: &Milled) -> Outcome<Vec<V3>> {
     let mut springs = setup.springs()?;
     let cuts = milled.course.iter();
-    cuts.map(|cut| springs.bent(&setup.way.at(cut.time_s), cut.force)).collect()
+    cuts.map(|cut| springs.bent(&setup.way.at(cut.time_s), cut.force))
+        .collect()
 }
 
 /// The job with its path corrected.
@@ -133,7 +144,11 @@ pub fn with(setup: &Setup, plan: &Plan, correction: &Correction) -> Outcome<Setu
 /// What is left at ascending arc lengths, fading away from the cut.
 fn windowed(stations: &[Station]) -> Vec<(f64, V3)> {
     let mut ascending: Vec<(f64, V3)> = Vec::new();
-    let cuts: Vec<f64> = stations.iter().filter(|s| s.cutting).map(|s| s.s_m).collect();
+    let cuts: Vec<f64> = stations
+        .iter()
+        .filter(|s| s.cutting)
+        .map(|s| s.s_m)
+        .collect();
     for station in stations {
         if ascending.last().is_none_or(|last| station.s_m > last.0) {
             let window = window(distance(&cuts, station.s_m));

@@ -38,7 +38,11 @@ pub fn proof(plan: &Plan, way: &Way, correction: &Correction, milled: &Milled) -
     let mut all = Vec::new();
     for (i, joint) in plan.cell.robot.joints.iter().enumerate() {
         all.push(range(rows, i, &joint.name, joint.limits));
-        all.extend(joint.max_speed.map(|limit| speed(rows, i, &joint.name, limit)));
+        all.extend(
+            joint
+                .max_speed
+                .map(|limit| speed(rows, i, &joint.name, limit)),
+        );
         all.push(acceleration(way, &plan.rows, i, &joint.name));
     }
     all.push(singularity(rows));
@@ -50,7 +54,10 @@ pub fn proof(plan: &Plan, way: &Way, correction: &Correction, milled: &Milled) -
 
 /// The row of the largest value.
 fn worst(values: impl Iterator<Item = (f64, f64)>) -> (f64, f64) {
-    values.fold((f64::NEG_INFINITY, 0.0), |a, b| if b.0 > a.0 { b } else { a })
+    values.fold(
+        (f64::NEG_INFINITY, 0.0),
+        |a, b| if b.0 > a.0 { b } else { a },
+    )
 }
 
 /// How far beyond the middle of its range a joint goes, against half the range.
@@ -70,7 +77,9 @@ fn range(rows: &[Row], i: usize, site: &str, limits: [f64; 2]) -> Checked {
 }
 
 fn speed(rows: &[Row], i: usize, site: &str, limit: f64) -> Checked {
-    let of = |pair: &[Row]| (pair[1].joints[i] - pair[0].joints[i]).abs() / (pair[1].time_s - pair[0].time_s);
+    let of = |pair: &[Row]| {
+        (pair[1].joints[i] - pair[0].joints[i]).abs() / (pair[1].time_s - pair[0].time_s)
+    };
     let (worst, s_m) = worst(rows.windows(2).map(|pair| (of(pair), pair[1].s_m)));
     let worst = worst.max(0.0);
     Checked {
@@ -90,11 +99,16 @@ fn acceleration(way: &Way, plan: &[crate::planning::plan::Row], i: usize, site: 
     /// rad/s² that any drive of a milling robot has to spare.
     const SPARE: f64 = 1.0;
     let second = |a: f64, b: f64, c: f64, h: f64| ((a - 2.0 * b + c) / (h * h)).abs();
-    let drawn = plan.windows(3).map(|r| second(r[0].q[i], r[1].q[i], r[2].q[i], r[1].t - r[0].t));
+    let drawn = plan
+        .windows(3)
+        .map(|r| second(r[0].q[i], r[1].q[i], r[2].q[i], r[1].t - r[0].t));
     let limit = 2.0 * drawn.fold(0.0, f64::max) + SPARE;
     let triples = way.rows().windows(3).map(|r| {
         let h = r[1].time_s - r[0].time_s;
-        (second(r[0].joints[i], r[1].joints[i], r[2].joints[i], h), r[1].s_m)
+        (
+            second(r[0].joints[i], r[1].joints[i], r[2].joints[i], h),
+            r[1].s_m,
+        )
     });
     let (worst, s_m) = worst(triples);
     let worst = worst.max(0.0);

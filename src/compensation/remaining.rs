@@ -51,7 +51,9 @@ impl Size {
     pub fn of(stations: &[Station]) -> Self {
         let cutting: Vec<&Station> = stations.iter().filter(|s| s.cutting).collect();
         let squares: f64 = cutting.iter().map(|s| norm(s.left).powi(2)).sum();
-        let worst = cutting.iter().max_by(|a, b| norm(a.left).total_cmp(&norm(b.left)));
+        let worst = cutting
+            .iter()
+            .max_by(|a, b| norm(a.left).total_cmp(&norm(b.left)));
         Self {
             max_m: worst.map_or(0.0, |s| norm(s.left)),
             at_m: worst.map_or(0.0, |s| s.s_m),
@@ -76,7 +78,9 @@ pub fn interval(left: &[V3], changes: &[Vec<V3>]) -> Option<[f64; 2]> {
             let z: Vec<f64> = changes.iter().map(|_| random.normal()).collect();
             let at = |i: usize| {
                 let moved = changes.iter().zip(&z);
-                norm(moved.fold(left[i], |sum, (c, z)| [0, 1, 2].map(|k| sum[k] + z * c[i][k])))
+                norm(moved.fold(left[i], |sum, (c, z)| {
+                    [0, 1, 2].map(|k| sum[k] + z * c[i][k])
+                }))
             };
             (0..left.len()).map(at).fold(0.0, f64::max)
         })

@@ -31,7 +31,10 @@ pub fn shifted(plan: &Plan, correction: &Correction) -> Outcome<Way> {
 
 fn unreached(s: f64) -> Problem {
     Problem::new(
-        format!("the corrected path leaves the reach of the robot at {:.1} mm", 1e3 * s),
+        format!(
+            "the corrected path leaves the reach of the robot at {:.1} mm",
+            1e3 * s
+        ),
         "place the part nearer with [workpiece]",
     )
 }

@@ -75,7 +75,13 @@ const APART: f64 = 0.5;
 impl Cutter {
     /// A tool beside its stock. `forward` (workpiece frame) is where angles count from, usually the
     /// first feed; `axis` the spindle axis.
-    pub fn new(tool: &Tool, material: &Material, stock: Stock, fineness: Fineness, axis: V3) -> Self {
+    pub fn new(
+        tool: &Tool,
+        material: &Material,
+        stock: Stock,
+        fineness: Fineness,
+        axis: V3,
+    ) -> Self {
         let forward = [1.0, 0.0, 0.0];
         let frame = Frame::towards(forward, axis);
         let (low, high) = stock.bounds();
@@ -87,7 +93,9 @@ impl Cutter {
             Edge {
                 lag: [sin, cos],
                 lag_cells: ring.disc.lag_rad / step,
-                radii: (0..tool.teeth).map(|j| tool.tooth_radius(&ring.disc, j)).collect(),
+                radii: (0..tool.teeth)
+                    .map(|j| tool.tooth_radius(&ring.disc, j))
+                    .collect(),
             }
         };
         Self {
@@ -224,7 +232,10 @@ impl Cutter {
             return Ok(());
         }
         Err(Problem::new(
-            format!("the tool cuts deeper than its flutes, {:.1} mm", 1e3 * self.tool.flute_m),
+            format!(
+                "the tool cuts deeper than its flutes, {:.1} mm",
+                1e3 * self.tool.flute_m
+            ),
             "cut in several depths, or give a longer `flute_mm`",
         ))
     }
@@ -233,8 +244,10 @@ impl Cutter {
     /// step around it. `ways[m]`: how far the tool moved while m + 1 teeth passed, workpiece frame, m.
     pub fn load(&self, cells: f64, ways: &[V3]) -> Load {
         let frame = self.engagement.frame;
-        let inside = |v: &V3| [frame.x, frame.y, frame.z].map(|e| crate::ground::spatial::dot(*v, e));
-        let mut ways: [V3; MOST_WAYS] = std::array::from_fn(|m| ways.get(m).map_or([f64::NAN; 3], inside));
+        let inside =
+            |v: &V3| [frame.x, frame.y, frame.z].map(|e| crate::ground::spatial::dot(*v, e));
+        let mut ways: [V3; MOST_WAYS] =
+            std::array::from_fn(|m| ways.get(m).map_or([f64::NAN; 3], inside));
         let known = ways.iter().take_while(|w| !w[0].is_nan()).count();
         ways.reverse();
         let ways = &ways[MOST_WAYS - known..];
@@ -251,10 +264,19 @@ impl Cutter {
                 if share > 0.0 {
                     let [ls, lc] = edge.lag;
                     let direction = [sin * lc - cos * ls, cos * lc + sin * ls];
-                    let bite = Bite { direction, normal: ring.disc.normal, step };
+                    let bite = Bite {
+                        direction,
+                        normal: ring.disc.normal,
+                        step,
+                    };
                     let (mean, part) = bite.chip(ways, tooth, &edge.radii);
                     if part > 0.0 {
-                        self.add(&mut sum, &bite, mean / part, share * part * ring.disc.edge_m);
+                        self.add(
+                            &mut sum,
+                            &bite,
+                            mean / part,
+                            share * part * ring.disc.edge_m,
+                        );
                     }
                 }
             }
@@ -287,10 +309,16 @@ impl Cutter {
 
     /// The same, and the largest force within the revolution, N.
     pub fn revolution(&self, per_tooth: V3) -> (Load, f64) {
-        let ways: Vec<V3> = (1..=self.memory()).map(|m| scale(m as f64, per_tooth)).collect();
+        let ways: Vec<V3> = (1..=self.memory())
+            .map(|m| scale(m as f64, per_tooth))
+            .collect();
         let steps = self.fineness.steps;
         // without runout all teeth are alike: one pitch says it all
-        let steps = if self.tool.runout_m == 0.0 { steps / self.tool.teeth } else { steps };
+        let steps = if self.tool.runout_m == 0.0 {
+            steps / self.tool.teeth
+        } else {
+            steps
+        };
         let (mut mean, mut peak) = (Load::default(), 0.0_f64);
         for q in 0..steps {
             let load = self.load(q as f64 + 0.5, &ways);
@@ -364,7 +392,8 @@ impl Bite {
         let mut least = (f64::INFINITY, 0.0);
         for (i, way) in ways.iter().enumerate() {
             let back = ways.len() - i;
-            let chip = crate::ground::spatial::dot(*way, normal) + radii[tooth] - radii[(tooth + back) % teeth];
+            let chip = crate::ground::spatial::dot(*way, normal) + radii[tooth]
+                - radii[(tooth + back) % teeth];
             if chip < least.0 {
                 let change = self.normal[0] * (way[0] * cos - way[1] * sin);
                 least = (chip, 0.5 * self.step * change);
@@ -415,7 +444,10 @@ mod tests {
     fn near(force: V3, expected: V3, share: f64) {
         let size = norm(expected);
         for k in 0..3 {
-            assert!((force[k] - expected[k]).abs() < share * size, "{force:?} {expected:?}");
+            assert!(
+                (force[k] - expected[k]).abs() < share * size,
+                "{force:?} {expected:?}"
+            );
         }
     }
 
@@ -431,7 +463,12 @@ mod tests {
                 for spacing in [0.4 * MM, 0.37 * MM] {
                     let tool = Tool::square(8.0 * MM, 2, helix);
                     let mut cutter = cutter(&tool, width, spacing);
-                    go(&mut cutter, [-9.0 * MM, 0.0, -2.0 * MM], [30.0 * MM, 0.0, -2.0 * MM], 0.1 * MM);
+                    go(
+                        &mut cutter,
+                        [-9.0 * MM, 0.0, -2.0 * MM],
+                        [30.0 * MM, 0.0, -2.0 * MM],
+                        0.1 * MM,
+                    );
                     let load = cutter.mean_load([0.1 * MM, 0.0, 0.0]);
                     near(load.force, expected, 0.005);
                 }
@@ -443,21 +480,49 @@ mod tests {
     fn removed_volumes_are_those_of_the_closed_form() {
         let tool = Tool::square(8.0 * MM, 2, 0.0);
         let mut slot = cutter(&tool, 20.0 * MM, 0.4 * MM);
-        go(&mut slot, [-20.0 * MM, 0.0, -2.0 * MM], [30.0 * MM, 0.0, -2.0 * MM], 0.1 * MM);
+        go(
+            &mut slot,
+            [-20.0 * MM, 0.0, -2.0 * MM],
+            [30.0 * MM, 0.0, -2.0 * MM],
+            0.1 * MM,
+        );
         let end = 0.5 * PI * 64.0;
         let exact = (30.0 * 16.0 + end) * 2.0;
-        assert!((slot.removed() * 1e9 / exact - 1.0).abs() < 2e-3, "{} {exact}", slot.removed() * 1e9);
+        assert!(
+            (slot.removed() * 1e9 / exact - 1.0).abs() < 2e-3,
+            "{} {exact}",
+            slot.removed() * 1e9
+        );
         // a second pass half beside the first: only the new half
         let before = slot.removed();
-        go(&mut slot, [30.0 * MM, 0.0, 5.0 * MM], [70.0 * MM, 30.0 * MM, 5.0 * MM], 1.0 * MM);
-        go(&mut slot, [70.0 * MM, -6.3 * MM, 5.0 * MM], [70.0 * MM, -6.3 * MM, -2.0 * MM], 0.5 * MM);
-        go(&mut slot, [70.0 * MM, -6.3 * MM, -2.0 * MM], [-10.0 * MM, -6.3 * MM, -2.0 * MM], 0.1 * MM);
+        go(
+            &mut slot,
+            [30.0 * MM, 0.0, 5.0 * MM],
+            [70.0 * MM, 30.0 * MM, 5.0 * MM],
+            1.0 * MM,
+        );
+        go(
+            &mut slot,
+            [70.0 * MM, -6.3 * MM, 5.0 * MM],
+            [70.0 * MM, -6.3 * MM, -2.0 * MM],
+            0.5 * MM,
+        );
+        go(
+            &mut slot,
+            [70.0 * MM, -6.3 * MM, -2.0 * MM],
+            [-10.0 * MM, -6.3 * MM, -2.0 * MM],
+            0.1 * MM,
+        );
         // beyond the first slot's end the whole width, before it 6.3 mm
         let n = 400_000;
         let area: f64 = (0..n)
             .map(|i| {
                 let y = -14.3 + 16.0 * (i as f64 + 0.5) / n as f64;
-                let slot = if y > -8.0 && y < 8.0 { 30.0 + (64.0 - y * y).max(0.0).sqrt() } else { 0.0 };
+                let slot = if y > -8.0 && y < 8.0 {
+                    30.0 + (64.0 - y * y).max(0.0).sqrt()
+                } else {
+                    0.0
+                };
                 (60.0 - slot) * 16.0 / n as f64
             })
             .sum();
@@ -470,13 +535,22 @@ mod tests {
     fn ramps_and_arcs_have_their_volume() {
         let tool = Tool::square(5.0 * MM, 2, 0.0);
         let mut ramp = cutter(&tool, 20.0 * MM, 0.25 * MM);
-        go(&mut ramp, [20.0 * MM, 0.0, 0.0], [50.0 * MM, 0.0, -3.0 * MM], 0.1 * MM);
+        go(
+            &mut ramp,
+            [20.0 * MM, 0.0, 0.0],
+            [50.0 * MM, 0.0, -3.0 * MM],
+            0.1 * MM,
+        );
         // mean depth of a ramp's slot: its bottom is level under the tool, so the deepest counts
         let n = 400_000;
         let depth = |x: f64, y: f64| {
             let half = (25.0 - y * y).max(0.0).sqrt();
             let reach = (x + half).min(50.0);
-            if reach < 20.0 || x - half > 50.0 { 0.0 } else { ((reach - 20.0) / 10.0).max(0.0) }
+            if reach < 20.0 || x - half > 50.0 {
+                0.0
+            } else {
+                ((reach - 20.0) / 10.0).max(0.0)
+            }
         };
         let (mut sum, rows) = (0.0, 400);
         for j in 0..rows {
@@ -492,7 +566,13 @@ mod tests {
         let got = ramp.removed() * 1e9;
         assert!((got / sum - 1.0).abs() < 2e-3, "{got} {sum}");
         let mut arc = cutter(&tool, 20.0 * MM, 0.25 * MM);
-        let at = |a: f64| [30.0 * MM + 12.0 * MM * a.sin(), -12.0 * MM * a.cos(), -2.0 * MM];
+        let at = |a: f64| {
+            [
+                30.0 * MM + 12.0 * MM * a.sin(),
+                -12.0 * MM * a.cos(),
+                -2.0 * MM,
+            ]
+        };
         for i in 0..=400 {
             let before = at(PI * f64::from(i) / 400.0);
             arc.advance(before, UP).unwrap();

@@ -15,7 +15,11 @@ pub fn triangles(bytes: &[u8]) -> Outcome<Vec<[V3; 3]>> {
     let found = match binary_count(bytes) {
         Some(count) => binary(&bytes[HEAD..], count),
         None if bytes.trim_ascii_start().starts_with(b"solid") => text(bytes)?,
-        None => return Err(no_stl("is neither text nor binary STL of the length it states")),
+        None => {
+            return Err(no_stl(
+                "is neither text nor binary STL of the length it states",
+            ));
+        }
     };
     let finite = |t: &[V3; 3]| t.iter().flatten().all(|x| x.is_finite());
     match found.is_empty() || !found.iter().all(finite) {
@@ -41,7 +45,9 @@ fn binary(faces: &[u8], count: usize) -> Vec<[V3; 3]> {
     };
     let corner = |face: &[u8], k: usize| [0, 1, 2].map(|i| number(face, 12 * (k + 1) + 4 * i));
     let faces = faces.chunks_exact(FACE).take(count);
-    faces.map(|face| [0, 1, 2].map(|k| corner(face, k))).collect()
+    faces
+        .map(|face| [0, 1, 2].map(|k| corner(face, k)))
+        .collect()
 }
 
 fn text(bytes: &[u8]) -> Outcome<Vec<[V3; 3]>> {
@@ -78,7 +84,9 @@ mod tests {
         let from_text = triangles(TEXT).unwrap();
         let mut bytes = vec![0; 80];
         bytes.extend(1_u32.to_le_bytes());
-        for x in [0.0_f32, 0.0, 1.0, 0.0, 0.0, 0.0, 10.0, 0.0, 0.0, 0.0, 10.0, 0.0] {
+        for x in [
+            0.0_f32, 0.0, 1.0, 0.0, 0.0, 0.0, 10.0, 0.0, 0.0, 0.0, 10.0, 0.0,
+        ] {
             bytes.extend(x.to_le_bytes());
         }
         bytes.extend([0, 0]);

@@ -17,7 +17,12 @@ pub fn text(course: &[Cut], inputs: &[(String, String)], support: &str) -> Strin
     let _ = writeln!(out, "# robot_is = {}", quoted(support));
     let _ = writeln!(out, "# inputs = [");
     for (path, hash) in inputs {
-        let _ = writeln!(out, "#   {{ path = {}, sha256 = {} }},", quoted(path), quoted(hash));
+        let _ = writeln!(
+            out,
+            "#   {{ path = {}, sha256 = {} }},",
+            quoted(path),
+            quoted(hash)
+        );
     }
     out.push_str("# ]\n");
     out.push_str(HEADER);

@@ -58,8 +58,14 @@ impl Oscillator {
         let n = self.n;
         let row = |i: usize| {
             [0, 1, 2].map(|k| {
-                let moved: f64 = (0..n).map(|j| self.carry[i * 2 * n + j] * self.tool[j][k]).sum();
-                if i < n { self.tool[i][k] - moved } else { -moved }
+                let moved: f64 = (0..n)
+                    .map(|j| self.carry[i * 2 * n + j] * self.tool[j][k])
+                    .sum();
+                if i < n {
+                    self.tool[i][k] - moved
+                } else {
+                    -moved
+                }
             })
         };
         self.gain = (0..2 * n).map(row).collect();
@@ -107,7 +113,11 @@ impl Oscillator {
     pub fn stored(&self, state: &[f64]) -> f64 {
         let (place, speed) = state.split_at(self.n);
         let springs: f64 = place.iter().map(|x| x * x).sum();
-        let motion: f64 = speed.iter().zip(&self.inertia).map(|(v, mu)| mu * v * v).sum();
+        let motion: f64 = speed
+            .iter()
+            .zip(&self.inertia)
+            .map(|(v, mu)| mu * v * v)
+            .sum();
         0.5 * (springs + motion)
     }
 

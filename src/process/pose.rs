@@ -29,7 +29,11 @@ impl Carrier {
     /// The elastic robot, the workpiece standing with its axes along the columns of `workpiece`.
     pub fn new(chain: Chain, workpiece: M3) -> Self {
         let work = Work::new(&chain);
-        Self { chain, workpiece, work }
+        Self {
+            chain,
+            workpiece,
+            work,
+        }
     }
 
     /// The robot at these joint angles, rad.

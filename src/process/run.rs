@@ -72,13 +72,19 @@ impl Outcome {
         let cutting = self.course.iter().any(|c| c.cutting);
         let counted = |c: &Cut| c.cutting == cutting;
         let stations = self.course.iter().enumerate().filter(|(_, c)| counted(c));
-        stations.map(|(i, c)| (i, measure(c))).max_by(|a, b| a.1.total_cmp(&b.1)).map(|w| w.0)
+        stations
+            .map(|(i, c)| (i, measure(c)))
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+            .map(|w| w.0)
     }
 
     /// The deviation at a time (s), linear between stations, m.
     pub fn deviation_at(&self, time_s: f64) -> V3 {
         let after = self.course.partition_point(|c| c.time_s < time_s);
-        let (Some(a), Some(b)) = (self.course.get(after.saturating_sub(1)), self.course.get(after)) else {
+        let (Some(a), Some(b)) = (
+            self.course.get(after.saturating_sub(1)),
+            self.course.get(after),
+        ) else {
             return self.course.last().map_or([0.0; 3], |c| c.deviation);
         };
         match b.time_s > a.time_s {
@@ -147,7 +153,9 @@ pub fn mill(
         } else {
             beside = true;
             let tick = Tick { from, to: long };
-            let bout = structure.travel(&tick).map_err(|p| stationed(p, &tick.to))?;
+            let bout = structure
+                .travel(&tick)
+                .map_err(|p| stationed(p, &tick.to))?;
             book.pass(way, &tick, &bout);
             from = tick.to;
         }
@@ -201,7 +209,8 @@ impl Book {
             self.impulse = add(self.impulse, scale(tick.duration_s(), bout.force));
             self.peak = self.peak.max(bout.peak);
         }
-        self.latest.push_back(([tick.from.time_s, tick.to.time_s], *bout));
+        self.latest
+            .push_back(([tick.from.time_s, tick.to.time_s], *bout));
         if self.latest.len() > self.teeth {
             self.latest.pop_front();
         }
@@ -211,7 +220,8 @@ impl Book {
     fn pass(&mut self, way: &Way, tick: &Tick, bout: &Bout) {
         self.steps += 1;
         self.latest.clear();
-        self.latest.push_back(([tick.from.time_s, tick.to.time_s], *bout));
+        self.latest
+            .push_back(([tick.from.time_s, tick.to.time_s], *bout));
         self.station(way);
     }
 
@@ -247,7 +257,13 @@ impl Book {
         self.course.push(station);
     }
 
-    fn close(self, cutter: &Cutter, structure: &dyn Structure, duration_s: f64, pitch_s: f64) -> Outcome {
+    fn close(
+        self,
+        cutter: &Cutter,
+        structure: &dyn Structure,
+        duration_s: f64,
+        pitch_s: f64,
+    ) -> Outcome {
         let mean = |v: V3| match self.cutting_s > 0.0 {
             true => scale(1.0 / self.cutting_s, v),
             false => [0.0; 3],

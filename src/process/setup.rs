@@ -88,11 +88,15 @@ impl Setup {
         step_s: Option<f64>,
     ) -> Outcome<Self> {
         let cutter = job.cutter.ok_or_else(|| {
-            missing("[tool]", "add [tool] with diameter_mm, teeth, flute_mm and spindle_rpm")
+            missing(
+                "[tool]",
+                "add [tool] with diameter_mm, teeth, flute_mm and spindle_rpm",
+            )
         })?;
-        let spindle_rad_s = cutter.spindle.or(spindle_rad_s).ok_or_else(|| {
-            missing("the speed of the spindle", "add spindle_rpm to [tool]")
-        })?;
+        let spindle_rad_s = cutter
+            .spindle
+            .or(spindle_rad_s)
+            .ok_or_else(|| missing("the speed of the spindle", "add spindle_rpm to [tool]"))?;
         let tool = tool(&cutter)?;
         if spindle_rad_s <= 0.0 {
             return Err(Problem::new(
@@ -116,7 +120,13 @@ impl Setup {
     /// The tool beside its stock.
     pub fn cutter(&self) -> Cutter {
         let axis = self.way.rows()[0].axis;
-        Cutter::new(&self.tool, &self.material, self.stock.clone(), self.fineness, axis)
+        Cutter::new(
+            &self.tool,
+            &self.material,
+            self.stock.clone(),
+            self.fineness,
+            axis,
+        )
     }
 
     /// What carries the tool.
@@ -152,17 +162,19 @@ impl Setup {
     ///
     /// # Errors
     /// As [`mill`].
-    pub fn run(
-        &self,
-        support: Support,
-        progress: impl FnMut(f64),
-    ) -> Outcome<(Milled, Cutter)> {
+    pub fn run(&self, support: Support, progress: impl FnMut(f64)) -> Outcome<(Milled, Cutter)> {
         let mut cutter = self.cutter();
         let mut structure = self.structure(support)?;
         let settings = Settings {
             spindle_rad_s: self.spindle_rad_s,
         };
-        let out = mill(&self.way, &mut cutter, structure.as_mut(), &settings, progress)?;
+        let out = mill(
+            &self.way,
+            &mut cutter,
+            structure.as_mut(),
+            &settings,
+            progress,
+        )?;
         Ok((out, cutter))
     }
 }
@@ -212,7 +224,10 @@ fn fineness(tool: &Tool, spindle_rad_s: f64, step_s: Option<f64>) -> Outcome<Fin
 
 fn material(job: &Job) -> Outcome<Material> {
     let material = job.material.as_ref().ok_or_else(|| {
-        missing("[material]", "add [material], or `material = \"fits/<campaign>/...toml\"`")
+        missing(
+            "[material]",
+            "add [material], or `material = \"fits/<campaign>/...toml\"`",
+        )
     })?;
     let [tc, rc, ac] = material.cutting.map(|k| k * 1e-6);
     let [te, re, ae] = material.edge.map(|k| k * 1e-3);
@@ -221,7 +236,10 @@ fn material(job: &Job) -> Outcome<Material> {
 
 fn stock(job: &Job, spacing: f64) -> Outcome<Stock> {
     match &job.workpiece.stock {
-        None => Err(missing("the stock", "add stock_min_mm and stock_max_mm to [workpiece]")),
+        None => Err(missing(
+            "the stock",
+            "add stock_min_mm and stock_max_mm to [workpiece]",
+        )),
         Some(job::Stock::Box { min, max }) => Stock::block(*min, *max, spacing),
         Some(job::Stock::Stl(file)) => {
             let triangles = stl::triangles(&read_bytes(file)?).map_err(|p| p.in_file(file))?;

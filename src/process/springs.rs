@@ -53,7 +53,11 @@ impl Springs {
     }
 
     fn go(&mut self, moment: &Moment) -> Outcome<()> {
-        let moved = self.pose.iter().zip(&moment.joints).map(|(a, b)| (a - b).abs());
+        let moved = self
+            .pose
+            .iter()
+            .zip(&moment.joints)
+            .map(|(a, b)| (a - b).abs());
         if moved.fold(0.0, f64::max) > SAME_POSE {
             let held = self.carrier.held(&moment.joints)?;
             self.compliance = held.compliance();

@@ -46,7 +46,11 @@ pub struct Energy {
 impl Energy {
     /// What is not accounted for, as a share of all that was done and damped.
     pub fn gap(&self) -> f64 {
-        let size = self.work.abs().max(self.damped.abs()).max(self.stored.abs());
+        let size = self
+            .work
+            .abs()
+            .max(self.damped.abs())
+            .max(self.stored.abs());
         match size > 0.0 {
             true => (self.work - self.stored - self.damped).abs() / size,
             false => 0.0,

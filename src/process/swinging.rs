@@ -79,7 +79,11 @@ impl Swinging {
 
     /// Carries the state to the modes of a new pose: the springs keep their bend.
     fn go(&mut self, moment: &Moment) -> Outcome<()> {
-        let moved = self.pose.iter().zip(&moment.joints).map(|(a, b)| (a - b).abs());
+        let moved = self
+            .pose
+            .iter()
+            .zip(&moment.joints)
+            .map(|(a, b)| (a - b).abs());
         if moved.fold(0.0, f64::max) <= SAME_POSE {
             return Ok(());
         }
@@ -90,7 +94,10 @@ impl Swinging {
         let (place, speed) = self.state.split_at(n);
         let state = [place, speed].map(|x| {
             let bent = self.bent(x);
-            let loads = bent.iter().enumerate().map(|(i, b)| b * held.linear.stiffness[i * n + i]);
+            let loads = bent
+                .iter()
+                .enumerate()
+                .map(|(i, b)| b * held.linear.stiffness[i * n + i]);
             in_modes(&modal, &loads.collect::<Vec<_>>())
         });
         self.state = state.concat();
@@ -107,13 +114,17 @@ impl Swinging {
     fn bent(&self, modes: &[f64]) -> Vec<f64> {
         let n = self.modal.n;
         let row = |i: usize| &self.modal.shape[i * n..(i + 1) * n];
-        (0..n).map(|i| row(i).iter().zip(modes).map(|(p, x)| p * x).sum()).collect()
+        (0..n)
+            .map(|i| row(i).iter().zip(modes).map(|(p, x)| p * x).sum())
+            .collect()
     }
 
     /// Where the modes would rest under weight and programmed motion.
     fn rest(&mut self, tick: &Tick) -> Vec<f64> {
         let to = &tick.to;
-        let carried = self.carrier.carried(&to.joints, &to.speeds, &to.accelerations);
+        let carried = self
+            .carrier
+            .carried(&to.joints, &to.speeds, &to.accelerations);
         in_modes(&self.modal, &carried.iter().map(|t| -t).collect::<Vec<_>>())
     }
 
@@ -127,7 +138,11 @@ impl Swinging {
     fn take(&mut self, rest: &[f64], force: V3, step_s: f64) {
         let fine = &self.fine;
         let moved = sub(fine.tool(&self.next), fine.tool(&self.state));
-        let held: f64 = rest.iter().zip(self.next.iter().zip(&self.state)).map(|(r, (a, b))| r * (a - b)).sum();
+        let held: f64 = rest
+            .iter()
+            .zip(self.next.iter().zip(&self.state))
+            .map(|(r, (a, b))| r * (a - b))
+            .sum();
         self.energy.work += dot(force, moved) + held;
         let damped = fine.damped(&self.state) + fine.damped(&self.next);
         self.energy.damped += 0.5 * step_s * damped;
@@ -142,7 +157,9 @@ impl Swinging {
         let here = add(tick.from.tip, self.deviation());
         let step = scale(1.0 / per_pitch as f64, sub(tick.to.tip, tick.from.tip));
         let count = per_pitch * memory;
-        self.places = (0..=count).map(|k| sub(here, scale((count - k) as f64, step))).collect();
+        self.places = (0..=count)
+            .map(|k| sub(here, scale((count - k) as f64, step)))
+            .collect();
     }
 }
 
@@ -172,7 +189,9 @@ impl Structure for Swinging {
             let free = sub(self.fine.tool(&self.next), self.calibrated);
             let guess = add(free, rotate(&answer, self.force));
             let place = add(told, guess);
-            let ways: [V3; 3] = std::array::from_fn(|m| sub(place, self.places[self.places.len() - (m + 1) * count]));
+            let ways: [V3; 3] = std::array::from_fn(|m| {
+                sub(place, self.places[self.places.len() - (m + 1) * count])
+            });
             let load = cutter.load(self.turned + 0.5, &ways[..cutter.memory()]);
             // f = F + G (u − guess), u = free + H f
             let right = add(load.force, rotate(&load.slope, sub(free, guess)));

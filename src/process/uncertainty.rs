@@ -33,16 +33,19 @@ pub const NORMAL95: f64 = 1.959_964;
 /// Everything whose uncertainty is stated: springs with intervals, and coefficients with these relative
 /// standard deviations (`None`: not stated).
 pub fn doubts(robot: &Robot, setup: &Setup, coefficients: &[Option<f64>]) -> Vec<Doubt> {
-    let springs = robot.springs().enumerate().filter_map(|(i, (site, spring))| {
-        let [low, high] = spring.ci95.stiffness?;
-        let rel_std = (high - low) / (2.0 * NORMAL95 * spring.stiffness);
-        Some(Doubt {
-            name: "stiffness".into(),
-            site,
-            rel_std,
-            which: Which::Spring(i),
-        })
-    });
+    let springs = robot
+        .springs()
+        .enumerate()
+        .filter_map(|(i, (site, spring))| {
+            let [low, high] = spring.ci95.stiffness?;
+            let rel_std = (high - low) / (2.0 * NORMAL95 * spring.stiffness);
+            Some(Doubt {
+                name: "stiffness".into(),
+                site,
+                rel_std,
+                which: Which::Spring(i),
+            })
+        });
     let card = setup.material.law.card();
     let coefficients = card.coefficients.iter().zip(coefficients).enumerate();
     let coefficients = coefficients.filter_map(|(i, (card, rel_std))| {
@@ -53,7 +56,10 @@ pub fn doubts(robot: &Robot, setup: &Setup, coefficients: &[Option<f64>]) -> Vec
             which: Which::Coefficient(i),
         })
     });
-    springs.chain(coefficients).filter(|d| d.rel_std > 0.0).collect()
+    springs
+        .chain(coefficients)
+        .filter(|d| d.rel_std > 0.0)
+        .collect()
 }
 
 impl Doubt {
@@ -87,7 +93,10 @@ pub fn changes(setup: &Setup, doubts: &[Doubt], times: &[f64]) -> Outcome<Vec<Ve
         0 => deviations(setup),
         _ => deviations(&doubts[i - 1].moved(setup)),
     });
-    let runs = runs.collect::<Vec<_>>().into_iter().collect::<Outcome<Vec<_>>>()?;
+    let runs = runs
+        .collect::<Vec<_>>()
+        .into_iter()
+        .collect::<Outcome<Vec<_>>>()?;
     let change = |moved: &Vec<V3>| {
         let pairs = moved.iter().zip(&runs[0]);
         pairs.map(|(a, b)| sub(*a, *b)).collect()
@@ -102,6 +111,8 @@ pub fn spread(changes: &[Vec<V3>], i: usize, vector: V3) -> f64 {
         return 0.0;
     }
     let along = scale(1.0 / size, vector);
-    let squares = changes.iter().map(|c| c.get(i).map_or(0.0, |v| dot(*v, along).powi(2)));
+    let squares = changes
+        .iter()
+        .map(|c| c.get(i).map_or(0.0, |v| dot(*v, along).powi(2)));
     squares.sum::<f64>().sqrt()
 }

@@ -55,7 +55,9 @@ fn verdict(result: &Result) -> String {
     match result.met {
         Met::Yes => format!("The part will be within its {tolerance} mm."),
         Met::No => format!("The part will not be within its {tolerance} mm."),
-        Met::NotCertain => format!("Whether the part will be within its {tolerance} mm is not certain."),
+        Met::NotCertain => {
+            format!("Whether the part will be within its {tolerance} mm is not certain.")
+        }
     }
 }
 
@@ -82,7 +84,9 @@ pub fn remarks(result: &Result) -> Vec<String> {
         );
     }
     if !result.found.converged {
-        said.push("the mirror does not converge: the cut answers the correction too strongly".into());
+        said.push(
+            "the mirror does not converge: the cut answers the correction too strongly".into(),
+        );
     }
     said
 }

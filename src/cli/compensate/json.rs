@@ -49,5 +49,6 @@ fn size(size: &Size) -> Value {
 }
 
 fn named(path: &Option<PathBuf>) -> Value {
-    path.as_ref().map_or(Value::Null, |path| json!(path.display().to_string()))
+    path.as_ref()
+        .map_or(Value::Null, |path| json!(path.display().to_string()))
 }

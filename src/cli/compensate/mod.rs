@@ -118,20 +118,25 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
     for remark in account::remarks(&result) {
         tell(&format!("{}: {remark}", result.planned.job.path.display()));
     }
-    Ok(match result.met == Met::Yes && result.checked.iter().all(|c| c.ok) {
-        true => Ending::Done,
-        false => Ending::Attention,
-    })
+    Ok(
+        match result.met == Met::Yes && result.checked.iter().all(|c| c.ok) {
+            true => Ending::Done,
+            false => Ending::Attention,
+        },
+    )
 }
 
 fn method(name: &str) -> Outcome<&'static Method> {
-    METHODS.iter().find(|method| method.name == name).ok_or_else(|| {
-        let names: Vec<&str> = METHODS.iter().map(|method| method.name).collect();
-        Problem::new(
-            format!("`--method {name}` is not known"),
-            format!("choose one of: {}", names.join(", ")),
-        )
-    })
+    METHODS
+        .iter()
+        .find(|method| method.name == name)
+        .ok_or_else(|| {
+            let names: Vec<&str> = METHODS.iter().map(|method| method.name).collect();
+            Problem::new(
+                format!("`--method {name}` is not known"),
+                format!("choose one of: {}", names.join(", ")),
+            )
+        })
 }
 
 fn act(arguments: &Arguments) -> Outcome<Result> {
@@ -145,7 +150,11 @@ fn act(arguments: &Arguments) -> Outcome<Result> {
         Some(plant) => of_plant(&setup, plant)?,
         None => setup.clone(),
     };
-    let support = if arguments.springs { Support::Static } else { Support::Coupled };
+    let support = if arguments.springs {
+        Support::Static
+    } else {
+        Support::Coupled
+    };
     let none = Correction::none(planned.plan.path.length);
     let corrected = with(&truth, &planned.plan, &found.correction).map_err(in_job)?;
     let (first, _) = truth.run(support, |_| {}).map_err(in_job)?;

@@ -41,12 +41,17 @@ fn deviations(result: &Result) -> Chart {
     let over = |stations: &[Station]| {
         let every = stations.len().div_ceil(POINTS).max(1);
         let cutting = stations.iter().step_by(every).filter(|s| s.cutting);
-        cutting.map(|s| [1e3 * s.s_m, 1e3 * norm(s.left)]).collect::<Vec<_>>()
+        cutting
+            .map(|s| [1e3 * s.s_m, 1e3 * norm(s.left)])
+            .collect::<Vec<_>>()
     };
     let [before, after] = &result.stations;
-    let panel = Panel::new(Axis::new("Path", "mm"), Axis::new("Off the drawn path", "mm"))
-        .with(Series::dashed("before", over(before)))
-        .with(Series::line("after", over(after)).emphasised());
+    let panel = Panel::new(
+        Axis::new("Path", "mm"),
+        Axis::new("Off the drawn path", "mm"),
+    )
+    .with(Series::dashed("before", over(before)))
+    .with(Series::line("after", over(after)).emphasised());
     Chart::new(
         "compensate-deviation",
         "What is left",

@@ -25,7 +25,12 @@ pub fn text(result: &Result) -> String {
     let _ = writeln!(out, "# version = {}", quoted(env!("CARGO_PKG_VERSION")));
     let _ = writeln!(out, "# inputs = [");
     for (path, hash) in &inputs {
-        let _ = writeln!(out, "#   {{ path = {}, sha256 = {} }},", quoted(path), quoted(hash));
+        let _ = writeln!(
+            out,
+            "#   {{ path = {}, sha256 = {} }},",
+            quoted(path),
+            quoted(hash)
+        );
     }
     out.push_str("# ]\n");
     out.push_str("x_mm,y_mm,z_mm,a_deg,b_deg,c_deg,feed_mm_min,rapid,s_mm\n");
@@ -49,7 +54,8 @@ fn chosen<'a>(plan: &'a Plan, correction: &Correction) -> Vec<&'a Row> {
         let way = row.s - last.s;
         let ends = i + 1 == rows.len();
         let moved = way > 1e-6;
-        let far = moved && (way >= FAR * (1.0 - 1e-9) || bends(place(last), place(row), rows, i, correction));
+        let far = moved
+            && (way >= FAR * (1.0 - 1e-9) || bends(place(last), place(row), rows, i, correction));
         if far || (ends && moved) {
             chosen.push(row);
         }
@@ -59,7 +65,9 @@ fn chosen<'a>(plan: &'a Plan, correction: &Correction) -> Vec<&'a Row> {
 
 /// Whether the next row leaves the line through two places.
 fn bends(a: [f64; 3], b: [f64; 3], rows: &[Row], i: usize, correction: &Correction) -> bool {
-    let Some(next) = rows.get(i + 1) else { return true };
+    let Some(next) = rows.get(i + 1) else {
+        return true;
+    };
     let c = add(next.point, correction.at(next.s));
     let (ab, bc) = (sub(b, a), sub(c, b));
     let turn = crate::ground::spatial::cross(ab, bc);
@@ -76,7 +84,9 @@ fn line(out: &mut String, plan: &Plan, row: &Row, correction: &Correction) {
         let _ = write!(out, "{a:.7},");
     }
     let element = element(plan, row.s);
-    let feed = element.1.map_or(String::new(), |f| format!("{:.3}", f * 60e3));
+    let feed = element
+        .1
+        .map_or(String::new(), |f| format!("{:.3}", f * 60e3));
     let _ = writeln!(out, "{feed},{},{:.6}", u8::from(element.0), 1e3 * row.s);
 }
 

@@ -49,7 +49,10 @@ fn deviation(result: &Result) -> Option<String> {
     if let Some(tolerance) = result.planned.job.limits.tolerance {
         let holds = worst.size <= tolerance;
         let verdict = if holds { "within" } else { "beyond" };
-        said += &format!(" That is {verdict} the {} mm that the part allows.", significant(1e3 * tolerance, 3));
+        said += &format!(
+            " That is {verdict} the {} mm that the part allows.",
+            significant(1e3 * tolerance, 3)
+        );
     }
     Some(said)
 }
@@ -57,7 +60,10 @@ fn deviation(result: &Result) -> Option<String> {
 fn steps(result: &Result) -> String {
     let milled = &result.milled;
     let energy = milled.energy.map_or(String::new(), |energy| {
-        format!("; of the energy {} % is not accounted for", significant(100.0 * energy.gap(), 2))
+        format!(
+            "; of the energy {} % is not accounted for",
+            significant(100.0 * energy.gap(), 2)
+        )
     });
     match result.support {
         Support::Coupled => format!(
@@ -75,12 +81,20 @@ pub fn remarks(result: &Result) -> Vec<String> {
     let elastic = result.support != Support::Rigid;
     if elastic && result.doubts.is_empty() {
         said.push(
-            "neither the robot nor the material states how well it is known: no interval".to_string(),
+            "neither the robot nor the material states how well it is known: no interval"
+                .to_string(),
         );
     }
-    let gaps = result.setup.robot.springs().filter(|(_, s)| s.gap() > 0.0).count();
+    let gaps = result
+        .setup
+        .robot
+        .springs()
+        .filter(|(_, s)| s.gap() > 0.0)
+        .count();
     if elastic && gaps > 0 {
-        said.push(format!("the backlash of {gaps} joints is left out: gaps count as closed by the weight"));
+        said.push(format!(
+            "the backlash of {gaps} joints is left out: gaps count as closed by the weight"
+        ));
     }
     for exceeded in &result.planned.plan.exceeded {
         said.push(format!(

@@ -17,7 +17,9 @@ pub fn course(result: &Result) -> Chart {
     let cuts = thinned(&result.milled.course, POINTS);
     let way = Axis::new("Path", "mm");
     let over = |value: &dyn Fn(&Cut) -> f64| {
-        cuts.iter().map(|cut| [1e3 * cut.s_m, value(cut)]).collect::<Vec<_>>()
+        cuts.iter()
+            .map(|cut| [1e3 * cut.s_m, value(cut)])
+            .collect::<Vec<_>>()
     };
     let mut force = Panel::new(way.clone(), Axis::new("Force", "N"));
     for (k, name) in ["x", "y", "z"].iter().enumerate() {
@@ -42,12 +44,21 @@ pub fn course(result: &Result) -> Chart {
 
 /// Every n-th.
 fn thinned<T: Copy>(all: &[T], most: usize) -> Vec<T> {
-    all.iter().step_by(all.len().div_ceil(most).max(1)).copied().collect()
+    all.iter()
+        .step_by(all.len().div_ceil(most).max(1))
+        .copied()
+        .collect()
 }
 
 /// The deviation where it arises, in classes.
 pub fn map(result: &Result) -> Chart {
-    let cutting: Vec<Cut> = result.milled.course.iter().filter(|c| c.cutting).copied().collect();
+    let cutting: Vec<Cut> = result
+        .milled
+        .course
+        .iter()
+        .filter(|c| c.cutting)
+        .copied()
+        .collect();
     let cuts = thinned(&cutting, PLACES);
     let size = |cut: &Cut| 1e3 * norm(cut.normal());
     let place = |cut: &Cut| [1e3 * cut.tip[0], 1e3 * cut.tip[1]];
@@ -89,13 +100,24 @@ fn classes<T>(
     let panel = Panel::new(Axis::new("x", "mm"), Axis::new("y", "mm")).equal_axes();
     let top = all.iter().map(&size).fold(0.0, f64::max);
     if top <= 0.0 {
-        return panel.with(Series::points(format!("0 {unit}"), all.iter().map(place).collect()));
+        return panel.with(Series::points(
+            format!("0 {unit}"),
+            all.iter().map(place).collect(),
+        ));
     }
     let class = |x: f64| ((x / top * CLASSES as f64) as usize).min(CLASSES - 1);
     let end = |i: usize| significant(top * i as f64 / CLASSES as f64, 2);
     (0..CLASSES).fold(panel, |panel, i| {
-        let inside = all.iter().filter(|t| class(size(t)) == i).map(&place).collect::<Vec<_>>();
+        let inside = all
+            .iter()
+            .filter(|t| class(size(t)) == i)
+            .map(&place)
+            .collect::<Vec<_>>();
         let name = format!("{} to {} {unit}", end(i), end(i + 1));
-        if inside.is_empty() { panel } else { panel.with(Series::points(name, inside)) }
+        if inside.is_empty() {
+            panel
+        } else {
+            panel.with(Series::points(name, inside))
+        }
     })
 }

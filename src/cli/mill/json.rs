@@ -30,7 +30,8 @@ pub fn body(result: &Result, written: &Written) -> Value {
 }
 
 fn named(path: &Option<PathBuf>) -> Value {
-    path.as_ref().map_or(Value::Null, |path| json!(path.display().to_string()))
+    path.as_ref()
+        .map_or(Value::Null, |path| json!(path.display().to_string()))
 }
 
 fn deviation(result: &Result) -> Value {

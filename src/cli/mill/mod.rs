@@ -106,7 +106,11 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
         false => write(&result)?,
     };
     match arguments.json {
-        true => print_result("mill", &result.planned.inputs, json::body(&result, &written))?,
+        true => print_result(
+            "mill",
+            &result.planned.inputs,
+            json::body(&result, &written),
+        )?,
         false => print(&account::text(&result, &written))?,
     }
     for remark in account::remarks(&result) {
@@ -190,7 +194,9 @@ impl Result {
     /// A limit of the robot or of the part is exceeded.
     fn needs_attention(&self) -> bool {
         let tolerance = self.planned.job.limits.tolerance;
-        let over = tolerance.zip(self.worst.as_ref()).is_some_and(|(t, w)| w.size > t);
+        let over = tolerance
+            .zip(self.worst.as_ref())
+            .is_some_and(|(t, w)| w.size > t);
         over || !self.planned.plan.exceeded.is_empty()
     }
 }
@@ -200,7 +206,11 @@ fn write(result: &Result) -> Outcome<Written> {
     let folder = job_results(&result.planned.job.path);
     let course = folder.join("course.csv");
     let report = folder.join("mill.html");
-    let text = course::text(&result.milled.course, &result.planned.inputs, result.support.name());
+    let text = course::text(
+        &result.milled.course,
+        &result.planned.inputs,
+        result.support.name(),
+    );
     let mut contents = vec![(course.clone(), text)];
     contents.extend(inked(&folder, &report, &page::page(result))?);
     let contents: Vec<(&Path, &[u8])> = contents
@@ -217,7 +227,8 @@ fn write(result: &Result) -> Outcome<Written> {
 /// Figures and page, the page last.
 fn inked(folder: &Path, report: &Path, page: &Page) -> Outcome<Vec<(PathBuf, String)>> {
     let figures = page.figures().into_iter();
-    let figures = figures.map(|(stem, chart)| Ok((folder.join(file(&stem, chart)), svg::ink(chart)?)));
+    let figures =
+        figures.map(|(stem, chart)| Ok((folder.join(file(&stem, chart)), svg::ink(chart)?)));
     let mut all = figures.collect::<Outcome<Vec<_>>>()?;
     all.push((report.to_path_buf(), html::ink(page)?));
     Ok(all)

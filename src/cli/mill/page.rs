@@ -15,12 +15,18 @@ pub fn page(result: &Result) -> Page {
     );
     let mut page = Page::new(format!("Milled: {name}"), subtitle);
     page.synthetic = result.planned.toolpath.synthetic || result.planned.job.synthetic;
-    let tone = if result.needs_attention() { Tone::Attention } else { Tone::Good };
+    let tone = if result.needs_attention() {
+        Tone::Attention
+    } else {
+        Tone::Good
+    };
     let mut sentences = account::sentences(result).into_iter();
     let first = sentences.next().unwrap_or_default();
     page = page.with(Block::verdict(tone, first));
     page = sentences.fold(page, |page, s| page.with(Block::text(s)));
-    page = page.with(Block::heading("Over the path")).with(Block::Chart(figures::course(result)));
+    page = page
+        .with(Block::heading("Over the path"))
+        .with(Block::Chart(figures::course(result)));
     if result.support != Support::Rigid {
         page = page
             .with(Block::heading("On the part"))
@@ -33,5 +39,8 @@ pub fn page(result: &Result) -> Page {
     if remarks.is_empty() {
         return page;
     }
-    page.with(Block::details("Remarks", remarks.into_iter().map(Block::text).collect()))
+    page.with(Block::details(
+        "Remarks",
+        remarks.into_iter().map(Block::text).collect(),
+    ))
 }

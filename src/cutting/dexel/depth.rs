@@ -86,7 +86,10 @@ pub(super) fn depth(views: &[View; 3], cap: f64) -> f64 {
     {
         return distance.clamp(-cap, cap);
     }
-    if let Some(view) = views.iter().find(|v| v.seen.1 == 0.0 && v.beyond.abs() > 0.99) {
+    if let Some(view) = views
+        .iter()
+        .find(|v| v.seen.1 == 0.0 && v.beyond.abs() > 0.99)
+    {
         return cap.copysign(view.beyond);
     }
     let beyond: f64 = views.iter().map(|v| v.beyond).sum();

@@ -27,7 +27,11 @@ impl Frame {
     pub fn towards(forward: V3, z: V3) -> Self {
         let flat = |v: V3| unit(add(v, scale(-dot(v, z), z)));
         let x = flat(forward).unwrap_or_else(|| normals(z).0);
-        Self { x, y: cross(z, x), z }
+        Self {
+            x,
+            y: cross(z, x),
+            z,
+        }
     }
 
     /// Outward direction at tooth angle φ, given as [sin φ, cos φ].
@@ -108,13 +112,17 @@ impl Engagement {
 
     /// Whether anything is in material.
     pub fn touches(&self) -> bool {
-        self.share[..self.used * self.angles].iter().any(|s| *s > 0.0)
+        self.share[..self.used * self.angles]
+            .iter()
+            .any(|s| *s > 0.0)
     }
 
     /// Highest ring with material, m above the tip.
     pub fn depth_m(&self) -> f64 {
         let row = |i: usize| &self.share[i * self.angles..(i + 1) * self.angles];
-        let last = (0..self.used).rev().find(|i| row(*i).iter().any(|s| *s > 0.0));
+        let last = (0..self.used)
+            .rev()
+            .find(|i| row(*i).iter().any(|s| *s > 0.0));
         last.map_or(0.0, |i| self.rings[i].circles[1][1])
     }
 
@@ -191,12 +199,14 @@ impl Engagement {
             let [sin, cos] = ring.disc.normal;
             let area = ring.length_m * ring.disc.radius_m * step;
             let lift = -cos * dot(way, self.frame.z);
-            for (k, share) in self.share[i * self.angles..(i + 1) * self.angles].iter().enumerate() {
+            for (k, share) in self.share[i * self.angles..(i + 1) * self.angles]
+                .iter()
+                .enumerate()
+            {
                 if *share > 0.0 {
                     let next = (k + 1) % self.angles;
-                    let [a, b] = [k, next].map(|k| {
-                        sin * dot(way, self.frame.outward(self.directions[k])) + lift
-                    });
+                    let [a, b] = [k, next]
+                        .map(|k| sin * dot(way, self.frame.outward(self.directions[k])) + lift);
                     sum += share * area * positive_mean(a, b);
                 }
             }

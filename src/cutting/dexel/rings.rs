@@ -36,7 +36,10 @@ pub fn rings(tool: &Tool, width: f64, height: f64) -> Vec<Ring> {
         let n = steps(straight);
         circles.extend((1..=n).map(|i| [radius, corner + straight * i as f64 / n as f64]));
     }
-    circles.windows(2).map(|c| ring(tool, [c[0], c[1]])).collect()
+    circles
+        .windows(2)
+        .map(|c| ring(tool, [c[0], c[1]]))
+        .collect()
 }
 
 fn ring(tool: &Tool, circles: [[f64; 2]; 2]) -> Ring {
@@ -47,7 +50,11 @@ fn ring(tool: &Tool, circles: [[f64; 2]; 2]) -> Ring {
     // the arc is a little longer than its chord
     let round = tool.corner_radius_m > 0.0 && dz > 0.0 && dr > 0.0;
     let half = 0.5 * chord / tool.corner_radius_m;
-    let length = if round { chord * half.asin() / half } else { chord };
+    let length = if round {
+        chord * half.asin() / half
+    } else {
+        chord
+    };
     let z = 0.5 * (z0 + z1);
     let disc = Disc {
         z_m: z,

@@ -242,7 +242,11 @@ mod tests {
         for corner in [0.0, 2.0, 8.0] {
             for axis in [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], tilted] {
                 let solid = solid(corner, axis);
-                for (w, foot) in [(0, [0.0, 4.0, 5.0]), (1, [3.0, 0.0, 3.7]), (2, [5.0, 6.0, 0.0])] {
+                for (w, foot) in [
+                    (0, [0.0, 4.0, 5.0]),
+                    (1, [3.0, 0.0, 3.7]),
+                    (2, [5.0, 6.0, 0.0]),
+                ] {
                     let (fast, slow) = (solid.chord(w, foot), tried(&solid, w, foot));
                     match (fast, slow) {
                         (Some(a), Some(b)) => {

@@ -110,7 +110,10 @@ impl Stock {
         if (0..3).any(far) {
             return -self.cap;
         }
-        depth(&[0, 1, 2].map(|k| view(&self.grids[k], point, self.cap)), self.cap)
+        depth(
+            &[0, 1, 2].map(|k| view(&self.grids[k], point, self.cap)),
+            self.cap,
+        )
     }
 
     /// Points of the surface across one axis: where the rays along it end first from above, with
@@ -139,8 +142,7 @@ mod tests {
     const MM: f64 = 1e-3;
 
     fn slot() -> Stock {
-        let mut stock =
-            Stock::block([0.0; 3], [30.0 * MM, 20.0 * MM, 6.0 * MM], 0.4 * MM).unwrap();
+        let mut stock = Stock::block([0.0; 3], [30.0 * MM, 20.0 * MM, 6.0 * MM], 0.4 * MM).unwrap();
         for i in 0..=200 {
             stock.remove(&Solid {
                 radius: 5.03 * MM,
@@ -157,11 +159,26 @@ mod tests {
     fn depth_is_exact_across_faces_and_near_edges() {
         let stock = slot();
         let at = |p: V3| stock.depth(p.map(|x| x * MM)) / MM;
-        assert!((at([3.3, 3.1, 0.21]) - 0.21).abs() < 1e-9, "bottom of the block");
-        assert!((at([10.2, 10.0, 3.83]) - 0.1).abs() < 1e-9, "floor of the slot");
-        assert!((at([10.2, 15.25, 5.1]) - 0.15).abs() < 1e-9, "wall of the slot");
-        assert!((at([10.2, 15.25, 5.95]) - 0.05).abs() < 1e-9, "its upper edge");
-        assert!((at([10.2, 15.05, 3.9]) - 0.03).abs() < 0.06, "its lower edge");
+        assert!(
+            (at([3.3, 3.1, 0.21]) - 0.21).abs() < 1e-9,
+            "bottom of the block"
+        );
+        assert!(
+            (at([10.2, 10.0, 3.83]) - 0.1).abs() < 1e-9,
+            "floor of the slot"
+        );
+        assert!(
+            (at([10.2, 15.25, 5.1]) - 0.15).abs() < 1e-9,
+            "wall of the slot"
+        );
+        assert!(
+            (at([10.2, 15.25, 5.95]) - 0.05).abs() < 1e-9,
+            "its upper edge"
+        );
+        assert!(
+            (at([10.2, 15.05, 3.9]) - 0.03).abs() < 0.06,
+            "its lower edge"
+        );
         assert!(at([10.2, 12.0, 4.5]) < -0.3, "in the slot");
         assert!(at([10.2, 12.0, 6.5]) < -0.3, "above the block");
     }
@@ -169,7 +186,14 @@ mod tests {
     #[test]
     fn a_box_of_triangles_is_a_box() {
         let corner = |i: usize| [0, 1, 2].map(|k| if i >> k & 1 == 1 { 10.0 * MM } else { 0.0 });
-        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let faces = [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+        ];
         let triangles: Vec<[V3; 3]> = faces
             .iter()
             .flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]])
