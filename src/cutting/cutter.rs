@@ -290,15 +290,12 @@ impl Cutter {
     fn add(&self, sum: &mut Sum, bite: &Bite, chip: f64, length: f64) {
         let law = |h: f64| self.material.law.per_length(&self.material.coefficients, h);
         let (here, more) = (law(chip), law(chip + NUDGE));
-        let axes = bite.axes();
+        let turn = bite.turn();
+        let rise = turn.force([0, 1, 2].map(|a| (more[a] - here[a]) / NUDGE));
+        sum.force = add(sum.force, scale(length, turn.force(here)));
         let normal = bite.outward();
-        for k in 0..3 {
-            let force: f64 = (0..3).map(|a| axes[a][k] * here[a]).sum();
-            let rise: f64 = (0..3).map(|a| axes[a][k] * (more[a] - here[a])).sum();
-            sum.force[k] += length * force;
-            for (l, n) in normal.iter().enumerate() {
-                sum.slope[k][l] += length * rise / NUDGE * n;
-            }
+        for (row, rise) in sum.slope.iter_mut().zip(rise) {
+            *row = add(*row, scale(length * rise, normal));
         }
     }
 
@@ -375,12 +372,11 @@ impl Bite {
         [sin * sk, cos * sk, -ck]
     }
 
-    fn axes(&self) -> M3 {
+    fn turn(&self) -> super::law::Direction {
         super::law::Direction {
             tooth: self.direction,
             normal: self.normal,
         }
-        .axes()
     }
 
     /// Mean of the chip over the step, m, and the part of the step in which there is one. `ways` with the
