@@ -37,6 +37,7 @@
 
 pub mod causes;
 pub mod cli;
+pub mod compensation;
 pub mod cutting;
 pub mod effects;
 pub mod experiments;

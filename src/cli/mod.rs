@@ -1,6 +1,7 @@
 //! Floor 10: one file per verb. A new verb is one file, one `mod` line and one line in [`VERBS`].
 
 mod chapter;
+mod compensate;
 mod damping;
 mod diagnose;
 mod effects;
@@ -62,6 +63,7 @@ pub const VERBS: &[Verb] = &[
     lobes::VERB,
     diagnose::VERB,
     mill::VERB,
+    compensate::VERB,
     run::VERB,
     report::VERB,
     frf::VERB,

@@ -60,8 +60,8 @@ impl Planned {
     /// # Errors
     /// What milling needs and the job does not say.
     pub fn setup(&self, step_s: Option<f64>) -> Outcome<Setup> {
-        let speeds = self.toolpath.moves.iter().filter_map(|m| m.spindle);
-        let speed = speeds.filter(|speed| *speed != 0.0).next_back();
+        let mut speeds = self.toolpath.moves.iter().filter_map(|m| m.spindle);
+        let speed = speeds.rfind(|speed| *speed != 0.0);
         Setup::of(&self.job, &self.plan, speed, step_s)
     }
 

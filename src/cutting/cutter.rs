@@ -159,9 +159,10 @@ impl Cutter {
         let (from, _) = self.place.unwrap_or((tip, axis));
         self.place = Some((tip, axis));
         let way = sub(tip, from);
-        if axis != self.engagement.frame.z {
+        if turned_from(axis, self.engagement.frame.z) {
             self.engagement.frame = Frame::towards(self.forward, axis);
         }
+        let axis = self.engagement.frame.z;
         // in the middle of the way the engagement is its mean, to second order
         let middle = add(from, scale(0.5, way));
         let curved = self.curved(middle, way);
@@ -184,7 +185,7 @@ impl Cutter {
         let ahead = unit(way);
         let aside = |solid: &&Solid| {
             let from = unit(sub(tip, solid.tip));
-            let turned = solid.axis != self.engagement.frame.z;
+            let turned = turned_from(solid.axis, self.engagement.frame.z);
             match (ahead, from) {
                 (Some(a), Some(f)) => turned || norm(sub(a, f)) > ALIGNED.sqrt(),
                 _ => turned,
@@ -289,15 +290,12 @@ impl Cutter {
     fn add(&self, sum: &mut Sum, bite: &Bite, chip: f64, length: f64) {
         let law = |h: f64| self.material.law.per_length(&self.material.coefficients, h);
         let (here, more) = (law(chip), law(chip + NUDGE));
-        let axes = bite.axes();
+        let turn = bite.turn();
+        let rise = turn.force([0, 1, 2].map(|a| (more[a] - here[a]) / NUDGE));
+        sum.force = add(sum.force, scale(length, turn.force(here)));
         let normal = bite.outward();
-        for k in 0..3 {
-            let force: f64 = (0..3).map(|a| axes[a][k] * here[a]).sum();
-            let rise: f64 = (0..3).map(|a| axes[a][k] * (more[a] - here[a])).sum();
-            sum.force[k] += length * force;
-            for (l, n) in normal.iter().enumerate() {
-                sum.slope[k][l] += length * rise / NUDGE * n;
-            }
+        for (row, rise) in sum.slope.iter_mut().zip(rise) {
+            *row = add(*row, scale(length * rise, normal));
         }
     }
 
@@ -343,6 +341,11 @@ const MOST_WAYS: usize = 3;
 /// Step of the slope over the chip, m.
 const NUDGE: f64 = 1e-8;
 
+/// Whether an axis differs from another by more than rounding.
+fn turned_from(axis: V3, other: V3) -> bool {
+    norm(sub(axis, other)) > 1e-9
+}
+
 #[derive(Default)]
 struct Sum {
     force: V3,
@@ -369,12 +372,11 @@ impl Bite {
         [sin * sk, cos * sk, -ck]
     }
 
-    fn axes(&self) -> M3 {
+    fn turn(&self) -> super::law::Direction {
         super::law::Direction {
             tooth: self.direction,
             normal: self.normal,
         }
-        .axes()
     }
 
     /// Mean of the chip over the step, m, and the part of the step in which there is one. `ways` with the

@@ -134,18 +134,28 @@ impl Setup {
     /// # Errors
     /// A robot in which nothing is elastic.
     pub fn structure(&self, support: Support) -> Outcome<Box<dyn Structure>> {
-        let start = self.way.at(self.way.span()[0]);
-        let carrier = || Carrier::new(elastic(&self.robot), self.workpiece);
         Ok(match support {
             Support::Rigid => Box::new(Rigid),
-            Support::Static => Box::new(Springs::new(carrier(), &start)?),
+            Support::Static => Box::new(self.springs()?),
             Support::Coupled => Box::new(Swinging::new(
-                carrier(),
-                &start,
+                self.carrier(),
+                &self.way.at(self.way.span()[0]),
                 self.spindle_rad_s,
                 self.fineness.steps,
             )?),
         })
+    }
+
+    fn carrier(&self) -> Carrier {
+        Carrier::new(elastic(&self.robot), self.workpiece)
+    }
+
+    /// The robot as springs at the tool.
+    ///
+    /// # Errors
+    /// A robot in which nothing is elastic.
+    pub fn springs(&self) -> Outcome<Springs> {
+        Springs::new(self.carrier(), &self.way.at(self.way.span()[0]))
     }
 
     /// Mills the part; the cutter keeps what is left of the stock.

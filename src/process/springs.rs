@@ -42,6 +42,16 @@ impl Springs {
         })
     }
 
+    /// Where the tool stands under a force (N, workpiece frame) at a moment of the motion, less where it
+    /// was told to, m.
+    ///
+    /// # Errors
+    /// Nothing in the robot is elastic.
+    pub fn bent(&mut self, moment: &Moment, force: V3) -> Outcome<V3> {
+        self.go(moment)?;
+        Ok(add(rotate(&self.compliance, force), self.sag))
+    }
+
     fn go(&mut self, moment: &Moment) -> Outcome<()> {
         let moved = self
             .pose

@@ -4,7 +4,7 @@
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Ray {
     first: [f64; 2],
-    rest: Option<Box<Vec<[f64; 2]>>>,
+    rest: Option<Box<[[f64; 2]]>>,
 }
 
 /// No piece: it begins after it ends.
@@ -16,7 +16,7 @@ impl Ray {
         let mut pieces = pieces.iter().copied().filter(|p| p[0] < p[1]);
         let first = pieces.next().unwrap_or(NONE);
         let rest: Vec<[f64; 2]> = pieces.collect();
-        let rest = (!rest.is_empty()).then(|| Box::new(rest));
+        let rest = (!rest.is_empty()).then(|| rest.into_boxed_slice());
         Self { first, rest }
     }
 
@@ -27,7 +27,7 @@ impl Ray {
     }
 
     fn others(&self) -> &[[f64; 2]] {
-        self.rest.as_deref().map_or(&[], Vec::as_slice)
+        self.rest.as_deref().unwrap_or(&[])
     }
 
     /// Length in material.

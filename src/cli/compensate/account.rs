@@ -1,0 +1,92 @@
+//! What `ident compensate` says in words.
+
+use super::{Met, Result, Written};
+use crate::compensation::proof::Checked;
+use crate::sheet::number::significant;
+
+/// The account on standard output.
+pub fn text(result: &Result, written: &Written) -> String {
+    let mut said: String = sentences(result).into_iter().map(|s| s + "\n").collect();
+    for file in [&written.path, &written.report].into_iter().flatten() {
+        said.push_str(&format!("wrote {}\n", file.display()));
+    }
+    said
+}
+
+/// The result in a few sentences.
+pub fn sentences(result: &Result) -> Vec<String> {
+    let mm = |x: f64| significant(1e3 * x, 3);
+    let fell = result.reduction_percent().map_or(String::new(), |percent| {
+        format!(", {} % less", significant(percent, 3))
+    });
+    let left = match result.ci95 {
+        Some([low, high]) => format!(" (95 %: {} to {} mm)", mm(low), mm(high)),
+        None => String::new(),
+    };
+    let mut said = vec![format!(
+        "The largest deviation normal to the feed falls from {} to {} mm{left}{fell}.",
+        mm(result.before.max_m),
+        mm(result.after.max_m)
+    )];
+    let found = &result.found;
+    let state = match found.converged {
+        true => format!("after {} iterations", found.iterations),
+        false => format!(
+            "not converged: after {} iterations it still changes by {} mm",
+            found.iterations,
+            mm(found.last_change_m)
+        ),
+    };
+    said.push(format!(
+        "Correction by {}, {state}; {} mm at most.",
+        result.method.name,
+        mm(found.correction.largest().0)
+    ));
+    said.push(verdict(result));
+    said.extend(result.checked.iter().filter(|c| !c.ok).map(failed));
+    said
+}
+
+fn verdict(result: &Result) -> String {
+    let Some(tolerance) = result.planned.job.limits.tolerance else {
+        return "The job states no tolerance_mm: whether the part is good is not certain.".into();
+    };
+    let tolerance = significant(1e3 * tolerance, 3);
+    match result.met {
+        Met::Yes => format!("The part will be within its {tolerance} mm."),
+        Met::No => format!("The part will not be within its {tolerance} mm."),
+        Met::NotCertain => {
+            format!("Whether the part will be within its {tolerance} mm is not certain.")
+        }
+    }
+}
+
+/// One check that failed.
+fn failed(c: &Checked) -> String {
+    format!(
+        "{} of {}: {} {}, allowed {}, at {:.1} mm of the path.",
+        c.what,
+        c.site,
+        significant(c.worst, 4),
+        c.unit,
+        c.limit.map_or("–".into(), |l| significant(l, 4)),
+        1e3 * c.s_m
+    )
+}
+
+/// What the reader should know.
+pub fn remarks(result: &Result) -> Vec<String> {
+    let mut said = Vec::new();
+    if result.doubts.is_empty() {
+        said.push(
+            "neither the robot nor the material states how well it is known: no interval, nothing is certain"
+                .to_string(),
+        );
+    }
+    if !result.found.converged {
+        said.push(
+            "the mirror does not converge: the cut answers the correction too strongly".into(),
+        );
+    }
+    said
+}

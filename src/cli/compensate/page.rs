@@ -1,0 +1,78 @@
+//! The report page of `ident compensate`.
+
+use super::{Met, Result, account};
+use crate::compensation::remaining::Station;
+use crate::ground::spatial::norm;
+use crate::sheet::chart::{Axis, Chart, Panel, Series};
+use crate::sheet::number::{ABSENT, significant};
+use crate::sheet::page::{Block, Page, Tone};
+use crate::sheet::table::Table;
+
+/// Most points of one line.
+const POINTS: usize = 2000;
+
+/// The page.
+pub fn page(result: &Result) -> Page {
+    let path = &result.planned.toolpath.path;
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let subtitle = format!(
+        "{} for the robot {}",
+        result.planned.job.path.display(),
+        result.planned.plan.cell.robot.name
+    );
+    let mut page = Page::new(format!("Compensated path: {name}"), subtitle);
+    page.synthetic = result.planned.toolpath.synthetic || result.planned.job.synthetic;
+    let tone = match result.met {
+        Met::Yes => Tone::Good,
+        Met::No => Tone::Bad,
+        Met::NotCertain => Tone::Attention,
+    };
+    let mut sentences = account::sentences(result).into_iter();
+    page = page.with(Block::verdict(tone, sentences.next().unwrap_or_default()));
+    page = sentences.fold(page, |page, s| page.with(Block::text(s)));
+    page.with(Block::heading("Before and after"))
+        .with(Block::Chart(deviations(result)))
+        .with(Block::heading("What was checked"))
+        .with(Block::Table(checked(result)))
+}
+
+/// What is left over the path, before and after.
+fn deviations(result: &Result) -> Chart {
+    let over = |stations: &[Station]| {
+        let every = stations.len().div_ceil(POINTS).max(1);
+        let cutting = stations.iter().step_by(every).filter(|s| s.cutting);
+        cutting
+            .map(|s| [1e3 * s.s_m, 1e3 * norm(s.left)])
+            .collect::<Vec<_>>()
+    };
+    let [before, after] = &result.stations;
+    let panel = Panel::new(
+        Axis::new("Path", "mm"),
+        Axis::new("Off the drawn path", "mm"),
+    )
+    .with(Series::dashed("before", over(before)))
+    .with(Series::line("after", over(after)).emphasised());
+    Chart::new(
+        "compensate-deviation",
+        "What is left",
+        "Distance of the tool from the drawn path normal to the feed, in the cut, before and after.",
+    )
+    .with(panel)
+    .synthetic(result.planned.job.synthetic)
+}
+
+fn checked(result: &Result) -> Table {
+    let header = ["what", "where", "worst", "limit", "unit", "at mm", "holds"];
+    let table = Table::new("Along the corrected path", header).numeric([2, 3, 5]);
+    result.checked.iter().fold(table, |table, c| {
+        table.with([
+            c.what.to_string(),
+            c.site.clone(),
+            significant(c.worst, 4),
+            c.limit.map_or(ABSENT.into(), |l| significant(l, 4)),
+            c.unit.to_string(),
+            format!("{:.1}", 1e3 * c.s_m),
+            if c.ok { "yes" } else { "no" }.to_string(),
+        ])
+    })
+}

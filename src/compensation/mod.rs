@@ -1,0 +1,14 @@
+//! Floor 7: the programmed path moved so that the soft robot cuts the part that was drawn; what will be
+//! left, and the proof that the corrected path stays within its limits.
+//!
+//! Corrections are normal to the feed: along it they would change the time, not the part (source 002,
+//! eqs. 10 and 11, with |v|² where the print has |v|).
+
+pub mod correction;
+pub mod method;
+pub mod proof;
+pub mod remaining;
+pub mod shifted;
+
+pub use correction::Correction;
+pub use method::{Method, Search, search};
