@@ -205,9 +205,8 @@ impl Solved {
 }
 
 fn check(task: &Tuning) -> Outcome<()> {
-    let positive = |p: &Parameter| p.bounds[0] > 0.0 && p.start > 0.0;
-    let wrong =
-        |p: &&Parameter| !(p.bounds[0] < p.bounds[1]) || !(p.kind.is_signed() || positive(p));
+    let sound = |p: &Parameter| p.kind.is_signed() || (p.bounds[0] > 0.0 && p.start > 0.0);
+    let wrong = |p: &&Parameter| !(sound(p) && p.bounds[0] < p.bounds[1]);
     if let Some(parameter) = task.parameters.iter().find(wrong) {
         return Err(Problem::new(
             "bounds and first guess must be positive, the lower bound below the upper",
