@@ -49,7 +49,7 @@ pub struct Search {
 /// Most iterations of the mirror.
 const ITERATIONS: usize = 12;
 /// Change of the correction, against the largest deviation, at which it stands still.
-const STILL: f64 = 2e-3;
+const STILL: f64 = 1e-2;
 /// How far before and behind the cut the correction is carried on fully, and fades, m.
 const CARRIED: f64 = 2e-3;
 const FADES: f64 = 12e-3;

@@ -79,7 +79,7 @@ fn steps(result: &Result) -> String {
 pub fn remarks(result: &Result) -> Vec<String> {
     let mut said = Vec::new();
     let elastic = result.support != Support::Rigid;
-    if elastic && result.doubts.is_empty() {
+    if elastic && result.asked && result.doubts.is_empty() {
         said.push(
             "neither the robot nor the material states how well it is known: no interval"
                 .to_string(),

@@ -89,6 +89,8 @@ struct Result {
     left: Cutter,
     worst: Option<Worst>,
     doubts: Vec<Doubt>,
+    /// Whether an interval was asked for.
+    asked: bool,
 }
 
 /// What was written.
@@ -152,6 +154,7 @@ fn act(arguments: &Arguments) -> Outcome<Result> {
         left,
         worst,
         doubts,
+        asked: !arguments.no_interval,
     })
 }
 
