@@ -49,16 +49,3 @@ pub(super) fn stem(path: &std::path::Path, otherwise: &str) -> String {
     let stem = path.file_stem().map(|s| s.to_string_lossy().to_string());
     stem.unwrap_or_else(|| otherwise.into())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_misspelt_key_is_refused_with_the_nearest_one() {
-        let front = Front::parse("kind = \"screw\"\npich_mm = 5\n".into()).unwrap();
-        let problem = known_keys(&front, &["pitch_mm", "scale_noise_um"]).unwrap_err();
-        assert_eq!(problem.line, Some(2));
-        assert!(problem.remedy.contains("`pitch_mm`"), "{}", problem.remedy);
-    }
-}

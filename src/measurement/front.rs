@@ -239,4 +239,12 @@ mod tests {
         let front = Front::parse("kind = \"x\"\n\nload_lever_m = -1\n".into()).unwrap();
         assert_eq!(front.positive("load_lever_m").unwrap_err().line, Some(3));
     }
+
+    #[test]
+    fn an_unknown_fact_names_its_line_and_the_nearest_known_one() {
+        let front = Front::parse("kind = \"screw\"\npich_mm = 5\n".into()).unwrap();
+        let problem = front.only(&["pitch_mm", "scale_noise_um"]).unwrap_err();
+        assert_eq!(problem.line, Some(2));
+        assert!(problem.remedy.contains("`pitch_mm`"), "{problem}");
+    }
 }
