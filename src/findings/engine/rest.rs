@@ -4,7 +4,7 @@
 use super::bank::{Bank, Fit};
 use super::judgement::Judgement;
 use super::statement::Statement;
-use crate::inference::gaussian::{Size, update};
+use crate::inference::gaussian::{Products, evidence};
 use crate::inference::stats::{quantile, rms};
 use nalgebra::{DMatrix, DVector};
 
@@ -24,9 +24,12 @@ const GRANTED: f64 = 0.15;
 /// How much more than granted is tried.
 const TIMES: [f64; 9] = [1.5, 2.3, 3.5, 5.0, 8.0, 12.0, 20.0, 50.0, 150.0];
 
-/// The generic columns of a statement, whitened, of one noise deviation rms together.
+/// The generic columns of a statement, of one noise deviation rms together.
 pub struct Span {
+    /// Whitened.
     columns: DMatrix<f64>,
+    /// Row by row, in noise deviations of a reading.
+    rows: DMatrix<f64>,
 }
 
 impl Span {
@@ -38,33 +41,41 @@ impl Span {
         if columns.is_empty() || square <= 0.0 {
             return None;
         }
-        let rows = statement.reading.len() as f64;
+        let scale = (statement.reading.len() as f64 / square).sqrt();
+        let plain = |c: &Vec<f64>| {
+            let each = c.iter().zip(statement.noise.spread());
+            DVector::from_iterator(c.len(), each.map(|(v, s)| v / s))
+        };
+        let rows: Vec<DVector<f64>> = statement.span.iter().map(plain).collect();
         Some(Self {
-            columns: DMatrix::from_columns(&columns) * (rows / square).sqrt(),
+            columns: DMatrix::from_columns(&columns) * scale,
+            rows: DMatrix::from_columns(&rows) * scale,
         })
     }
 
-    /// Evidence of a set with so much generic structure beside it, and that structure, whitened.
-    fn beside(&self, bank: &Bank, fit: &Fit, size: f64) -> Option<(f64, DVector<f64>)> {
-        let products = bank.beside(&fit.members, &self.columns);
+    /// A set with generic structure of any size beside it.
+    fn beside<'a>(&'a self, bank: &'a Bank, fit: &Fit) -> Beside<'a> {
         let own = fit.members.iter().zip(&fit.posterior.sizes);
-        let mut blocks: Vec<(usize, Size)> = own
-            .map(|(m, size)| (bank.entries[*m].columns.len(), Size::Given(*size)))
-            .collect();
-        let before: usize = blocks.iter().map(|b| b.0).sum();
-        blocks.push((self.columns.ncols(), Size::Given(size)));
-        let found = update(&products, &bank.reading, &blocks)?;
-        let amounts = found.mean.rows(before, self.columns.ncols());
-        Some((found.ln_evidence, &self.columns * amounts))
+        Beside {
+            products: bank.beside(&fit.members, &self.columns),
+            blocks: own
+                .map(|(m, size)| (bank.entries[*m].columns.len(), *size))
+                .collect(),
+            bank,
+            columns: &self.columns,
+        }
+    }
+
+    /// Greatest ln E of a set with structure of some sizes (noise deviations rms) beside it.
+    pub fn greatest(&self, bank: &Bank, fit: &Fit, sizes: &[f64]) -> f64 {
+        let beside = self.beside(bank, fit);
+        let each = sizes.iter().filter_map(|s| beside.evidence(*s));
+        each.map(|e| e.0).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Greatest evidence of structure alone, without any cause, less that of nothing.
     pub fn alone(&self, bank: &Bank, nothing: &Fit) -> f64 {
-        let at = |times: &f64| self.beside(bank, nothing, GRANTED * times).map(|f| f.0);
-        let best = TIMES
-            .iter()
-            .filter_map(at)
-            .fold(f64::NEG_INFINITY, f64::max);
+        let best = self.greatest(bank, nothing, &TIMES.map(|times| GRANTED * times));
         best - nothing.posterior.ln_evidence - (TIMES.len() as f64).ln()
     }
 
@@ -72,17 +83,13 @@ impl Span {
     pub fn rest(&self, bank: &Bank, fit: &Fit, whole: f64, judgement: &Judgement) -> Rest {
         let noise = fit.posterior.noise_variance.sqrt();
         let granted = GRANTED.hypot(judgement.formula_error * explained(bank, fit) / noise);
-        let Some((base, _)) = self.beside(bank, fit, granted) else {
+        let beside = self.beside(bank, fit);
+        let Some((base, _)) = beside.evidence(granted) else {
             return Rest::default();
         };
-        let mut best: Option<(f64, DVector<f64>)> = None;
-        for times in TIMES {
-            if let Some((evidence, left)) = self.beside(bank, fit, granted * times)
-                && best.as_ref().is_none_or(|b| b.0 < evidence)
-            {
-                best = Some((evidence, left));
-            }
-        }
+        let each = TIMES.iter().filter_map(|t| beside.evidence(granted * t));
+        let best = each.max_by(|a, b| a.0.total_cmp(&b.0));
+        let best = best.map(|(evidence, amounts)| (evidence, &self.rows * amounts));
         let Some((evidence, left)) = best else {
             return Rest::default();
         };
@@ -97,6 +104,27 @@ impl Span {
             share,
             is_left,
         }
+    }
+}
+
+/// A set and generic structure beside it.
+struct Beside<'a> {
+    products: Products,
+    /// Columns and size of every member.
+    blocks: Vec<(usize, f64)>,
+    bank: &'a Bank<'a>,
+    columns: &'a DMatrix<f64>,
+}
+
+impl Beside<'_> {
+    /// ln E with structure of this size, and its amounts.
+    fn evidence(&self, size: f64) -> Option<(f64, DVector<f64>)> {
+        let count = self.columns.ncols();
+        let mut blocks = self.blocks.clone();
+        blocks.push((count, size));
+        let before = blocks.iter().map(|b| b.0).sum::<usize>() - count;
+        let (mean, ln_evidence) = evidence(&self.products, &self.bank.reading, &blocks)?;
+        Some((ln_evidence, mean.rows(before, count).into_owned()))
     }
 }
 
