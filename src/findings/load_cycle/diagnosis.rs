@@ -1,7 +1,7 @@
 //! The diagnosis of one load-cycle file: from the screen to the verdict.
 
 use super::adequacy::Adequacy;
-use super::case::Case;
+use super::case::compare;
 use super::imposed::diagnose_imposed;
 use super::present::Present;
 use crate::effects::{Composite, EFFECTS, Effect};
@@ -53,7 +53,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             library: EFFECTS.to_vec(),
-            rows: 1000,
+            rows: 2000,
             present: None,
         }
     }
@@ -64,14 +64,15 @@ pub fn diagnose(file: &LoadCycle, settings: &Settings) -> Diagnosis {
     if is_imposed(file) {
         return diagnose_imposed(file);
     }
-    let case = Case::of(file, settings);
-    let chosen = case.laws(&case.chosen());
-    let mut shapes = case.name(&chosen);
+    let mut case = compare(file, settings);
+    let chosen = case.choose();
+    let chosen = case.suited(chosen);
+    let mut named = case.name(&chosen);
     let scales = case.scales(&chosen);
     if let Some(present) = &case.present {
-        shapes = case.beyond(present, &chosen, shapes);
+        named = case.beyond(present, &chosen, named);
     }
-    let mut others = case.name_scales(&scales, &chosen);
-    others.extend(case.name_lattice());
-    case.conclude(chosen, (shapes, others), !scales.is_empty())
+    named.extend(case.name_scales(&scales, &chosen));
+    named.extend(case.name_lattice());
+    case.conclude(chosen, named, !scales.is_empty())
 }
