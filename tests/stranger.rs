@@ -145,7 +145,8 @@ fn data_by_strangers_are_judged_rightly() {
     assert!(wrong <= WRONG, "wrong or invented causes");
 }
 
-/// Rates measured over 1000 cases less what a sample of this size may fall short by chance.
+/// Rates measured over 180 cases (single 0.75, clean 0.64, wrong 0.24) less what a sample of this size may
+/// fall short by chance. The rates are a floor to rise from, not a goal.
 const SINGLES: f64 = 0.5;
-const CLEAN: f64 = 0.6;
+const CLEAN: f64 = 0.45;
 const WRONG: f64 = 0.4;
