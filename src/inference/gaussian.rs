@@ -123,6 +123,54 @@ fn grown(found: &Posterior, blocks: &[(usize, Size)]) -> Vec<f64> {
     sizes
 }
 
+/// Mean of the amounts and ln E where every size is given: for many columns, whose covariance nobody asks
+/// for. `None` where the products are not finite.
+pub fn evidence(
+    products: &Products,
+    reading: &Reading,
+    blocks: &[(usize, f64)],
+) -> Option<(DVector<f64>, f64)> {
+    let each = blocks.iter().flat_map(|b| std::iter::repeat_n(b.1, b.0));
+    let solved = Solved::of(products, reading, each.collect())?;
+    Some((solved.mean(), solved.ln_evidence(reading)))
+}
+
+/// The normal equations in units of the sizes, solved.
+struct Solved {
+    scale: Vec<f64>,
+    root: Cholesky<f64, Dyn>,
+    amounts: DVector<f64>,
+    left: f64,
+}
+
+impl Solved {
+    fn of(products: &Products, reading: &Reading, scale: Vec<f64>) -> Option<Self> {
+        let n = scale.len();
+        let entry = |i: usize, j: usize| {
+            scale[i] * scale[j] * products.gram[(i, j)] + f64::from(u8::from(i == j))
+        };
+        let root = Cholesky::<f64, Dyn>::new(DMatrix::from_fn(n, n, entry))?;
+        let right = DVector::from_fn(n, |i, _| scale[i] * products.right[i]);
+        let amounts = root.solve(&right);
+        Some(Self {
+            left: reading.square - right.dot(&amounts),
+            scale,
+            root,
+            amounts,
+        })
+    }
+
+    fn mean(&self) -> DVector<f64> {
+        DVector::from_fn(self.scale.len(), |i, _| self.scale[i] * self.amounts[i])
+    }
+
+    fn ln_evidence(&self, reading: &Reading) -> f64 {
+        let diagonal = self.root.l_dirty().diagonal();
+        // half of ln det, that is of twice the sum over the root
+        reading.ln_evidence(self.left) - diagonal.iter().map(|d| d.ln()).sum::<f64>()
+    }
+}
+
 fn with_sizes(
     products: &Products,
     reading: &Reading,
@@ -130,32 +178,17 @@ fn with_sizes(
     sizes: &[f64],
 ) -> Option<Posterior> {
     let each = blocks.iter().zip(sizes);
-    let scale: Vec<f64> = each
-        .flat_map(|(block, size)| std::iter::repeat_n(*size, block.0))
-        .collect();
-    let n = scale.len();
-    let entry = |i: usize, j: usize| {
-        scale[i] * scale[j] * products.gram[(i, j)] + f64::from(u8::from(i == j))
-    };
-    let root = Cholesky::<f64, Dyn>::new(DMatrix::from_fn(n, n, entry))?;
-    let right = DVector::from_fn(n, |i, _| scale[i] * products.right[i]);
-    let solved = root.solve(&right);
-    let ln_det: f64 = 2.0
-        * root
-            .l_dirty()
-            .diagonal()
-            .iter()
-            .map(|d| d.ln())
-            .sum::<f64>();
-    let left = reading.square - right.dot(&solved);
-    let inverse = root.inverse();
+    let scale = each.flat_map(|(block, size)| std::iter::repeat_n(*size, block.0));
+    let solved = Solved::of(products, reading, scale.collect())?;
+    let inverse = solved.root.inverse();
+    let (n, scale) = (solved.scale.len(), &solved.scale);
     Some(Posterior {
-        mean: DVector::from_fn(n, |i, _| scale[i] * solved[i]),
+        mean: solved.mean(),
         covariance: DMatrix::from_fn(n, n, |i, j| scale[i] * scale[j] * inverse[(i, j)]),
         sizes: sizes.to_vec(),
-        noise_variance: reading.noise_variance(left),
-        ln_evidence: reading.ln_evidence(left) - 0.5 * ln_det,
-        left,
+        noise_variance: reading.noise_variance(solved.left),
+        ln_evidence: solved.ln_evidence(reading),
+        left: solved.left,
     })
 }
 

@@ -4,7 +4,7 @@
 use super::bank::{Bank, Fit};
 use super::judgement::Judgement;
 use super::statement::Statement;
-use crate::inference::gaussian::{Products, Size, update};
+use crate::inference::gaussian::{Products, evidence};
 use crate::inference::stats::{quantile, rms};
 use nalgebra::{DMatrix, DVector};
 
@@ -24,9 +24,12 @@ const GRANTED: f64 = 0.15;
 /// How much more than granted is tried.
 const TIMES: [f64; 9] = [1.5, 2.3, 3.5, 5.0, 8.0, 12.0, 20.0, 50.0, 150.0];
 
-/// The generic columns of a statement, whitened, of one noise deviation rms together.
+/// The generic columns of a statement, of one noise deviation rms together.
 pub struct Span {
+    /// Whitened.
     columns: DMatrix<f64>,
+    /// Row by row, in noise deviations of a reading.
+    rows: DMatrix<f64>,
 }
 
 impl Span {
@@ -38,33 +41,41 @@ impl Span {
         if columns.is_empty() || square <= 0.0 {
             return None;
         }
-        let rows = statement.reading.len() as f64;
+        let scale = (statement.reading.len() as f64 / square).sqrt();
+        let plain = |c: &Vec<f64>| {
+            let each = c.iter().zip(statement.noise.spread());
+            DVector::from_iterator(c.len(), each.map(|(v, s)| v / s))
+        };
+        let rows: Vec<DVector<f64>> = statement.span.iter().map(plain).collect();
         Some(Self {
-            columns: DMatrix::from_columns(&columns) * (rows / square).sqrt(),
+            columns: DMatrix::from_columns(&columns) * scale,
+            rows: DMatrix::from_columns(&rows) * scale,
         })
     }
 
-    /// A set with generic structure beside it: products once, for any size of the structure.
-    fn beside(&self, bank: &Bank, fit: &Fit) -> Beside {
+    /// A set with generic structure of any size beside it.
+    fn beside<'a>(&'a self, bank: &'a Bank, fit: &Fit) -> Beside<'a> {
         let own = fit.members.iter().zip(&fit.posterior.sizes);
-        let blocks: Vec<(usize, Size)> = own
-            .map(|(m, size)| (bank.entries[*m].columns.len(), Size::Given(*size)))
-            .collect();
         Beside {
             products: bank.beside(&fit.members, &self.columns),
-            before: blocks.iter().map(|b| b.0).sum(),
-            blocks,
+            blocks: own
+                .map(|(m, size)| (bank.entries[*m].columns.len(), *size))
+                .collect(),
+            bank,
+            columns: &self.columns,
         }
     }
 
-    /// Greatest evidence of a set with generic structure beside it.
-    pub fn best(&self, bank: &Bank, fit: &Fit) -> f64 {
+    /// Greatest ln E of a set with structure of some sizes (noise deviations rms) beside it.
+    pub fn greatest(&self, bank: &Bank, fit: &Fit, sizes: &[f64]) -> f64 {
         let beside = self.beside(bank, fit);
-        let at = |times: &f64| beside.at(bank, self, GRANTED * times).map(|f| f.0);
-        TIMES
-            .iter()
-            .filter_map(at)
-            .fold(f64::NEG_INFINITY, f64::max)
+        let each = sizes.iter().filter_map(|s| beside.evidence(*s));
+        each.map(|e| e.0).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Greatest ln E of a set with structure of any size beside it.
+    pub fn best(&self, bank: &Bank, fit: &Fit) -> f64 {
+        self.greatest(bank, fit, &TIMES.map(|times| GRANTED * times))
     }
 
     /// What is left beside a set.
@@ -72,13 +83,12 @@ impl Span {
         let noise = fit.posterior.noise_variance.sqrt();
         let granted = GRANTED.hypot(judgement.formula_error * explained(bank, fit) / noise);
         let beside = self.beside(bank, fit);
-        let Some((base, _)) = beside.at(bank, self, granted) else {
+        let Some((base, _)) = beside.evidence(granted) else {
             return Rest::default();
         };
-        let tried = TIMES
-            .iter()
-            .filter_map(|times| beside.at(bank, self, granted * times));
-        let best = tried.reduce(|a, b| if b.0 > a.0 { b } else { a });
+        let each = TIMES.iter().filter_map(|t| beside.evidence(granted * t));
+        let best = each.max_by(|a, b| a.0.total_cmp(&b.0));
+        let best = best.map(|(evidence, amounts)| (evidence, &self.rows * amounts));
         let Some((evidence, left)) = best else {
             return Rest::default();
         };
@@ -96,21 +106,24 @@ impl Span {
     }
 }
 
-/// A set and the generic columns.
-struct Beside {
+/// A set and generic structure beside it.
+struct Beside<'a> {
     products: Products,
-    blocks: Vec<(usize, Size)>,
-    before: usize,
+    /// Columns and size of every member.
+    blocks: Vec<(usize, f64)>,
+    bank: &'a Bank<'a>,
+    columns: &'a DMatrix<f64>,
 }
 
-impl Beside {
-    /// Evidence with so much structure, and that structure, whitened.
-    fn at(&self, bank: &Bank, span: &Span, size: f64) -> Option<(f64, DVector<f64>)> {
+impl Beside<'_> {
+    /// ln E with structure of this size, and its amounts.
+    fn evidence(&self, size: f64) -> Option<(f64, DVector<f64>)> {
+        let count = self.columns.ncols();
         let mut blocks = self.blocks.clone();
-        blocks.push((span.columns.ncols(), Size::Given(size)));
-        let found = update(&self.products, &bank.reading, &blocks)?;
-        let amounts = found.mean.rows(self.before, span.columns.ncols());
-        Some((found.ln_evidence, &span.columns * amounts))
+        blocks.push((count, size));
+        let before = blocks.iter().map(|b| b.0).sum::<usize>() - count;
+        let (mean, ln_evidence) = evidence(&self.products, &self.bank.reading, &blocks)?;
+        Some((ln_evidence, mean.rows(before, count).into_owned()))
     }
 }
 

@@ -1,0 +1,152 @@
+//! The diagnosis of load cycles before data by strangers: `tests/stranger_generator`.
+//!
+//! `IDENT_STRANGER_SEED` and `IDENT_STRANGER_CASES` choose other cases, `IDENT_DEBUG=1` prints the misses.
+//! `cargo test --test stranger -- --nocapture` prints the rates.
+
+mod stranger_generator;
+
+use ident::findings::{Diagnosis, Settings, Verdict, diagnose};
+use ident::measurement::load_cycle::LoadCycle;
+use ident::measurement::table::Table;
+use rayon::prelude::*;
+use std::path::Path;
+use stranger_generator::Case;
+
+fn run(case: &Case) -> Diagnosis {
+    let bytes = case.csv.as_bytes();
+    let table = Table::from_reader(Path::new("case.csv"), bytes, bytes.len() as u64).unwrap();
+    diagnose(&LoadCycle::from_table(table).unwrap(), &Settings::default())
+}
+
+/// How an answer compares with the truth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Score {
+    /// Everything true is named, alone or in a group of at most three, and nothing else.
+    right: bool,
+    /// Something is named that is not true.
+    wrong: bool,
+    /// Something is said to be left.
+    flagged: bool,
+}
+
+fn score(case: &Case, found: &Diagnosis) -> Score {
+    let mut missing: Vec<&str> = case.truths.clone();
+    let mut strays = 0;
+    let causes = found.causes.iter().map(|c| vec![c.effect]);
+    let groups = found.groups.iter().map(|g| g.effects.clone());
+    for names in causes.chain(groups) {
+        let hit = missing
+            .iter()
+            .position(|t| names.contains(t) && names.len() <= 3);
+        match hit {
+            Some(at) => {
+                missing.remove(at);
+            }
+            None => strays += 1,
+        }
+    }
+    let flagged = matches!(
+        found.verdict,
+        Verdict::UnknownCause | Verdict::PartlyExplained
+    );
+    Score {
+        right: missing.is_empty() && strays == 0,
+        wrong: strays > 0,
+        flagged,
+    }
+}
+
+fn kind(case: &Case) -> &'static str {
+    match case.truths[..] {
+        [] => "clean",
+        [one] if one.starts_with("outside") => "outside",
+        [_] => "single",
+        _ => "pair",
+    }
+}
+
+fn number(name: &str) -> Option<u64> {
+    std::env::var(name).ok().and_then(|v| v.parse().ok())
+}
+
+fn describe(case: &Case, found: &Diagnosis) -> String {
+    let causes = found.causes.iter();
+    let causes = causes.map(|c| format!("{} {:.2}", c.effect, c.probability));
+    let groups = found
+        .groups
+        .iter()
+        .map(|g| format!("{{{}}}", g.effects.join("|")));
+    let all: Vec<String> = causes.chain(groups).collect();
+    format!(
+        "# {} {} {:?} {:?} x{:.1?} {} / {} n{} -> {} {} (left {:.2})",
+        case.seed,
+        kind(case),
+        case.truths,
+        case.laws,
+        case.strengths,
+        case.schedule,
+        case.noise,
+        case.rows,
+        all.join(" + "),
+        found.verdict.name(),
+        found.unexplained.share_of_variance,
+    )
+}
+
+/// Counts of one kind of case.
+#[derive(Default, Debug, Clone, Copy)]
+struct Count {
+    all: usize,
+    good: usize,
+    wrong: usize,
+}
+
+impl Count {
+    fn rate(&self) -> f64 {
+        self.good as f64 / self.all.max(1) as f64
+    }
+}
+
+#[test]
+fn data_by_strangers_are_judged_rightly() {
+    let base = number("IDENT_STRANGER_SEED").unwrap_or(1) * 100_000;
+    let count = number("IDENT_STRANGER_CASES").unwrap_or(60);
+    let seeds: Vec<u64> = (base..base + count).collect();
+    let judged: Vec<(Case, Diagnosis)> = seeds
+        .par_iter()
+        .map(|seed| {
+            let case = stranger_generator::draw(*seed);
+            let found = run(&case);
+            (case, found)
+        })
+        .collect();
+    let mut counts = std::collections::BTreeMap::<&str, Count>::new();
+    for (case, found) in &judged {
+        let (own, score) = (counts.entry(kind(case)).or_default(), score(case, found));
+        let good = match kind(case) {
+            "clean" => score.right && found.verdict == Verdict::Sufficient,
+            "outside" => score.flagged,
+            _ => score.right,
+        };
+        own.all += 1;
+        own.good += usize::from(good);
+        own.wrong += usize::from(score.wrong && kind(case) != "outside");
+        if !good && std::env::var("IDENT_DEBUG").is_ok() {
+            println!("{}", describe(case, found));
+        }
+    }
+    let of = |name: &str| counts.get(name).copied().unwrap_or_default();
+    let named = [of("single"), of("pair")];
+    let wrong = named.iter().map(|c| c.wrong).sum::<usize>() as f64
+        / named.iter().map(|c| c.all).sum::<usize>().max(1) as f64;
+    println!("{counts:?} wrong {wrong:.3}");
+    assert!(of("single").rate() >= SINGLES, "single causes");
+    assert!(of("clean").rate() >= CLEAN, "clean files");
+    assert!(wrong <= WRONG, "wrong or invented causes");
+}
+
+/// Rates measured over 180 cases (single 0.75, clean 0.64, wrong 0.24) less what a sample of this size may
+/// fall short by chance. The rates are a floor to rise from, not a goal.
+const SINGLES: f64 = 0.5;
+const CLEAN: f64 = 0.45;
+const WRONG: f64 = 0.4;
