@@ -1,6 +1,7 @@
 //! The discrepancy before any cause: how large, where.
 
 use crate::findings::answer::{Discrepancy, Structure};
+use crate::findings::engine::Remaining;
 use crate::fit::observation::Observation;
 use crate::fit::screen::directions;
 
@@ -22,7 +23,7 @@ const FEW: usize = 20;
 
 /// Where the mean square is most concentrated: over load, branch or time. Over branch and time it is
 /// compared with what the loads there let expect: growing cycles alone make nothing late.
-fn place(residual: &[f64], data: &Observation) -> String {
+pub fn place(residual: &[f64], data: &Observation) -> String {
     let n = residual.len();
     let load = |i: usize| data.scene.load[i].abs() / data.scene.load_scale;
     let scaled: Vec<f64> = data
@@ -107,6 +108,16 @@ pub fn structure(
         shape,
         over_time,
         description,
+    }
+}
+
+/// What is left, over load and over time.
+pub fn remaining(residual: &[f64], data: &Observation) -> Remaining {
+    let left = structure(residual, data, 1.0, 0.0, "");
+    Remaining {
+        shape: left.shape,
+        over_time: left.over_time,
+        description: left.description,
     }
 }
 

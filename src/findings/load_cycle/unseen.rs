@@ -20,11 +20,11 @@ const FOLDS: usize = 4;
 /// Pieces per cycle of [`Split::Pieces`].
 const PIECES: usize = 8;
 
-/// Rows of each fold.
-fn folds(data: &Observation, split: Split) -> Vec<Vec<bool>> {
+/// The fold of every row.
+pub fn folds(data: &Observation, split: Split) -> Vec<usize> {
     let n = data.rows();
     let cycles = data.cycles.count();
-    let part: Vec<usize> = match split {
+    match split {
         Split::Cycles if cycles > 1 => data
             .cycles
             .of_row
@@ -34,11 +34,7 @@ fn folds(data: &Observation, split: Split) -> Vec<Vec<bool>> {
         _ => (0..n)
             .map(|i| i * PIECES * cycles / n.max(1) % FOLDS)
             .collect(),
-    };
-    let count = part.iter().max().map_or(1, |m| m + 1);
-    (0..count)
-        .map(|fold| part.iter().map(|p| *p == fold).collect())
-        .collect()
+    }
 }
 
 /// Prediction error of a model on every row, each row predicted from the folds it is not in.
@@ -50,7 +46,9 @@ pub fn held_out(
     split: Split,
 ) -> Vec<f64> {
     let mut error = vec![0.0; data.rows()];
-    for fold in folds(data, split) {
+    let part = folds(data, split);
+    for k in 0..part.iter().max().map_or(1, |m| m + 1) {
+        let fold: Vec<bool> = part.iter().map(|p| *p == k).collect();
         let problem = Problem {
             model,
             data,

@@ -1,0 +1,59 @@
+//! What happens over time whatever the load does: drifts and jumps, zero at the start.
+
+use super::{Family, Shapes, View};
+use std::f64::consts::{PI, TAU};
+
+/// Smooth drift.
+pub const THERMAL_DRIFT: Family = Family {
+    cause: "thermal_drift",
+    mechanism: "time",
+    suits: |_| true,
+    members: drift,
+};
+
+/// A jump at a free place.
+pub const SLIP: Family = Family {
+    cause: "slip",
+    mechanism: "time",
+    suits: |_| true,
+    members: slip,
+};
+
+fn drift(view: &View) -> Shapes {
+    let mut shapes = Shapes::none();
+    shapes.one(view, &view.t);
+    shapes.one(view, &view.over_time(f64::sqrt));
+    for tau in [0.05, 0.1, 0.2, 0.4, 0.8] {
+        shapes.one(view, &view.over_time(|t| 1.0 - (-t / tau).exp()));
+    }
+    for orders in [3, 6] {
+        let order = |k: usize| {
+            let k = k as f64;
+            view.over_time(|t| ((PI * k * t).cos() - 1.0) * k.powf(-1.5))
+        };
+        shapes.free(view, &(1..=orders).map(order).collect::<Vec<_>>());
+    }
+    for periods in [0.5, 0.75, 1.0, 1.4] {
+        let waves = [
+            view.over_time(|t| (TAU * periods * t).sin()),
+            view.over_time(|t| 1.0 - (TAU * periods * t).cos()),
+        ];
+        shapes.free(view, &waves);
+    }
+    shapes
+}
+
+/// Most places at which a jump is sought.
+const PLACES: usize = 140;
+
+fn slip(view: &View) -> Shapes {
+    let mut shapes = Shapes::none();
+    let n = view.rows();
+    let places = PLACES.min(n.saturating_sub(6));
+    for k in 0..places {
+        let at = 3 + k * (n - 6) / places.max(1);
+        let jump: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i >= at))).collect();
+        shapes.one(view, &jump);
+    }
+    shapes
+}
