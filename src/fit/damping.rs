@@ -112,22 +112,44 @@ pub fn test(path: &Path, record: HammerRecord, settings: &Settings) -> Outcome<T
 pub fn identify(tests: &[Test], robot: &Robot, request: &Request) -> Outcome<Account> {
     check::dynamics(robot)?;
     let known = known(tests);
+    if known != hammer_known::Known::default() {
+        return attempt(tests, robot, request, (known, !known.is_exact()));
+    }
+    let exact = attempt(tests, robot, request, (known, false))?;
+    match exact.supported {
+        true => Ok(exact),
+        false => attempt(tests, robot, request, (known, true)),
+    }
+}
+
+/// One tuning, with bodies and instruments as exact as the robot file or as uncertain as they are `known`.
+/// Where nothing is stated of them they count as exact while the FRFs agree with that.
+fn attempt(
+    tests: &[Test],
+    robot: &Robot,
+    request: &Request,
+    (known, along): (hammer_known::Known, bool),
+) -> Outcome<Account> {
     let released = Released {
         prior_ln_std: request.released.prior_ln_std.or(known.damping_rel_std),
         ..request.released
     };
     let constants = parameters(robot, released, stated_spread(tests));
-    let known = Known::stated(known);
+    let known = along.then(|| Known::stated(known));
     let poses = tests
         .iter()
-        .map(|test| at_pose(test, robot, &constants, request, &known))
+        .map(|test| at_pose(test, robot, &constants, request, known.as_ref()))
         .collect::<Outcome<Vec<_>>>()?;
-    let task = uncertain(Tuning {
+    let plain = Tuning {
         parameters: constants,
         poses,
         residuals: request.residuals,
         starts: request.starts,
-    })?;
+    };
+    let task = match along {
+        true => uncertain(plain)?,
+        false => plain,
+    };
     let (tuned, pulls) = agreed(&task)?;
     let of = |pose: &Pose| pairs(pose, &task, &tuned);
     let pairs: Vec<Vec<Pair>> = task.poses.iter().map(of).collect();
@@ -186,7 +208,7 @@ fn at_pose(
     robot: &Robot,
     constants: &[Parameter],
     request: &Request,
-    known: &Known,
+    known: Option<&Known>,
 ) -> Outcome<Pose> {
     let place = |problem: Problem| problem.in_file(&test.path);
     let joints = joints(test, robot).map_err(place)?;

@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rayon::prelude::*;
 
 /// Relative standard deviation above which a constant is not identifiable.
-const IDENTIFIABLE: f64 = 0.4;
+const IDENTIFIABLE: f64 = 0.35;
 /// Standard deviation of the logarithm of a combination that the data fix.
 const FIXED: f64 = 0.1;
 /// Relative standard deviation that no calibration of hammer and sensors is better than. It is the same

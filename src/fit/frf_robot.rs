@@ -107,7 +107,7 @@ pub fn pose(
     robot: &Robot,
     joints: &[f64],
     parameters: &[Parameter],
-    known: &Known,
+    known: Option<&Known>,
 ) -> Outcome<Pose> {
     let chain = motion::elastic(&without_play(robot));
     let rest = State::settled(&chain, joints)?.angles();
@@ -138,11 +138,15 @@ pub fn pose(
             jacobian: jacobian(&bent) - jacobian(&linear),
         }),
         jacobian: jacobian(&linear),
-        uncertain: Some(Uncertain {
-            bodies: bodies::directions(robot, &straight, &known.bodies)?,
-            instrument: known.instrument,
-            pose: 0,
-        }),
+        uncertain: known
+            .map(|known| -> Outcome<Uncertain> {
+                Ok(Uncertain {
+                    bodies: bodies::directions(robot, &straight, &known.bodies)?,
+                    instrument: known.instrument,
+                    pose: 0,
+                })
+            })
+            .transpose()?,
         directions,
         measured: Vec::new(),
     })

@@ -51,6 +51,11 @@ impl Known {
         })
     }
 
+    /// Whether the bodies are stated to be as the robot file has them.
+    pub fn is_exact(&self) -> bool {
+        self.mass_rel_std == 0.0 && self.com_std_m == 0.0 && self.inertia_rel_std == 0.0
+    }
+
     /// The less certain of two statements.
     #[must_use]
     pub fn or_worse(self, other: Self) -> Self {

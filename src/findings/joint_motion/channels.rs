@@ -1,7 +1,6 @@
 //! The channels of one joint as they are compared: averaged down, with speed and acceleration.
 
 use crate::fit::observation::reduce;
-pub use crate::inference::stats::{mean, rms};
 use crate::measurement::joint_motion::JointRecord;
 use crate::signal::outliers;
 
@@ -75,10 +74,14 @@ impl Channels {
     }
 }
 
-/// Smallest and largest value.
-pub fn range(values: &[f64]) -> (f64, f64) {
-    let wider = |(l, h): (f64, f64), v: &f64| (l.min(*v), h.max(*v));
-    values.iter().fold((f64::MAX, f64::MIN), wider)
+/// Mean of values.
+pub fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
+}
+
+/// Root mean square of values.
+pub fn rms(values: &[f64]) -> f64 {
+    (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
 }
 
 /// Largest magnitude.

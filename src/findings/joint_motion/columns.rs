@@ -1,6 +1,6 @@
 //! What each cause would add to the difference of the encoders: curves with free amplitudes.
 
-use super::channels::{Channels, largest, range};
+use super::channels::{Channels, largest};
 
 /// What an atom describes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,38 +24,6 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// All of them.
-    pub const ALL: [Self; 8] = [
-        Self::Rate,
-        Self::Coulomb,
-        Self::Backlash,
-        Self::Hysteresis,
-        Self::Offset,
-        Self::Ripple,
-        Self::Mesh,
-        Self::Position,
-    ];
-
-    /// The effect as the engine weighs it: what is proportional to the speed gets its name afterwards, by
-    /// the friction in the torque, and silent kinds none at all.
-    pub fn effect(self) -> &'static str {
-        match self {
-            Self::Rate => "rate",
-            Self::Coulomb => "coulomb_friction",
-            Self::Backlash => "backlash",
-            Self::Hysteresis => "hysteresis",
-            Self::Offset => "sensor_offset",
-            Self::Ripple => "encoder_ripple",
-            Self::Mesh => "(meshing)",
-            Self::Position => "(slow over the angle)",
-        }
-    }
-
-    /// The kind of an effect of the engine.
-    pub fn named(effect: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.effect() == effect)
-    }
-
     /// Whether it is only described, never named.
     pub fn is_silent(self) -> bool {
         matches!(self, Self::Mesh | Self::Position)
@@ -73,15 +41,18 @@ pub struct Atom {
     pub one_signed: bool,
     /// Its shape: an instant, an order, a width.
     pub shape: f64,
+    /// How many shapes of its kind were tried.
+    pub tried: usize,
 }
 
 impl Atom {
-    fn one(kind: Kind, column: Vec<f64>, shape: f64) -> Self {
+    fn one(kind: Kind, column: Vec<f64>, shape: f64, tried: usize) -> Self {
         Self {
             kind,
             columns: vec![column],
             one_signed: matches!(kind, Kind::Coulomb | Kind::Backlash | Kind::Hysteresis),
             shape,
+            tried,
         }
     }
 }
@@ -97,7 +68,7 @@ pub fn base(data: &Channels) -> Vec<Vec<f64>> {
 
 /// All candidates but the periodic ones.
 pub fn atoms(data: &Channels) -> Vec<Atom> {
-    let mut all = vec![Atom::one(Kind::Rate, data.speed.clone(), 0.0)];
+    let mut all = vec![Atom::one(Kind::Rate, data.speed.clone(), 0.0, 1)];
     all.extend(friction(data));
     all.extend(gaps(data));
     all.extend(loops(data));
@@ -118,7 +89,7 @@ fn friction(data: &Channels) -> Vec<Atom> {
     let both_ways = |c: &Vec<f64>| share(c, |v| v > 0.5) > 0.04 && share(c, |v| v < -0.5) > 0.04;
     all.retain(both_ways);
     all.into_iter()
-        .map(|c| Atom::one(Kind::Coulomb, c, 0.0))
+        .map(|c| Atom::one(Kind::Coulomb, c, 0.0, SIGN_WIDTHS.len() + 1))
         .collect()
 }
 
@@ -150,7 +121,7 @@ fn gaps(data: &Channels) -> Vec<Atom> {
     for torque in [&data.torque, &transmitted].into_iter().filter(|t| both(t)) {
         for w in GAP_WIDTHS {
             let column = torque.iter().map(|t| -(t / (w * scale)).tanh()).collect();
-            all.push(Atom::one(Kind::Backlash, column, w));
+            all.push(Atom::one(Kind::Backlash, column, w, 2 * GAP_WIDTHS.len()));
         }
     }
     all
@@ -167,13 +138,25 @@ fn loops(data: &Channels) -> Vec<Atom> {
         .iter()
         .map(|w| slid(&data.torque, w * scale))
         .collect();
+    let tried = 3 * LOOP_WIDTHS.len() - 3;
     let mean = |of: &[Vec<f64>]| {
         let at = |i: usize| of.iter().map(|c| c[i]).sum::<f64>() / of.len() as f64;
-        Atom::one(Kind::Hysteresis, (0..data.rows()).map(at).collect(), 0.0)
+        Atom::one(
+            Kind::Hysteresis,
+            (0..data.rows()).map(at).collect(),
+            0.0,
+            tried,
+        )
     };
     (1..=3)
         .flat_map(|many| single.windows(many).map(mean))
         .collect()
+}
+
+/// Smallest and largest value.
+pub fn range(values: &[f64]) -> (f64, f64) {
+    let wider = |(l, h): (f64, f64), v: &f64| (l.min(*v), h.max(*v));
+    values.iter().fold((f64::MAX, f64::MIN), wider)
 }
 
 /// Bouc's hysteresis driven by the torque, from −1 to 1: the share that lags, so that the twist is
@@ -224,7 +207,7 @@ pub fn sharp_steps(data: &Channels, residual: &[f64]) -> Vec<Atom> {
 /// A zero that jumps at a row.
 pub fn step(data: &Channels, row: usize) -> Atom {
     let column = (0..data.rows()).map(|i| if i < row { 0.0 } else { 1.0 });
-    Atom::one(Kind::Offset, column.collect(), row as f64)
+    Atom::one(Kind::Offset, column.collect(), row as f64, data.rows() / 20)
 }
 
 /// Rows about a candidate for a step in which the best is sought.
@@ -241,16 +224,18 @@ fn position(data: &Channels) -> Atom {
         columns: vec![x.clone(), x.iter().map(|x| x * x).collect()],
         one_signed: false,
         shape: 0.0,
+        tried: 1,
     }
 }
 
 /// Sine and cosine of an order of an angle.
-pub fn periodic(kind: Kind, angle: &[f64], order: f64) -> Atom {
+pub fn periodic(kind: Kind, angle: &[f64], order: f64, tried: usize) -> Atom {
     let wave = |f: fn(f64) -> f64| angle.iter().map(|q| f(order * q)).collect::<Vec<f64>>();
     Atom {
         kind,
         columns: vec![wave(f64::sin), wave(f64::cos)],
         one_signed: false,
         shape: order,
+        tried,
     }
 }

@@ -92,7 +92,7 @@ fn answer(joints: &[JointFinding]) -> Answer {
 }
 
 fn place(joints: &[JointFinding]) -> String {
-    let mut places: Vec<&str> = joints.iter().map(|j| j.place.as_str()).collect();
+    let mut places: Vec<&str> = joints.iter().map(|j| j.place).collect();
     places.dedup();
     match places.as_slice() {
         [one] => (*one).into(),

@@ -1,18 +1,20 @@
 //! The diagnosis of one joint: from its record to what is named and what is left.
 
-use super::case::{Case, all, simulated};
-use super::channels::Channels;
-use super::columns::{Atom, Kind, base};
+use super::case::Case;
+use super::channels::{Channels, rms};
+use super::columns::{Atom, Kind};
 use super::delay::{Delay, delay};
 use super::description;
 use super::named::{self, Named};
-use super::noise::{orthonormal, without};
 use super::stiffness::{Compliance, compliance};
 use super::unseen::{amplitudes, residual};
 use crate::findings::answer::Candidate;
-use crate::findings::engine::{Found, Judgement, diagnose};
-use crate::inference::stats::rms;
 use crate::measurement::joint_motion::JointRecord;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+/// Structure counts as left when a test is below this p-value and its share above the other.
+const SIGNIFICANT: f64 = 1e-6;
+const SHARE_LEFT: f64 = 0.1;
 
 /// What is known of the present simulation of a joint.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -43,7 +45,7 @@ pub struct JointFinding {
     pub compliance: Result<Compliance, &'static str>,
     /// Sets that were compared.
     pub candidates: Vec<Candidate>,
-    /// Noise of one reading, rad.
+    /// Noise of one reading, rad, and in words.
     pub noise_rms: f64,
     /// The noise in words.
     pub noise: String,
@@ -51,151 +53,146 @@ pub struct JointFinding {
     pub share_left: f64,
     /// Probability that chance leaves so much.
     pub p_value: f64,
-    /// Whether structure is left that matters.
+    /// Whether structure is left.
     pub is_left: bool,
     /// Where the discrepancy is largest.
-    pub place: String,
+    pub place: &'static str,
     /// What is left, in words.
     pub description: Option<String>,
 }
 
-/// Structure matters above this share of the twist that was measured, rms: the encoders are read to see
-/// the twist, and a model that is right to a tenth of it is used.
-const MATTERS: f64 = 0.1;
-
 impl JointFinding {
     /// What the named causes leave of the twist, rad.
     pub fn residual(&self) -> Vec<f64> {
-        difference(&self.data.twist, &self.explained)
+        let pairs = self.data.twist.iter().zip(&self.explained);
+        pairs.map(|(y, f)| y - f).collect()
     }
 
     /// What the present simulation misses, rad.
     pub fn missed(&self) -> Vec<f64> {
-        difference(&self.data.twist, &self.simulated)
+        let pairs = self.data.twist.iter().zip(&self.simulated);
+        pairs.map(|(y, f)| y - f).collect()
     }
-}
-
-fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
-    a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
 /// Diagnoses one joint.
 pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
     let case = Case::new(record, nominal);
-    let found = diagnose(&case, &Judgement::default());
-    let chosen: Vec<Atom> = found.blamed.iter().map(|b| case.atom(b)).collect();
-    let compliance = compliance_of(&case, &chosen);
-    let delay = delay_of(&case, &chosen);
-    let named = named::name(&case, &found, &chosen, delay, compliance.ok());
-    conclude(case, found, &chosen, (named, delay, compliance))
+    let chosen = case.choose();
+    case.conclude(&chosen)
 }
 
-fn compliance_of(case: &Case, chosen: &[Atom]) -> Result<Compliance, &'static str> {
-    if case.record.ratio.is_none() {
-        return Err("the file states no gear ratio");
-    }
-    let chosen: Vec<&Atom> = chosen.iter().collect();
-    compliance(
-        &case.data,
-        &case.noise,
-        &chosen,
-        structure(case, &chosen),
-        &case.atoms,
-    )
-}
-
-fn delay_of(case: &Case, chosen: &[Atom]) -> Option<Delay> {
-    let has_rate = chosen.iter().any(|a| a.kind == Kind::Rate);
-    let chosen: Vec<&Atom> = chosen.iter().collect();
-    let asked = has_rate || case.record.delay.is_some();
-    asked.then(|| delay(&case.data, &case.noise, &chosen, &case.atoms, case.friction))
-}
-
-/// Nats that slow structure over the angle would gain beside the chosen causes.
-fn structure(case: &Case, chosen: &[&Atom]) -> f64 {
-    let white = |c: &Vec<f64>| case.noise.whiten(c);
-    let known = chosen.iter().filter(|a| a.kind != Kind::Position);
-    let known = base(&case.data)
-        .into_iter()
-        .chain(known.flat_map(|a| a.columns.clone()));
-    let basis = orthonormal(known.map(|c| white(&c)).collect());
-    let left = without(&basis, white(&case.data.twist));
-    let slow = case.atoms.iter().filter(|a| a.kind == Kind::Position);
-    let own = slow.flat_map(|a| a.columns.iter().map(|c| without(&basis, white(c))));
-    let own = orthonormal(own.collect());
-    own.iter().map(|c| 0.5 * c.dot(&left).powi(2)).sum()
-}
-
-fn conclude(
-    case: Case,
-    found: Found,
-    chosen: &[Atom],
-    (named, delay, compliance): (Named, Option<Delay>, Result<Compliance, &'static str>),
-) -> JointFinding {
-    let data = &case.data;
-    let left = left_beside(data, chosen);
-    let simulated = simulated(data, case.nominal);
-    let missed = difference(&data.twist, &simulated);
-    let noise_rms = case.noise.colour.rms.min(rms(&left));
-    let structure = rms(&left).powi(2) - noise_rms * noise_rms;
-    let share_left = (structure / rms(&missed).powi(2).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    let silent = chosen.iter().any(|a| a.kind.is_silent());
-    let matters = structure.max(0.0).sqrt() > MATTERS * rms(&data.twist);
-    JointFinding {
-        site: case.record.site(),
-        place: found.answer.discrepancy.place.clone(),
-        description: describe(&case, chosen),
-        is_left: (silent || found.answer.p_value < P_LEFT) && matters,
-        candidates: found.answer.candidates,
-        noise: case.noise.colour.describe(),
-        declared: case.record.delay,
-        explained: difference(&data.twist, &left),
-        simulated,
-        named,
-        delay,
-        compliance,
-        noise_rms,
-        share_left,
-        p_value: found.answer.p_value,
-        data: case.data,
-    }
-}
-
-/// Chance leaves structure less often than this where it counts.
-const P_LEFT: f64 = 1e-4;
-
-/// What zero, torque, inertia and the causes with a name leave.
-fn left_beside(data: &Channels, chosen: &[Atom]) -> Vec<f64> {
-    let loud = chosen.iter().filter(|a| !a.kind.is_silent());
-    let columns: Vec<Vec<f64>> = base(data)
-        .into_iter()
-        .chain(loud.flat_map(|a| a.columns.clone()))
-        .collect();
-    let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-    let a = amplitudes(&columns, &data.twist, &all(data));
-    residual(&columns, &a, &data.twist)
-}
-
-/// The silent terms with their rms, in words.
-fn describe(case: &Case, chosen: &[Atom]) -> Option<String> {
-    let data = &case.data;
-    let columns: Vec<Vec<f64>> = base(data)
-        .into_iter()
-        .chain(chosen.iter().flat_map(|a| a.columns.clone()))
-        .collect();
-    let slices: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-    let a = amplitudes(&slices, &data.twist, &all(data));
-    let mut at = 3;
-    let mut sized = Vec::new();
-    for atom in chosen {
-        let own = at..at + atom.columns.len();
-        at = own.end;
-        let part: Vec<f64> = (0..data.rows())
-            .map(|i| own.clone().map(|k| a[k] * columns[k][i]).sum())
+impl Case<'_> {
+    fn conclude(self, chosen: &[usize]) -> JointFinding {
+        let atoms = self.chosen_atoms(chosen);
+        let structure = self.structure(chosen);
+        let compliance = match self.record.ratio {
+            None => Err("the file states no gear ratio"),
+            Some(_) => compliance(&self.data, &self.noise, &atoms, structure, &self.atoms),
+        };
+        let has_rate = chosen.iter().any(|i| self.atoms[*i].kind == Kind::Rate);
+        let delay = (has_rate || self.record.delay.is_some())
+            .then(|| delay(&self.data, &self.noise, &atoms, &self.atoms, self.friction));
+        let named = named::name(&self, chosen, delay, compliance.ok());
+        let loud: Vec<usize> = chosen
+            .iter()
+            .copied()
+            .filter(|i| !self.atoms[*i].kind.is_silent())
             .collect();
-        let mean = super::channels::mean(&part);
-        let size = rms(&part.iter().map(|v| v - mean).collect::<Vec<f64>>());
-        sized.extend(atom.kind.is_silent().then_some((atom, size)));
+        let columns = self.columns(&loud);
+        let a = amplitudes(&columns, &self.data.twist, &self.all());
+        let left = residual(&columns, &a, &self.data.twist);
+        let explained: Vec<f64> = self
+            .data
+            .twist
+            .iter()
+            .zip(&left)
+            .map(|(y, l)| y - l)
+            .collect();
+        let simulated = self.simulated();
+        let missed: Vec<f64> = self
+            .data
+            .twist
+            .iter()
+            .zip(&simulated)
+            .map(|(y, s)| y - s)
+            .collect();
+        let noise_rms = self.noise.colour.rms.min(rms(&left));
+        let share_left =
+            ((rms(&left).powi(2) - noise_rms * noise_rms) / rms(&missed).powi(2)).clamp(0.0, 1.0);
+        let p_value = self.lack_of_fit(&loud);
+        JointFinding {
+            site: self.record.site(),
+            place: description::place(&missed, &self.data),
+            description: self.describe(chosen),
+            is_left: p_value < SIGNIFICANT && share_left > SHARE_LEFT,
+            candidates: self.table(),
+            noise: self.noise.colour.describe(),
+            declared: self.record.delay,
+            data: self.data,
+            simulated,
+            explained,
+            named,
+            delay,
+            compliance,
+            noise_rms,
+            share_left,
+            p_value,
+        }
     }
-    description::left(&sized, case.record.ratio)
+
+    fn describe(&self, chosen: &[usize]) -> Option<String> {
+        let silent: Vec<usize> = chosen
+            .iter()
+            .copied()
+            .filter(|i| self.atoms[*i].kind.is_silent())
+            .collect();
+        let sized: Vec<(&Atom, f64)> = silent
+            .iter()
+            .map(|i| (&self.atoms[*i], self.size(chosen, *i)))
+            .collect();
+        description::left(&sized, self.record.ratio)
+    }
+
+    /// The nominal spring under the motor's torque, its zero free; without one the best spring.
+    fn simulated(&self) -> Vec<f64> {
+        let torque = &self.data.torque;
+        let middle = super::channels::mean(torque);
+        match self.nominal.stiffness {
+            Some(k) => torque.iter().map(|t| -(t - middle) / k).collect(),
+            None => {
+                let columns = [self.evidence.ones(), torque.as_slice()];
+                let a = amplitudes(&columns, &self.data.twist, &self.all());
+                torque.iter().map(|t| a[0] + a[1] * t).collect()
+            }
+        }
+    }
+
+    /// Probability that chance leaves what the saturated span still finds.
+    fn lack_of_fit(&self, set: &[usize]) -> f64 {
+        let nats = self.evidence.set(set, &self.atoms).map_or(0.0, |s| s.nats);
+        let excess = self.evidence.base - 2.0 * nats - self.noise.saturated;
+        let used: usize = 3 + set
+            .iter()
+            .map(|i| self.atoms[*i].columns.len())
+            .sum::<usize>();
+        let freedom = self.noise.dimension.saturating_sub(used).max(1) as f64;
+        ChiSquared::new(freedom).map_or(1.0, |d| d.sf(excess.max(0.0)))
+    }
+
+    fn table(&self) -> Vec<Candidate> {
+        let top = self.sets.first().map_or(0.0, |s| s.1.score);
+        let total: f64 = self.sets.iter().map(|s| (s.1.score - top).exp()).sum();
+        let site = self.record.site();
+        self.sets
+            .iter()
+            .take(4)
+            .map(|(kinds, set)| {
+                let names = kinds
+                    .iter()
+                    .map(|k| format!("{} {site}", named::spoken(*k)));
+                (names.collect(), (set.score - top).exp() / total, set.nats)
+            })
+            .collect()
+    }
 }

@@ -11,6 +11,7 @@ mod columns;
 mod delay;
 mod description;
 mod diagnosis;
+mod evidence;
 mod joint;
 mod named;
 mod next;

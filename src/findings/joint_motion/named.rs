@@ -1,16 +1,14 @@
 //! From the atoms of a set to causes with a name, a site, parameters and a gain.
 
 use super::case::Case;
-use super::columns::{Atom, Kind, base};
+use super::columns::Kind;
+use super::columns::Kind::Hysteresis;
 use super::delay::Delay;
-use super::next;
 use super::stiffness::Compliance;
-use super::unseen::{Split, held_out};
+use super::unseen::{Split, gain, held_out};
 use crate::findings::answer::{Cause, Group};
-use crate::findings::engine::Found;
-use crate::findings::engine::unseen::compare;
 use crate::findings::gain::Gain;
-use crate::inference::stats::Z95;
+use crate::fit::parameter::Z95;
 
 /// What is named of a joint.
 #[derive(Debug, Clone, Default)]
@@ -59,95 +57,51 @@ pub fn summary(effect: &str) -> &'static str {
     SUMMARIES.iter().find(|s| s.0 == effect).map_or("", |s| s.1)
 }
 
+/// The name of a kind where both signs of a rate are meant; silent kinds in words.
+pub fn spoken(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Rate => "rate",
+        Kind::Coulomb => "coulomb_friction",
+        Kind::Backlash => "backlash",
+        Kind::Hysteresis => "hysteresis",
+        Kind::Offset => "sensor_offset",
+        Kind::Ripple => "encoder_ripple",
+        Kind::Mesh => "(meshing)",
+        Kind::Position => "(slow over the angle)",
+    }
+}
+
 /// A declared delay counts as known to within this share of itself.
 const DECLARED: f64 = 0.25;
 /// What the torque must show of a friction at least, relative to what the twist asks for: its own
 /// error and this share of itself are forgiven.
 const FRICTION_SHARE: f64 = 0.3;
 
-/// Names everything that the engine chose for a joint.
+/// Names everything that was chosen for a joint.
 pub(super) fn name(
     case: &Case,
-    found: &Found,
-    chosen: &[Atom],
+    chosen: &[usize],
     delay: Option<Delay>,
     compliance: Option<Compliance>,
 ) -> Named {
     let mut named = Named::default();
-    for one in &found.answer.causes {
-        name_one(
-            case,
-            (one.effect, one.gain, one.probability),
-            (found, chosen),
-            delay,
-            compliance,
-            &mut named,
-        );
-    }
-    for group in &found.answer.groups {
-        name_group(case, group, (found, chosen), delay, compliance, &mut named);
+    for index in chosen.iter().filter(|i| !case.atoms[**i].kind.is_silent()) {
+        let gain = case.gain(chosen, *index);
+        match (case.atoms[*index].kind, delay) {
+            (Kind::Rate, Some(delay)) => name_rate(case, delay, compliance, gain, &mut named),
+            (kind, _) => name_other(case, chosen, *index, kind, compliance, gain, &mut named),
+        }
     }
     named.causes.extend(stiffness(case, chosen, compliance));
     named.causes.extend(zero(case));
     named
 }
 
-/// A group less its silent members; one that is left alone is a cause.
-fn name_group(
-    case: &Case,
-    group: &Group,
-    of: (&Found, &[Atom]),
-    delay: Option<Delay>,
-    compliance: Option<Compliance>,
-    named: &mut Named,
-) {
-    let is_spoken = |e: &&&'static str| Kind::named(e).is_some_and(|k| !k.is_silent());
-    let spoken: Vec<&'static str> = group.effects.iter().filter(is_spoken).copied().collect();
-    match spoken[..] {
-        [] => {}
-        [one] if one == group.effects[0] => {
-            name_one(case, (one, group.gain, 0.5), of, delay, compliance, named);
-        }
-        [_] => {}
-        _ => named.groups.push(Group {
-            effects: spoken
-                .iter()
-                .map(|e| if *e == "rate" { "time_skew" } else { e })
-                .collect(),
-            sites: vec![case.record.site(); spoken.len()],
-            ..group.clone()
-        }),
-    }
-}
-
-fn name_one(
-    case: &Case,
-    (effect, gain, probability): (&'static str, Gain, f64),
-    (found, chosen): (&Found, &[Atom]),
-    delay: Option<Delay>,
-    compliance: Option<Compliance>,
-    named: &mut Named,
-) {
-    let Some(at) = found.blamed.iter().position(|b| b.effect == effect) else {
-        return;
-    };
-    match (chosen[at].kind, delay) {
-        (kind, _) if kind.is_silent() => {}
-        (Kind::Rate, Some(delay)) => name_rate(case, delay, compliance, (gain, probability), named),
-        _ => {
-            let parameters = parameters(case, &chosen[at], &found.blamed[at].amounts, compliance);
-            named
-                .causes
-                .push(cause(case, effect, parameters, (gain, probability)));
-        }
-    }
-}
-
 fn name_rate(
     case: &Case,
     delay: Delay,
     compliance: Option<Compliance>,
-    (gain, probability): (Gain, f64),
+    gain: Gain,
     named: &mut Named,
 ) {
     let declared = case.record.delay.unwrap_or(0.0).abs();
@@ -159,7 +113,7 @@ fn name_rate(
         Some(c) => vec![("coefficient", delay.rate / c.value, "N·m·s/rad")],
         None => vec![("twist_per_speed", delay.rate, "s")],
     };
-    let one = |effect, parameters| cause(case, effect, parameters, (gain, probability));
+    let one = |effect, parameters| cause(case, effect, parameters, gain);
     let [shown, error] = delay.friction;
     let forgiven = (2.0 * error).max(FRICTION_SHARE * delay.rate);
     let is_friction = (shown - delay.rate).abs() < forgiven;
@@ -169,12 +123,9 @@ fn name_rate(
         (false, ..) | (true, false, true) => named.causes.push(one("time_skew", skew)),
         _ => {
             let effects = vec!["viscous_friction", "time_skew"];
-            named.groups.push(Group {
-                sites: vec![case.record.site(); effects.len()],
-                effects,
-                would_tell: next::would_tell(Kind::Rate, Kind::Rate).into(),
-                gain,
-            });
+            named
+                .groups
+                .push(case.group(effects, (Kind::Rate, Kind::Rate), gain));
         }
     }
 }
@@ -183,12 +134,12 @@ fn cause(
     case: &Case,
     effect: &'static str,
     parameters: Vec<(&'static str, f64, &'static str)>,
-    (gain, probability): (Gain, f64),
+    gain: Gain,
 ) -> Cause {
     Cause {
         effect,
         site: case.record.site(),
-        probability,
+        probability: gain.probability().min(0.999),
         summary: summary(effect),
         alternatives: Vec::new(),
         parameters,
@@ -196,13 +147,29 @@ fn cause(
     }
 }
 
-fn parameters(
+fn name_other(
     case: &Case,
-    atom: &Atom,
-    a: &[f64],
+    chosen: &[usize],
+    index: usize,
+    kind: Kind,
     compliance: Option<Compliance>,
-) -> Vec<(&'static str, f64, &'static str)> {
-    match atom.kind {
+    gain: Gain,
+    named: &mut Named,
+) {
+    let rivals = case.stand_ins(chosen, index);
+    let spoken_rivals = rivals.iter().filter(|r| !r.0.is_silent());
+    if let Some((rival, _)) = spoken_rivals.clone().next() {
+        let mut effects = vec![spoken(kind)];
+        effects.extend(spoken_rivals.map(|r| match r.0 {
+            Kind::Rate => "time_skew",
+            other => spoken(other),
+        }));
+        named.groups.push(case.group(effects, (kind, *rival), gain));
+        return;
+    }
+    let a = case.amplitudes_of(chosen, index);
+    let shape = case.atoms[index].shape;
+    let parameters = match kind {
         Kind::Backlash => vec![("gap", 2.0 * a[0], "rad")],
         Kind::Coulomb => match compliance {
             Some(c) => vec![("torque", a[0] / c.value, "N·m")],
@@ -210,20 +177,23 @@ fn parameters(
         },
         Kind::Ripple => vec![
             ("amplitude", a[0].hypot(a[1]), "rad"),
-            ("per_turn_of_the_link", atom.shape, "1"),
+            ("per_turn_of_the_link", shape, "1"),
         ],
         Kind::Offset => vec![
             ("jump", a[0], "rad"),
-            ("instant", case.data.time[atom.shape as usize], "s"),
+            ("instant", case.data.time[shape as usize], "s"),
         ],
         _ => vec![("width", 2.0 * a[0], "rad")],
-    }
+    };
+    named
+        .causes
+        .push(cause(case, spoken(kind), parameters, gain));
 }
 
 /// The stiffness, where the data fix it and it is not the one the simulation uses.
-fn stiffness(case: &Case, chosen: &[Atom], compliance: Option<Compliance>) -> Option<Cause> {
+fn stiffness(case: &Case, chosen: &[usize], compliance: Option<Compliance>) -> Option<Cause> {
     let (nominal, found) = (case.nominal.stiffness?, compliance?);
-    if chosen.iter().any(|a| a.kind == Kind::Hysteresis) {
+    if chosen.iter().any(|i| case.atoms[*i].kind == Hysteresis) {
         return None; // a loop has no one stiffness
     }
     let log = (1.0 / (found.value * nominal)).ln();
@@ -231,12 +201,7 @@ fn stiffness(case: &Case, chosen: &[Atom], compliance: Option<Compliance>) -> Op
     if log.abs() < Z95 * std {
         return None;
     }
-    let columns: Vec<Vec<f64>> = base(&case.data)
-        .into_iter()
-        .chain(chosen.iter().flat_map(|a| a.columns.clone()))
-        .collect();
-    let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-    let after = held_out(&columns, &case.data, Split::Long);
+    let after = held_out(&case.columns(chosen), &case.data, Split::Long);
     let excess = 1.0 / nominal - found.value;
     let middle = super::channels::mean(&case.data.torque);
     let before: Vec<f64> = after
@@ -244,13 +209,10 @@ fn stiffness(case: &Case, chosen: &[Atom], compliance: Option<Compliance>) -> Op
         .zip(&case.data.torque)
         .map(|(a, t)| a + excess * (t - middle))
         .collect();
-    let rows = case.data.rows();
-    let folds: Vec<usize> = (0..rows).map(|i| Split::Long.fold(i, rows)).collect();
-    let gain = compare(&before, &after, &folds);
+    let gain = gain(&before, &after, Split::Long);
     let k = 1.0 / found.value;
-    let sure = (gain, gain.probability().min(0.999));
     gain.is_real()
-        .then(|| cause(case, "stiffness", vec![("stiffness", k, "N·m/rad")], sure))
+        .then(|| cause(case, "stiffness", vec![("stiffness", k, "N·m/rad")], gain))
 }
 
 /// A constant difference of the encoders, where the file says how well their zeros agree.
@@ -264,7 +226,6 @@ fn zero(case: &Case) -> Option<Cause> {
     }
     let noise = case.noise.colour.rms;
     let gain = Gain::of(offset.hypot(noise), std.hypot(noise), std / offset.abs());
-    let sure = (gain, gain.probability().min(0.999));
     gain.is_real()
-        .then(|| cause(case, "sensor_offset", vec![("offset", offset, "rad")], sure))
+        .then(|| cause(case, "sensor_offset", vec![("offset", offset, "rad")], gain))
 }

@@ -1,12 +1,10 @@
 //! Noise first: what a generous span of everything cannot explain, and its colour.
 
-use super::channels::{Channels, range};
-use super::columns::{Atom, base};
-use crate::findings::engine;
+use super::channels::Channels;
+use super::columns::{Atom, base, range};
 use crate::signal::colour::Colour;
 use crate::signal::cosine::Cosine;
 use nalgebra::{DMatrix, DVector};
-use std::sync::Arc;
 
 /// Slow functions of time in the span.
 const SLOW: usize = 8;
@@ -17,6 +15,10 @@ const POWERS: i32 = 4;
 pub struct Noise {
     /// Its colour.
     pub colour: Colour,
+    /// Whitened sum of squares that the span leaves.
+    pub saturated: f64,
+    /// Dimension of the span.
+    pub dimension: usize,
     /// The planned transform.
     pub cosine: Cosine,
 }
@@ -39,7 +41,13 @@ impl Noise {
             let left: Vec<f64> = left.iter().zip(&colour.sigma).map(|(r, s)| r * s).collect();
             colour = floored(Colour::estimate(&left, &free));
         }
-        Self { colour, cosine }
+        let (basis, left) = project(&span, &reading, &colour);
+        Self {
+            colour,
+            saturated: left.norm_squared(),
+            dimension: basis.ncols(),
+            cosine,
+        }
     }
 
     /// A column in the domain where the noise is white.
@@ -47,41 +55,6 @@ impl Noise {
         let mut column = transformed(&self.cosine, column);
         self.colour.whiten(&mut column);
         DVector::from_vec(column)
-    }
-}
-
-/// The noise as the common engine takes it.
-pub struct Shared {
-    noise: Arc<Noise>,
-    spread: Vec<f64>,
-}
-
-impl Shared {
-    /// Of so many rows.
-    pub fn of(noise: &Arc<Noise>, rows: usize) -> Self {
-        Self {
-            noise: Arc::clone(noise),
-            spread: vec![noise.colour.rms.max(1e-12); rows],
-        }
-    }
-}
-
-impl engine::Noise for Shared {
-    fn whiten(&self, column: &[f64]) -> Vec<f64> {
-        self.noise.whiten(column).as_slice().to_vec()
-    }
-
-    fn spread(&self) -> &[f64] {
-        &self.spread
-    }
-
-    /// The span that it comes from is generous: what it leaves is noise, and known.
-    fn rows(&self) -> f64 {
-        f64::INFINITY
-    }
-
-    fn describe(&self) -> String {
-        self.noise.colour.describe()
     }
 }
 

@@ -3,8 +3,8 @@
 //! An encoder closes on itself: its errors repeat with whole turns of its own shaft, and are as large
 //! in slow as in fast motion. Meshing teeth make orders of their own, whose size changes with speed.
 
-use super::channels::{Channels, largest, range};
-use super::columns::{Atom, Kind, periodic};
+use super::channels::{Channels, largest};
+use super::columns::{Atom, Kind, periodic, range};
 use super::unseen::amplitudes;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
@@ -39,7 +39,7 @@ pub fn ripples(data: &Channels, residual: &[f64], ratio: Option<f64>) -> Vec<Ato
             }
             let order = refined(angle, residual, &rows, order);
             let own = whose(data, residual, angle, order, &rows, per_turn.or(ratio));
-            found.push(periodic(own, angle, order));
+            found.push(periodic(own, angle, order, BINS / 8));
         }
     }
     found
@@ -101,7 +101,7 @@ fn peaks(angle: &[f64], residual: &[f64], rows: &[usize]) -> Vec<f64> {
 /// The order near a peak that fits the rows best: rows dwell unevenly over the angle, and shift peaks.
 fn refined(angle: &[f64], residual: &[f64], rows: &[usize], order: f64) -> f64 {
     let misfit = |order: f64| {
-        let wave = periodic(Kind::Ripple, angle, order).columns;
+        let wave = periodic(Kind::Ripple, angle, order, 1).columns;
         let columns: Vec<&[f64]> = wave.iter().map(Vec::as_slice).collect();
         let a = amplitudes(&columns, residual, rows);
         let left = |i: &usize| (residual[*i] - a[0] * wave[0][*i] - a[1] * wave[1][*i]).powi(2);

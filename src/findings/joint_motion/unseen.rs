@@ -1,10 +1,13 @@
-//! Least squares on some rows, and errors on pieces of time that were not fitted.
+//! Errors on pieces of time that were not fitted, and what a cause gains there.
 
 use super::channels::Channels;
+use crate::findings::gain::Gain;
 use nalgebra::{DMatrix, DVector};
 
 /// Folds, each predicted from the others.
 const FOLDS: usize = 10;
+/// 97.5 % point of Student's t for nine degrees of freedom over that of the normal distribution.
+const FEW_FOLDS: f64 = 2.262 / crate::fit::parameter::Z95;
 
 /// Least squares of a reading on columns over some rows; columns of no size get no amplitude.
 pub fn amplitudes(columns: &[&[f64]], reading: &[f64], rows: &[usize]) -> Vec<f64> {
@@ -63,7 +66,7 @@ pub enum Split {
 
 impl Split {
     /// The fold of a row among `n`.
-    pub fn fold(self, row: usize, n: usize) -> usize {
+    fn fold(self, row: usize, n: usize) -> usize {
         let pieces = match self {
             Self::Long => FOLDS,
             Self::Short => 5 * FOLDS,
@@ -86,4 +89,28 @@ pub fn held_out(columns: &[&[f64]], data: &Channels, split: Split) -> Vec<f64> {
         }
     }
     error
+}
+
+/// Gain from errors before and after; its interval by leaving out each fold in turn (jackknife).
+pub fn gain(before: &[f64], after: &[f64], split: Split) -> Gain {
+    let n = before.len();
+    let sums = |errors: &[f64]| -> Vec<f64> {
+        let mut sums = vec![0.0; FOLDS];
+        for (i, e) in errors.iter().enumerate() {
+            sums[split.fold(i, n)] += e * e;
+        }
+        sums
+    };
+    let (b, a) = (sums(before), sums(after));
+    let total = |s: &[f64]| s.iter().sum::<f64>().max(f64::MIN_POSITIVE);
+    let log = |skip: usize| {
+        let less = |s: &[f64]| (total(s) - s[skip]).max(f64::MIN_POSITIVE);
+        0.5 * (less(&b) / less(&a)).ln()
+    };
+    let parts: Vec<f64> = (0..FOLDS).map(log).collect();
+    let middle = super::channels::mean(&parts);
+    let spread: f64 = parts.iter().map(|g| (g - middle) * (g - middle)).sum();
+    let variance = spread * (FOLDS - 1) as f64 / FOLDS as f64;
+    let root = |s: &[f64]| (total(s) / n as f64).sqrt();
+    Gain::of(root(&b), root(&a), FEW_FOLDS * variance.sqrt())
 }
