@@ -1,17 +1,17 @@
 //! A milling-force file as its diagnosis sees it.
 
+use super::aim::Aim;
 use super::lines::{Line, lines};
-use super::setting::{PROCESS, Places, Present, Slopes};
+use super::setting::{Places, Present, Slopes};
 use super::start::fitted;
 use crate::cutting::LINEAR_EDGE;
 use crate::experiments::milling_force::{PHASE, RUNOUT, SPEED};
-use crate::findings::engine::Blamed;
 use crate::fit::cut_force::{Account, CutFit};
 use crate::ground::spatial::V3;
 use crate::inference::stats::median;
 use crate::measurement::milling_force::{Facts, MillingForce};
 use rayon::prelude::*;
-use std::sync::Arc;
+use std::sync::OnceLock;
 
 /// Samples of all cuts that are compared at most: more cost time and tell little.
 const MOST_SAMPLES: usize = 4000;
@@ -47,14 +47,12 @@ struct Data {
 }
 
 /// A file with the simulation that it is compared with: rows are samples by axes x, y, z.
-#[derive(Clone)]
 pub struct Case {
-    data: Arc<Data>,
+    data: Data,
     /// By how much the simulation differs from what is stated; see [`Places`].
     pub(super) offset: Vec<f64>,
-    /// Resonance (Hz) about which others are tried.
-    pub(super) resonance: Option<[f64; 2]>,
-    slopes: Arc<Vec<Slopes>>,
+    slopes: Vec<Slopes>,
+    aim: OnceLock<Aim>,
 }
 
 impl Case {
@@ -82,47 +80,20 @@ impl Case {
             nominal,
         };
         let mut case = Self {
-            data: Arc::new(data),
+            data,
             offset,
-            resonance: None,
-            slopes: Arc::new(Vec::new()),
+            slopes: Vec::new(),
+            aim: OnceLock::new(),
         };
         case.simulate();
         case
-    }
-
-    /// The same file simulated with these causes.
-    pub(super) fn about(&self, blamed: &[Blamed]) -> Self {
-        let mut moved = self.clone();
-        let n = self.places().len();
-        for cause in blamed {
-            if cause.effect == super::sensor_resonance::EFFECT.name {
-                moved.resonance = Some([cause.shape[2], cause.shape[3]]);
-            }
-            if cause.shape.first() != Some(&PROCESS) {
-                continue;
-            }
-            for (direction, amount) in cause.shape[1..].chunks(n).zip(&cause.amounts) {
-                let each = moved.offset.iter_mut().zip(direction);
-                each.for_each(|(o, d)| *o += d * amount);
-            }
-        }
-        // the speed of the scene is that of the record, whoever is to blame for it
-        for cut in 0..self.cuts().len() {
-            let place = self.places().speed(cut);
-            moved.offset[place] = self.offset[place];
-        }
-        if moved.offset != self.offset {
-            moved.simulate();
-        }
-        moved
     }
 
     fn simulate(&mut self) {
         let (places, cuts) = (self.places(), self.cuts());
         let one = |i: usize| cuts[i].present.slopes(places, i, &self.offset);
         let all: Vec<Slopes> = (0..cuts.len()).into_par_iter().map(one).collect();
-        self.slopes = Arc::new(all);
+        self.slopes = all;
     }
 
     /// The file.
@@ -170,7 +141,11 @@ impl Case {
 
     /// Sign that turns forces on the tool into those of the file.
     pub(super) fn sign(&self) -> f64 {
-        if self.data.file.facts.on_tool { 1.0 } else { -1.0 }
+        if self.data.file.facts.on_tool {
+            1.0
+        } else {
+            -1.0
+        }
     }
 
     /// A column from cut, sample and axis.
@@ -190,7 +165,13 @@ impl Case {
 
     /// Slope over the angle of tooth 1 of one cut.
     pub(super) fn phase(&self, own: usize) -> Vec<f64> {
-        self.column(|c, i, k| if c == own { self.slopes[c].phase[i][k] } else { 0.0 })
+        self.column(|c, i, k| {
+            if c == own {
+                self.slopes[c].phase[i][k]
+            } else {
+                0.0
+            }
+        })
     }
 
     /// What a step along a direction of the vector adds.
@@ -209,11 +190,34 @@ impl Case {
         })
     }
 
+    /// What a cause must be compared with beside what is merely uncertain.
+    pub(super) fn aim(&self) -> &Aim {
+        self.aim.get_or_init(|| Aim::new(self, &self.nuisances()))
+    }
+
+    /// What an amount along a direction of the vector adds, over that amount.
+    pub(super) fn way(&self, direction: &[f64], amount: f64) -> Vec<f64> {
+        let (places, cuts) = (self.places(), self.cuts());
+        let each = self.offset.iter().zip(direction);
+        let there: Vec<f64> = each.map(|(o, d)| o + d * amount).collect();
+        let acts = |c: usize| places.of_cut(c).any(|place| direction[place] != 0.0);
+        let one = |c: usize| {
+            acts(c).then(|| {
+                let (scene, p) = cuts[c].present.moved(places, c, &there);
+                scene.predict(&p).force
+            })
+        };
+        let moved: Vec<Option<Vec<V3>>> = (0..cuts.len()).into_par_iter().map(one).collect();
+        self.column(|c, i, k| match &moved[c] {
+            Some(force) => (force[i][k] - self.simulated(c, i)[k]) / amount,
+            None => 0.0,
+        })
+    }
+
     /// Measured less simulated where the vector is zero, as the slopes here have it.
     pub(super) fn reading(&self) -> Vec<f64> {
         let back = self.along(&self.offset);
-        let left =
-            self.column(|c, i, k| self.cuts()[c].measured[i][k] - self.simulated(c, i)[k]);
+        let left = self.column(|c, i, k| self.cuts()[c].measured[i][k] - self.simulated(c, i)[k]);
         left.iter().zip(back).map(|(l, b)| l + b).collect()
     }
 
@@ -235,7 +239,10 @@ fn nominal(facts: &Facts, account: &Account) -> [f64; 6] {
     let card = LINEAR_EDGE.card();
     std::array::from_fn(|j| {
         let coefficient = &card.coefficients[j];
-        let own = stated.coefficients.iter().find(|(key, _)| key == coefficient.key);
+        let own = stated
+            .coefficients
+            .iter()
+            .find(|(key, _)| key == coefficient.key);
         own.map_or(0.0, |(_, value)| value * coefficient.factor)
     })
 }
@@ -258,7 +265,9 @@ fn samples(
         let mut p = fit.p;
         p[..6].copy_from_slice(nominal);
         p[SPEED] = 0.0;
-        let size = fit.p[RUNOUT].hypot(fit.p[RUNOUT + 1]).max(f64::MIN_POSITIVE);
+        let size = fit.p[RUNOUT]
+            .hypot(fit.p[RUNOUT + 1])
+            .max(f64::MIN_POSITIVE);
         for k in 0..2 {
             p[RUNOUT + k] *= file.facts.runout_m.unwrap_or(0.0) / size;
         }
@@ -270,7 +279,10 @@ fn samples(
         let record = &file.records[i];
         let cut = CutSamples {
             measured: used.iter().map(|at| data.force[*at]).collect(),
-            time: used.iter().map(|at| record.time[data.settling + at]).collect(),
+            time: used
+                .iter()
+                .map(|at| record.time[data.settling + at])
+                .collect(),
             present: Present {
                 scene,
                 p,

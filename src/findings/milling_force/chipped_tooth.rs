@@ -1,7 +1,7 @@
 //! One tooth is shorter than the others along its edge: it takes less, the next one more.
 
 use super::Case;
-use super::coefficients::{member, moved};
+use super::coefficients::{far, moved};
 use crate::findings::table::{Effect, Place};
 
 pub(super) const EFFECT: Effect<Case> = Effect {
@@ -16,7 +16,7 @@ pub(super) const EFFECT: Effect<Case> = Effect {
         let one = |tooth: usize| {
             let mut direction = vec![0.0; case.places().len()];
             direction[case.places().shorter(tooth)] = 1e-6;
-            member(case, &[direction]).positive()
+            far(case, &direction, MOST).positive()
         };
         vec![Place::new("tool", (0..teeth).map(one).collect())]
     },
@@ -30,3 +30,6 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     },
     would_tell: "look at the teeth, and put a dial gauge on the shank",
 };
+
+/// No chip is longer, µm.
+const MOST: f64 = 200.0;

@@ -38,7 +38,9 @@ fn places(case: &Case, first: usize) -> Vec<Place> {
         direction
     };
     // a coefficient that is stated as zero is counted in the size of its kind
-    let size = nominal[own.clone()].iter().fold(1.0, |a: f64, b| a.max(b.abs()));
+    let size = nominal[own.clone()]
+        .iter()
+        .fold(1.0, |a: f64, b| a.max(b.abs()));
     let single = |j: usize| direction(&|i| if i == j { size } else { 0.0 });
     let mut members = vec![member(case, &[direction(&|j| nominal[j])])];
     members.extend(own.clone().map(|j| member(case, &[single(j)])));
@@ -57,6 +59,15 @@ pub(super) fn member(case: &Case, directions: &[Vec<f64>]) -> Member {
             .chain(directions.iter().flatten().copied())
             .collect(),
     }
+}
+
+/// A cause of the process along one direction that is not linear: the way to where it fits best.
+pub(super) fn far(case: &Case, direction: &[f64], most: f64) -> Member {
+    let shape: Vec<f64> = [PROCESS]
+        .into_iter()
+        .chain(direction.iter().copied())
+        .collect();
+    Member::free(case.aim().secant(case, direction, most)).shaped(&shape)
 }
 
 /// What a cause makes of the vector.

@@ -2,7 +2,7 @@
 //! length (a datum), in proportion, or in one cut alone.
 
 use super::Case;
-use super::coefficients::{member, moved};
+use super::coefficients::{far, moved};
 use super::setting::Places;
 use crate::cutting::wave::Side;
 use crate::findings::engine::{Blamed, Member};
@@ -35,14 +35,12 @@ pub(super) const DEPTH: Effect<Case> = Effect {
     would_tell: "measure the depth of the slot",
 };
 
+/// No cut is farther from what is stated, m.
+const MOST: f64 = 3e-3;
+
 type PlaceOf = fn(&Places, usize) -> usize;
 
-fn place(
-    case: &Case,
-    cuts: &[usize],
-    of: PlaceOf,
-    stated: &dyn Fn(usize) -> f64,
-) -> Vec<Place> {
+fn place(case: &Case, cuts: &[usize], of: PlaceOf, stated: &dyn Fn(usize) -> f64) -> Vec<Place> {
     vec![Place::new("tool", members(case, cuts, of, stated))]
 }
 
@@ -56,8 +54,10 @@ pub(super) fn members(
     let places = case.places();
     let along = |of_cut: &dyn Fn(usize) -> f64| {
         let mut direction = vec![0.0; places.len()];
-        cuts.iter().for_each(|c| direction[of(&places, *c)] = of_cut(*c));
-        member(case, &[direction])
+        cuts.iter()
+            .for_each(|c| direction[of(&places, *c)] = of_cut(*c));
+        let largest = direction.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+        far(case, &direction, MOST / largest)
     };
     let single = |own: &usize| along(&|c| if c == *own { 1e-3 } else { 0.0 });
     match cuts {

@@ -24,12 +24,8 @@ impl Experiment for Case {
         "N"
     }
 
-    fn is_linear(&self) -> bool {
-        false
-    }
-
-    fn state(&self, about: &[Blamed]) -> Statement {
-        let case = self.about(about);
+    fn state(&self, _: &[Blamed]) -> Statement {
+        let case = self;
         Statement {
             reading: case.reading(),
             noise: Box::new(White {
@@ -37,7 +33,7 @@ impl Experiment for Case {
                 rows: case.worth(),
             }),
             nuisances: case.nuisances(),
-            suspects: table::suspects(EFFECTS, &case),
+            suspects: table::suspects(EFFECTS, case),
             span: case.span(),
             splits: case.splits(),
         }
@@ -70,7 +66,8 @@ impl Experiment for Case {
             let angles = cut.present.scene.angles(&cut.present.p);
             for (i, angle) in angles.iter().enumerate() {
                 let row = 3 * (cut.first + i);
-                let size = (left[row].powi(2) + left[row + 1].powi(2) + left[row + 2].powi(2)).sqrt();
+                let size =
+                    (left[row].powi(2) + left[row + 1].powi(2) + left[row + 2].powi(2)).sqrt();
                 let place = (angle.rem_euclid(TAU) / TAU * PLACES as f64) as usize % PLACES;
                 sums[place].0 += size;
                 sums[place].1 += 1.0;
@@ -92,7 +89,7 @@ impl Experiment for Case {
 
 impl Case {
     /// The angle of tooth 1 of every cut, and what is stated only so well.
-    fn nuisances(&self) -> Vec<Nuisance> {
+    pub(super) fn nuisances(&self) -> Vec<Nuisance> {
         let places = self.places();
         let along = |place: usize, spread: f64| {
             let mut direction = vec![0.0; places.len()];
@@ -143,10 +140,12 @@ impl Case {
                 for order in 1..=ORDERS {
                     for quarter in [0.0, 0.25] {
                         let turn = |c: usize, i: usize| order as f64 * angles[c][i] - TAU * quarter;
-                        span.push(self.column(|c, i, k| match k == axis && c % apart == group {
-                            true => turn(c, i).cos() / (order as f64).sqrt(),
-                            false => 0.0,
-                        }));
+                        span.push(
+                            self.column(|c, i, k| match k == axis && c % apart == group {
+                                true => turn(c, i).cos() / (order as f64).sqrt(),
+                                false => 0.0,
+                            }),
+                        );
                     }
                 }
             }
@@ -182,4 +181,3 @@ impl Case {
         }
     }
 }
-

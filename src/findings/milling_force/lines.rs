@@ -30,7 +30,8 @@ const FINER: usize = 4;
 /// The lines of all cuts, by cut, the highest first.
 pub fn lines(account: &Account, cuts: &[CutSamples]) -> Vec<Line> {
     let each = account.cuts.iter().zip(cuts).enumerate();
-    each.flat_map(|(i, (fit, cut))| of_cut(i, fit, cut)).collect()
+    each.flat_map(|(i, (fit, cut))| of_cut(i, fit, cut))
+        .collect()
 }
 
 fn of_cut(number: usize, fit: &CutFit, cut: &CutSamples) -> Vec<Line> {

@@ -1,5 +1,6 @@
 //! What is wrong with a cut, its tool or the dynamometer: wave forms of force less the simulation.
 
+mod aim;
 mod case;
 mod chatter;
 mod chipped_tooth;

@@ -54,7 +54,10 @@ impl Revolution {
             plan.process(&mut own);
             own.iter().map(|c| c.re / GRID as f64).collect()
         });
-        self.angles.iter().map(|angle| read(&around, *angle)).collect()
+        self.angles
+            .iter()
+            .map(|angle| read(&around, *angle))
+            .collect()
     }
 
     fn added(&self, i: usize, hz: f64, damping: f64) -> Complex64 {

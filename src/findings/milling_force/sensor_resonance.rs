@@ -36,36 +36,70 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 const STEPS: usize = 24;
 /// Damping ratios there.
 const DAMPING: [f64; 2] = [0.02, 0.08];
-/// Steps of the frequency about the one that was found, up and down.
-const CLOSER: [f64; 7] = [0.92, 0.96, 0.985, 1.0, 1.015, 1.04, 1.08];
-/// Factors of the damping ratio there.
-const SOFTER: [f64; 3] = [0.6, 1.0, 1.6];
+/// Shares by which it is brought closer, one after the other.
+const CLOSER: [f64; 5] = [0.06, 0.03, 0.015, 0.006, 0.003];
+/// Steps of the frequency, in these shares.
+const STEPS_ABOUT: [f64; 5] = [-2.0, -1.0, 0.0, 1.0, 2.0];
+/// Steps of the damping ratio, in these shares.
+const SOFTER: [f64; 3] = [-10.0, 0.0, 12.0];
 /// All axes.
 const ALL: usize = 3;
 
+/// The best of the grid for every axis and for all, brought closer.
 fn members(case: &Case, revolutions: &[Revolution]) -> Vec<Member> {
+    let grid = grid(case);
+    let best = |axis: usize, tried: &[[f64; 2]]| {
+        let each = tried
+            .iter()
+            .map(|at| (*at, fitness(case, revolutions, axis, *at)));
+        each.reduce(|a, b| if b.1 > a.1 { b } else { a })
+    };
     let mut members = Vec::new();
-    for at in grid(case) {
-        let rung: Vec<_> = revolutions.iter().map(|r| r.rung(at)).collect();
-        for axis in 0..=ALL {
-            let column = case.column(|c, i, k| match axis == ALL || axis == k {
-                true => rung[c][i][k],
-                false => 0.0,
+    for axis in 0..=ALL {
+        let Some(mut found) = best(axis, &grid) else {
+            continue;
+        };
+        for width in CLOSER {
+            let about = STEPS_ABOUT.iter().flat_map(|f| {
+                SOFTER.map(|d| {
+                    [
+                        found.0[0] * (1.0 + width * f),
+                        found.0[1] * (1.0 + d * width).max(0.2),
+                    ]
+                })
             });
-            if column.iter().any(|x| *x != 0.0) {
-                let shape = [SENSOR, axis as f64, at[0], at[1]];
-                members.push(Member::free(column).positive().shaped(&shape));
-            }
+            let about: Vec<[f64; 2]> = about.map(|[hz, d]| [hz, d.clamp(0.002, 0.7)]).collect();
+            found = best(axis, &about)
+                .filter(|b| b.1 > found.1)
+                .unwrap_or(found);
+        }
+        let shape = [SENSOR, axis as f64, found.0[0], found.0[1]];
+        let column = column(case, revolutions, axis, found.0);
+        if column.iter().any(|x| *x != 0.0) {
+            members.push(Member::free(column).positive().shaped(&shape));
         }
     }
     members
 }
 
-fn grid(case: &Case) -> Vec<[f64; 2]> {
-    if let Some([hz, damping]) = case.resonance {
-        let each = CLOSER.iter().flat_map(|f| SOFTER.iter().map(move |d| (f, d)));
-        return each.map(|(f, d)| [hz * f, (damping * d).min(0.7)]).collect();
+fn column(case: &Case, revolutions: &[Revolution], axis: usize, at: [f64; 2]) -> Vec<f64> {
+    let rung: Vec<_> = revolutions.iter().map(|r| r.rung(at)).collect();
+    case.column(|c, i, k| match axis == ALL || axis == k {
+        true => rung[c][i][k],
+        false => 0.0,
+    })
+}
+
+/// How much a resonance explains, where it magnifies.
+fn fitness(case: &Case, revolutions: &[Revolution], axis: usize, at: [f64; 2]) -> f64 {
+    let column = column(case, revolutions, axis, at);
+    match case.aim().amounts(std::slice::from_ref(&column))[0] > 0.0 {
+        true => case.aim().gain(&column),
+        false => 0.0,
     }
+}
+
+fn grid(case: &Case) -> Vec<[f64; 2]> {
     let [low, high] = range(case);
     let hz = |i: usize| low * (high / low).powf(i as f64 / (STEPS - 1) as f64);
     (0..STEPS)
@@ -75,9 +109,15 @@ fn grid(case: &Case) -> Vec<[f64; 2]> {
 
 /// From the slowest spindle to what the samples can show, Hz.
 fn range(case: &Case) -> [f64; 2] {
-    let spindles = case.cuts().iter().map(|c| c.present.scene.cut.spindle_rad_s / TAU);
+    let spindles = case
+        .cuts()
+        .iter()
+        .map(|c| c.present.scene.cut.spindle_rad_s / TAU);
     let low = spindles.fold(f64::INFINITY, f64::min);
-    let steps = case.cuts().iter().flat_map(|c| c.time.windows(2).map(|w| w[1] - w[0]));
+    let steps = case
+        .cuts()
+        .iter()
+        .flat_map(|c| c.time.windows(2).map(|w| w[1] - w[0]));
     let shortest = steps.fold(f64::INFINITY, f64::min).max(1e-9);
     [1.5 * low, (0.5 / shortest).clamp(3.0 * low, 200.0 * low)]
 }

@@ -81,7 +81,9 @@ impl Present {
     pub fn moved(&self, places: Places, cut: usize, offset: &[f64]) -> (CutScene, [f64; UNKNOWNS]) {
         let (mut scene, mut p) = (self.scene.clone(), self.p);
         (0..8.min(RUNOUT + 2)).for_each(|i| p[i] += offset[i]);
-        scene.shorter = (0..places.teeth).map(|j| offset[places.shorter(j)]).collect();
+        scene.shorter = (0..places.teeth)
+            .map(|j| offset[places.shorter(j)])
+            .collect();
         let most = 2.0 * scene.tool.radius_m;
         p[WIDTH] = (p[WIDTH] + offset[places.width(cut)]).clamp(1e-6, most);
         scene.cut.depth_m = (scene.cut.depth_m + offset[places.depth(cut)]).max(1e-6);
@@ -110,7 +112,12 @@ impl Present {
         });
         slopes.push(stepped(places.depth(cut), STEPS[2]));
         let stated = 1.0 + self.speed;
-        slopes.push(at.slopes[SPEED].iter().map(|v| v.map(|x| x / stated)).collect());
+        slopes.push(
+            at.slopes[SPEED]
+                .iter()
+                .map(|v| v.map(|x| x / stated))
+                .collect(),
+        );
         Slopes {
             phase: at.slopes[PHASE].clone(),
             force: at.force,

@@ -1,7 +1,8 @@
 //! The spindle turns faster or slower than stated: in all cuts, or in one.
 
 use super::Case;
-use super::engagement::{errors, members};
+use super::coefficients::member;
+use super::engagement::errors;
 use super::setting::Places;
 use crate::findings::table::{Effect, Place};
 
@@ -10,9 +11,17 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     summary: "The spindle turns at another speed than stated.",
     mechanism: "speed",
     places: |case| {
-        let cuts: Vec<usize> = (0..case.cuts().len()).collect();
-        // the same share in all cuts is the one law of a common cause
-        vec![Place::new("spindle", members(case, &cuts, Places::speed, &|_| 1.0))]
+        let places = case.places();
+        let of = |cuts: std::ops::Range<usize>| {
+            let mut direction = vec![0.0; places.len()];
+            cuts.for_each(|c| direction[places.speed(c)] = 1e-3);
+            member(case, &[direction])
+        };
+        let single = (0..places.cuts)
+            .filter(|_| places.cuts > 1)
+            .map(|c| of(c..c + 1));
+        let members = std::iter::once(of(0..places.cuts)).chain(single).collect();
+        vec![Place::new("spindle", members)]
     },
     parameters: |case, blamed| {
         errors(case, blamed, Places::speed)

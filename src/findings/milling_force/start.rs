@@ -36,7 +36,9 @@ fn speed_error(record: &Record, stated: f64, teeth: usize) -> f64 {
     let step = (0.8 / radians.max(1.0)).min(0.01);
     let steps = (FARTHEST / step) as i64;
     let height = |error: f64| height(record, count, stated * (1.0 + error) * teeth as f64);
-    let all = (-steps..=steps).map(|i| i as f64 * step).map(|e| (e, height(e)));
+    let all = (-steps..=steps)
+        .map(|i| i as f64 * step)
+        .map(|e| (e, height(e)));
     let Some(best) = all.reduce(|a, b| if b.1 > a.1 { b } else { a }) else {
         return 0.0;
     };
