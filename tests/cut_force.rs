@@ -57,6 +57,7 @@ fn case(seed: u64, recording: &Recording) -> Case {
         helix: [0.0, 0.35, 0.5235987755982988, 0.7][random.below(4)],
         runout: random.uniform(3e-6, 12e-6),
         runout_angle: random.uniform(-3.0, 3.0),
+        chip: 0.0,
     };
     let truth = MATERIALS[random.below(4)];
     let passes = passes(&mut random, 16.0);
@@ -170,6 +171,7 @@ fn one_tooth_shows_no_runout() {
         helix: 0.5,
         runout: 8e-6,
         runout_angle: 1.0,
+        chip: 0.0,
     };
     let passes = passes(&mut random, 10.0);
     let recording = recording(Some(2000.0), 1.0, 0.0);

@@ -31,6 +31,7 @@ fn campaign(folder: &Path) -> PathBuf {
         helix: 0.5235987755982988,
         runout: 8e-6,
         runout_angle: 0.6,
+        chip: 0.0,
     };
     let pass = |feed: f64, depth: f64, width: f64, side: &'static str| Pass {
         rpm: 8000.0,

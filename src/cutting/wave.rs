@@ -95,6 +95,17 @@ impl<'a, S: Scalar> Wave<'a, S> {
         }
     }
 
+    /// The same with teeth shorter by these lengths (m; none given: unchanged) along their whole edge.
+    #[must_use]
+    pub fn shorter(mut self, by: &[f64]) -> Self {
+        for radii in &mut self.radii {
+            for (radius, by) in radii.iter_mut().zip(by) {
+                *radius += S::constant(-by);
+            }
+        }
+        self
+    }
+
     /// The sums when tooth 1 stands at `spindle` (rad) at the tip. `blur` (rad) is the least angle over
     /// which an entry or exit is spread: the distance of the samples if the wave is to be filtered.
     pub fn basis(&self, spindle: S, blur: f64) -> Basis<S> {

@@ -41,6 +41,8 @@ pub struct CutScene {
     pub time: Vec<f64>,
     /// Whether a low pass stands between the force and the file.
     pub low_pass: bool,
+    /// By how much each tooth is shorter than the others, m; empty: none is.
+    pub shorter: Vec<f64>,
 }
 
 /// Forces at the samples, N, and their slopes over the [`UNKNOWNS`].
@@ -91,7 +93,7 @@ impl CutScene {
 
     fn wave(&self, p: &[f64; UNKNOWNS]) -> Wave<'_, D> {
         let runout = [0, 1].map(|k| D::variable(p[RUNOUT + k], k));
-        Wave::new(&self.tool, &self.cut, runout, D::variable(p[WIDTH], 2))
+        Wave::new(&self.tool, &self.cut, runout, D::variable(p[WIDTH], 2)).shorter(&self.shorter)
     }
 
     fn ideal(&self, p: &[f64; UNKNOWNS]) -> Predicted {
@@ -273,6 +275,7 @@ mod tests {
             cut,
             time: (0..400).map(|i| 5.3e-5 * f64::from(i)).collect(),
             low_pass,
+            shorter: Vec::new(),
         };
         let k = [800e6, 300e6, 100e6, 20e3, 25e3, 3e3];
         let mut p = [0.0; UNKNOWNS];

@@ -13,6 +13,7 @@ pub mod joint;
 pub mod joint_motion;
 pub mod kinds;
 pub mod load_cycle;
+pub mod milling_force;
 pub mod next_setups;
 pub mod screw;
 pub mod sentence;

@@ -13,6 +13,8 @@ pub struct Cutter {
     pub helix: f64,
     pub runout: f64,
     pub runout_angle: f64,
+    /// By how much tooth 1 is shorter, m.
+    pub chip: f64,
 }
 
 /// A cut: rev/min, mm/min, mm, mm, side.
@@ -66,7 +68,8 @@ fn lag(cutter: &Cutter, z: f64) -> f64 {
 
 fn real_radius(cutter: &Cutter, tooth: usize, z: f64) -> f64 {
     let own = TAU * tooth as f64 / cutter.teeth as f64 - lag(cutter, z);
-    cutter.radius + cutter.runout * (cutter.runout_angle - own).cos()
+    let chip = if tooth == 0 { cutter.chip } else { 0.0 };
+    cutter.radius + cutter.runout * (cutter.runout_angle - own).cos() - chip
 }
 
 fn edge(

@@ -72,6 +72,7 @@ fn one(file: &MillingForce, place: [usize; 2], record: &Record) -> CutData {
                 .map(|t| t - first)
                 .collect(),
             low_pass: bandwidth.is_some(),
+            shorter: Vec::new(),
         },
         force: record.force[settled..last].to_vec(),
         settling: settled,

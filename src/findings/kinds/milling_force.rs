@@ -1,0 +1,116 @@
+//! Diagnosed cuts: their figures.
+
+use super::{Diagnosed, Measured, Source, examined};
+use crate::findings::engine::Found;
+use crate::findings::milling_force::{Case, CutSamples};
+use crate::ground::problem::Outcome;
+use crate::measurement::milling_force::MillingForce;
+use crate::sheet::chart::{Axis, Chart, Panel, Series};
+use std::f64::consts::TAU;
+use std::path::Path;
+
+/// Places of a revolution that are drawn.
+const PLACES: usize = 120;
+/// Cuts that are drawn.
+const DRAWN: usize = 4;
+/// Points over time that are drawn.
+const POINTS: usize = 600;
+
+/// Diagnoses a file of this kind.
+///
+/// # Errors
+/// The file is no record of milling forces.
+pub fn diagnosed(path: &Path) -> Outcome<Box<dyn Diagnosed>> {
+    Ok(examined(Case::new(MillingForce::read(path)?)))
+}
+
+impl Measured for Case {
+    fn source(&self) -> Source<'_> {
+        Source {
+            path: &self.file().path,
+            sha256: &self.file().sha256,
+            synthetic: self.file().facts.synthetic,
+        }
+    }
+
+    fn about(&self) -> String {
+        match self.cuts().len() {
+            1 => "the forces of a cut".into(),
+            n => format!("the forces of {n} cuts"),
+        }
+    }
+
+    fn before_and_after(&self, found: &Found) -> Vec<Chart> {
+        let drawn = self.cuts().iter().enumerate().take(DRAWN);
+        drawn.map(|(i, cut)| self.wave(i, cut, found)).collect()
+    }
+
+    fn remaining_figures(&self, found: &Found) -> Vec<Chart> {
+        let mut panel = Panel::new(Axis::new("Time", "s"), Axis::new("Left", "N"));
+        for (k, name) in ["Fx", "Fy", "Fz"].iter().enumerate() {
+            let all = self.cuts().iter().flat_map(|cut| {
+                let rows = 0..cut.time.len();
+                rows.map(|i| [cut.time[i], found.left[3 * (cut.first + i) + k]])
+            });
+            let all: Vec<[f64; 2]> = all.collect();
+            let every = all.len().div_ceil(POINTS).max(1);
+            let points = all.into_iter().step_by(every).collect();
+            panel = panel.with(Series::points(*name, points));
+        }
+        vec![
+            Chart::new(
+                format!("{}-left", self.file().stem()),
+                "What is left over time",
+                "Measured force on the tool less the simulation with the named causes. A slope is a drift; what differs from cut to cut is a fact of the cut.",
+            )
+            .with(panel)
+            .synthetic(self.file().facts.synthetic),
+        ]
+    }
+
+    fn remarks(&self, _: &Found) -> Vec<String> {
+        let mut remarks = Vec::new();
+        if self.file().facts.nominal.is_none() {
+            remarks.push("No `nominal` coefficients are stated: those of a fit stand in, and coefficients cannot be blamed.".into());
+        }
+        remarks
+    }
+}
+
+impl Case {
+    /// One cut over the turn of the spindle: measured, simulated, simulated with the named causes.
+    fn wave(&self, number: usize, cut: &CutSamples, found: &Found) -> Chart {
+        let mut chart = Chart::new(
+            format!("{}-cut-{}", self.file().stem(), number + 1),
+            format!("Force on the tool in cut {}", number + 1),
+            "Means over the turn of the spindle: measured, simulated as stated, and simulated with the named causes.",
+        )
+        .synthetic(self.file().facts.synthetic);
+        for (k, name) in ["Fx", "Fy", "Fz"].iter().enumerate() {
+            let row = |i: usize| 3 * (cut.first + i) + k;
+            let measured = |i: usize| cut.measured[i][k];
+            let before = self.folded(cut, &|i| measured(i) - found.missed[row(i)]);
+            let after = self.folded(cut, &|i| measured(i) - found.left[row(i)]);
+            let panel = Panel::new(Axis::new("Tooth 1 at", "°"), Axis::new(*name, "N"))
+                .with(Series::points("measured", self.folded(cut, &measured)))
+                .with(Series::line("as stated", before))
+                .with(Series::line("with the named causes", after));
+            chart = chart.with(panel);
+        }
+        chart
+    }
+
+    /// Means over the angle of tooth 1, degrees.
+    fn folded(&self, cut: &CutSamples, of: &dyn Fn(usize) -> f64) -> Vec<[f64; 2]> {
+        let mut sums = vec![(0.0, 0.0); PLACES];
+        let angles = cut.present.scene.angles(&cut.present.p);
+        for (i, angle) in angles.iter().enumerate() {
+            let place = (angle.rem_euclid(TAU) / TAU * PLACES as f64) as usize % PLACES;
+            sums[place].0 += of(i);
+            sums[place].1 += 1.0;
+        }
+        let seen = sums.iter().enumerate().filter(|(_, s)| s.1 > 0.0);
+        seen.map(|(i, s)| [(i as f64 + 0.5) * 360.0 / PLACES as f64, s.0 / s.1])
+            .collect()
+    }
+}

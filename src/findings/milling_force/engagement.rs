@@ -1,0 +1,105 @@
+//! The tool meets more or less of the stock than stated: across, or along its axis. In all cuts by the same
+//! length (a datum), in proportion, or in one cut alone.
+
+use super::Case;
+use super::coefficients::{far, moved};
+use super::setting::Places;
+use crate::cutting::wave::Side;
+use crate::findings::engine::{Blamed, Member};
+use crate::findings::table::{Effect, Place};
+
+pub(super) const WIDTH: Effect<Case> = Effect {
+    name: "width_of_cut",
+    summary: "The cut is wider or narrower than stated.",
+    mechanism: "width",
+    places: |case| {
+        let is_slot = |c: usize| case.cuts()[c].present.scene.cut.side == Side::Slot;
+        let cuts: Vec<usize> = (0..case.cuts().len()).filter(|c| !is_slot(*c)).collect();
+        let stated = |c: usize| case.cuts()[c].present.scene.cut.width_m;
+        place(case, &cuts, Places::width, &stated)
+    },
+    parameters: |case, blamed| told(case, blamed, Places::width, "width_error"),
+    would_tell: "measure the stock before and after the cut",
+};
+
+pub(super) const DEPTH: Effect<Case> = Effect {
+    name: "depth_of_cut",
+    summary: "The cut is deeper or shallower than stated.",
+    mechanism: "depth",
+    places: |case| {
+        let cuts: Vec<usize> = (0..case.cuts().len()).collect();
+        let stated = |c: usize| case.cuts()[c].present.scene.cut.depth_m;
+        place(case, &cuts, Places::depth, &stated)
+    },
+    parameters: |case, blamed| told(case, blamed, Places::depth, "depth_error"),
+    would_tell: "measure the depth of the slot",
+};
+
+/// No cut is farther from what is stated, m.
+const MOST: f64 = 3e-3;
+
+type PlaceOf = fn(&Places, usize) -> usize;
+
+fn place(case: &Case, cuts: &[usize], of: PlaceOf, stated: &dyn Fn(usize) -> f64) -> Vec<Place> {
+    vec![Place::new("tool", members(case, cuts, of, stated))]
+}
+
+/// All by the same, all in proportion to what is stated, each alone.
+pub(super) fn members(
+    case: &Case,
+    cuts: &[usize],
+    of: PlaceOf,
+    stated: &dyn Fn(usize) -> f64,
+) -> Vec<Member> {
+    let places = case.places();
+    let along = |of_cut: &dyn Fn(usize) -> f64| {
+        let mut direction = vec![0.0; places.len()];
+        cuts.iter()
+            .for_each(|c| direction[of(&places, *c)] = of_cut(*c));
+        let largest = direction.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+        far(case, &direction, MOST / largest)
+    };
+    let single = |own: &usize| along(&|c| if c == *own { 1e-3 } else { 0.0 });
+    match cuts {
+        [] => Vec::new(),
+        [own] => vec![single(own)],
+        _ => {
+            let mut members = vec![along(&|_| 1e-3)];
+            if cuts.iter().any(|c| stated(*c) != stated(cuts[0])) {
+                members.push(along(&|c| stated(c)));
+            }
+            members.extend(cuts.iter().map(single));
+            members
+        }
+    }
+}
+
+/// Every error that a cause names: one for all cuts where they are equal.
+fn told(
+    case: &Case,
+    blamed: &Blamed,
+    of: PlaceOf,
+    name: &'static str,
+) -> Vec<(&'static str, f64, &'static str)> {
+    errors(case, blamed, of)
+        .into_iter()
+        .flat_map(|(cut, error)| {
+            let number = cut.map(|c| ("cut", (c + 1) as f64, "1"));
+            number.into_iter().chain([(name, error, "m")])
+        })
+        .collect()
+}
+
+/// Cut (`None`: all) and its error.
+pub(super) fn errors(case: &Case, blamed: &Blamed, of: PlaceOf) -> Vec<(Option<usize>, f64)> {
+    let (sum, places) = (moved(case, blamed), case.places());
+    let own: Vec<(usize, f64)> = (0..places.cuts)
+        .map(|c| (c, sum[of(&places, c)]))
+        .filter(|(_, error)| *error != 0.0)
+        .collect();
+    let equal = own.windows(2).all(|w| w[0].1 == w[1].1);
+    match own.len() > 1 && equal {
+        true => vec![(None, own[0].1)],
+        false => own.into_iter().map(|(c, error)| (Some(c), error)).collect(),
+    }
+}

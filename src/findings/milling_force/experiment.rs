@@ -1,0 +1,183 @@
+//! The statement of a milling-force file for the engine.
+
+use super::{Case, EFFECTS};
+use crate::cutting::wave::Side;
+use crate::experiments::milling_force::RUNOUT;
+use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, White};
+use crate::findings::table;
+use crate::sheet::number::fixed;
+use std::f64::consts::TAU;
+
+/// Relative spread of a spindle speed that is as stated.
+const SPEED: f64 = 5e-4;
+/// Spread of a width that is as stated, m.
+const WIDTH: f64 = 2e-5;
+/// Share of a stated runout within which it is as stated.
+const RUNOUT_SHARE: f64 = 0.15;
+/// Orders of the spindle in which structure is looked for.
+const ORDERS: usize = 8;
+/// Cuts whose structure is looked for apart.
+const APART: usize = 3;
+
+impl Experiment for Case {
+    fn unit(&self) -> &'static str {
+        "N"
+    }
+
+    fn state(&self, _: &[Blamed]) -> Statement {
+        let case = self;
+        Statement {
+            reading: case.reading(),
+            noise: Box::new(White {
+                spread: case.column(|_, _, k| case.noise()[k]),
+                rows: case.worth(),
+            }),
+            nuisances: case.nuisances(),
+            suspects: table::suspects(EFFECTS, case),
+            span: case.span(),
+            splits: case.splits(),
+        }
+    }
+
+    fn parameters(&self, blamed: &Blamed) -> Vec<(&'static str, f64, &'static str)> {
+        table::parameters(EFFECTS, self, blamed)
+    }
+
+    fn would_tell(&self, rivals: &[(&'static str, String)]) -> String {
+        table::would_tell(EFFECTS, rivals)
+    }
+
+    fn place(&self, missed: &[f64]) -> String {
+        let size = |c: usize| {
+            let cut = &self.cuts()[c];
+            let own = &missed[3 * cut.first..3 * (cut.first + cut.time.len())];
+            crate::inference::stats::rms(own)
+        };
+        let worst = (0..self.cuts().len()).max_by(|a, b| size(*a).total_cmp(&size(*b)));
+        let cut = worst.unwrap_or(0);
+        format!("largest in cut {} ({} N rms)", cut + 1, fixed(size(cut), 2))
+    }
+
+    fn remaining(&self, left: &[f64]) -> Remaining {
+        const PLACES: usize = 72;
+        let mut sums = vec![(0.0, 0.0); PLACES];
+        let mut over_time = Vec::new();
+        for cut in self.cuts() {
+            let angles = cut.present.scene.angles(&cut.present.p);
+            for (i, angle) in angles.iter().enumerate() {
+                let row = 3 * (cut.first + i);
+                let size =
+                    (left[row].powi(2) + left[row + 1].powi(2) + left[row + 2].powi(2)).sqrt();
+                let place = (angle.rem_euclid(TAU) / TAU * PLACES as f64) as usize % PLACES;
+                sums[place].0 += size;
+                sums[place].1 += 1.0;
+                if i % 8 == 0 {
+                    over_time.push([cut.time[i], size]);
+                }
+            }
+        }
+        let shape = sums.iter().enumerate().filter(|(_, s)| s.1 > 0.0);
+        Remaining {
+            shape: shape
+                .map(|(i, s)| [(i as f64 + 0.5) * 360.0 / PLACES as f64, s.0 / s.1])
+                .collect(),
+            over_time,
+            description: "a force over the turn of the spindle that no known effect makes (size over degrees)".into(),
+        }
+    }
+}
+
+impl Case {
+    /// The angle of tooth 1 of every cut, and what is stated only so well.
+    pub(super) fn nuisances(&self) -> Vec<Nuisance> {
+        let places = self.places();
+        let along = |place: usize, spread: f64| {
+            let mut direction = vec![0.0; places.len()];
+            direction[place] = 1.0;
+            Nuisance {
+                column: self.along(&direction),
+                spread,
+            }
+        };
+        let mut all: Vec<Nuisance> = (0..6)
+            .map(|j| along(j, self.coefficient_spread(j)))
+            .collect();
+        for (c, cut) in self.cuts().iter().enumerate() {
+            all.push(Nuisance {
+                column: self.phase(c),
+                spread: f64::INFINITY,
+            });
+            all.push(along(places.speed(c), SPEED));
+            if cut.present.scene.cut.side != Side::Slot {
+                all.push(along(places.width(c), WIDTH));
+            }
+        }
+        if let Some(stated) = self.file().facts.runout_m.filter(|_| places.teeth > 1) {
+            all.extend([0, 1].map(|k| along(RUNOUT + k, RUNOUT_SHARE * stated)));
+        }
+        all.retain(|n| n.spread > 0.0 && n.column.iter().any(|x| *x != 0.0));
+        all
+    }
+
+    fn coefficient_spread(&self, j: usize) -> f64 {
+        match &self.file().facts.nominal {
+            Some(stated) => stated.rel_std * self.nominal()[j].abs(),
+            None => f64::INFINITY,
+        }
+    }
+
+    /// Any wave over the turn of the spindle, by axis and cut, and waves over the time.
+    fn span(&self) -> Vec<Vec<f64>> {
+        let angles: Vec<Vec<f64>> = self
+            .cuts()
+            .iter()
+            .map(|cut| cut.present.scene.angles(&cut.present.p))
+            .collect();
+        let apart = self.cuts().len().min(APART);
+        let mut span = Vec::new();
+        for axis in 0..3 {
+            for group in 0..apart {
+                for order in 1..=ORDERS {
+                    for quarter in [0.0, 0.25] {
+                        let turn = |c: usize, i: usize| order as f64 * angles[c][i] - TAU * quarter;
+                        span.push(
+                            self.column(|c, i, k| match k == axis && c % apart == group {
+                                true => turn(c, i).cos() / (order as f64).sqrt(),
+                                false => 0.0,
+                            }),
+                        );
+                    }
+                }
+            }
+            for wave in 0..4 {
+                let phase = std::f64::consts::PI * wave as f64;
+                span.push(self.column(|c, i, k| match k == axis {
+                    true => (phase * self.progress(c, i)).cos(),
+                    false => 0.0,
+                }));
+            }
+        }
+        span
+    }
+
+    /// Whole cuts, whole pieces of their revolutions, then samples here and there.
+    fn splits(&self) -> Vec<Vec<usize>> {
+        let fold = |of: &dyn Fn(usize, usize) -> usize| -> Vec<usize> {
+            self.column(|c, i, _| of(c, i) as f64)
+                .into_iter()
+                .map(|f| f as usize)
+                .collect()
+        };
+        let turns = |c: usize, i: usize| {
+            let cut = &self.cuts()[c].present.scene;
+            (cut.cut.spindle_rad_s * cut.time[i] / TAU * 2.0) as usize
+        };
+        let by_cut = fold(&|c, _| c % 8);
+        let by_turn = fold(&|c, i| (c + turns(c, i)) % 8);
+        let spread = fold(&|c, i| (c + i / 5) % 8);
+        match self.cuts().len() {
+            0..3 => vec![by_turn, spread],
+            _ => vec![by_cut, by_turn, spread],
+        }
+    }
+}

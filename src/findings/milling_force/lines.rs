@@ -1,0 +1,91 @@
+//! Lines of the spectrum between the harmonics of the spindle, in what a fit of the whole cut leaves.
+
+use super::case::CutSamples;
+use crate::fit::cut_force::{Account, CutFit};
+use crate::inference::stats::median;
+use rustfft::FftPlanner;
+use rustfft::num_complex::Complex64;
+use std::f64::consts::TAU;
+
+/// A line of one cut.
+#[derive(Debug, Clone, Copy)]
+pub struct Line {
+    /// The cut.
+    pub cut: usize,
+    /// Frequency, Hz.
+    pub frequency_hz: f64,
+    /// Power over the typical one beside it.
+    pub height: f64,
+}
+
+/// Height (over the median of the spectrum) from which a line is no noise: one in 10^9 frequencies.
+const HIGH: f64 = 18.0;
+/// Lines of a cut that are tried.
+const MOST: usize = 2;
+/// Resolutions within which a line belongs to a harmonic of the spindle.
+const NEAR: f64 = 1.5;
+/// Times by which the record is lengthened with zeros.
+const FINER: usize = 4;
+
+/// The lines of all cuts, by cut, the highest first.
+pub fn lines(account: &Account, cuts: &[CutSamples]) -> Vec<Line> {
+    let each = account.cuts.iter().zip(cuts).enumerate();
+    each.flat_map(|(i, (fit, cut))| of_cut(i, fit, cut))
+        .collect()
+}
+
+fn of_cut(number: usize, fit: &CutFit, cut: &CutSamples) -> Vec<Line> {
+    let time = &fit.data.scene.time;
+    let length = time.last().copied().unwrap_or(0.0);
+    if length <= 0.0 {
+        return Vec::new();
+    }
+    let spindle_hz = cut.present.scene.cut.spindle_rad_s / TAU;
+    let (power, step_hz) = power(fit, length);
+    let between = |hz: f64| {
+        let turn = (hz / spindle_hz).rem_euclid(1.0);
+        turn.min(1.0 - turn) * spindle_hz > NEAR / length
+    };
+    let typical = median(&power).max(f64::MIN_POSITIVE);
+    let mut found: Vec<Line> = (FINER..power.len().saturating_sub(1))
+        .filter(|i| power[*i] >= power[i - 1] && power[*i] > power[i + 1])
+        .map(|i| Line {
+            cut: number,
+            frequency_hz: peak(&power, i) * step_hz,
+            height: power[i] / typical,
+        })
+        .filter(|line| line.height > HIGH && between(line.frequency_hz))
+        .collect();
+    found.sort_by(|a, b| b.height.total_cmp(&a.height));
+    found.truncate(MOST);
+    found
+}
+
+fn peak(power: &[f64], i: usize) -> f64 {
+    let [a, b, c] = [power[i - 1], power[i], power[i + 1]];
+    let bend = a - 2.0 * b + c;
+    match bend < 0.0 {
+        true => i as f64 + 0.5 * (a - c) / bend,
+        false => i as f64,
+    }
+}
+
+/// Power of x and y together, and the step of its frequencies, Hz.
+fn power(fit: &CutFit, length: f64) -> (Vec<f64>, f64) {
+    let count = fit.residual.len();
+    let padded = (FINER * count).next_power_of_two();
+    let rate = (count.max(2) - 1) as f64 / length;
+    let plan = FftPlanner::new().plan_fft_forward(padded);
+    let mut power = vec![0.0; padded / 2];
+    for k in 0..2 {
+        let mut wave = vec![Complex64::new(0.0, 0.0); padded];
+        for (i, (to, from)) in wave.iter_mut().zip(&fit.residual).enumerate() {
+            let window = 0.5 - 0.5 * (TAU * (i as f64 + 0.5) / count as f64).cos();
+            to.re = window * from[k];
+        }
+        plan.process(&mut wave);
+        let each = power.iter_mut().zip(&wave);
+        each.for_each(|(p, w)| *p += w.norm_sqr());
+    }
+    (power, rate / padded as f64)
+}

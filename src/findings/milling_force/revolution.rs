@@ -1,0 +1,82 @@
+//! The simulated force of a cut over one revolution as lines at the harmonics of the spindle, and what a
+//! sensor that rings makes of them.
+
+use super::setting::{Places, Present};
+use crate::experiments::milling_force::PHASE;
+use crate::ground::spatial::V3;
+use rustfft::FftPlanner;
+use rustfft::num_complex::Complex64;
+use std::f64::consts::TAU;
+
+/// Places of a revolution.
+const GRID: usize = 720;
+
+/// One cut over a revolution.
+pub struct Revolution {
+    /// Lines of each axis, N times the places.
+    lines: [Vec<Complex64>; 3],
+    spindle_hz: f64,
+    /// Angle of tooth 1 at every sample, rad.
+    angles: Vec<f64>,
+}
+
+impl Revolution {
+    /// Of a cut at an offset from what is stated.
+    pub fn new(present: &Present, places: Places, cut: usize, offset: &[f64]) -> Self {
+        let (scene, p) = present.moved(places, cut, offset);
+        let angles = scene.angles(&p);
+        let (mut around, mut level) = (scene, p);
+        let spindle = around.cut.spindle_rad_s;
+        let step = TAU / GRID as f64 / spindle;
+        around.time = (0..GRID).map(|i| i as f64 * step).collect();
+        level[PHASE] = 0.0;
+        let force = around.predict(&level).force;
+        let plan = FftPlanner::new().plan_fft_forward(GRID);
+        let lines = std::array::from_fn(|k| {
+            let mut own: Vec<Complex64> = force.iter().map(|f| Complex64::new(f[k], 0.0)).collect();
+            plan.process(&mut own);
+            own
+        });
+        Self {
+            lines,
+            spindle_hz: spindle / TAU,
+            angles,
+        }
+    }
+
+    /// What a resonance (Hz, damping ratio) of the sensor adds at every sample: 1/(1 - u² + 2jDu) less one.
+    pub fn rung(&self, [hz, damping]: [f64; 2]) -> Vec<V3> {
+        let plan = FftPlanner::new().plan_fft_inverse(GRID);
+        let around: [Vec<f64>; 3] = std::array::from_fn(|k| {
+            let mut own: Vec<Complex64> = (0..GRID)
+                .map(|i| self.lines[k][i] * self.added(i, hz, damping))
+                .collect();
+            plan.process(&mut own);
+            own.iter().map(|c| c.re / GRID as f64).collect()
+        });
+        self.angles
+            .iter()
+            .map(|angle| read(&around, *angle))
+            .collect()
+    }
+
+    fn added(&self, i: usize, hz: f64, damping: f64) -> Complex64 {
+        let order = match i < GRID / 2 {
+            true => i as f64,
+            false => i as f64 - GRID as f64,
+        };
+        if i == GRID / 2 {
+            return Complex64::new(0.0, 0.0);
+        }
+        let u = order * self.spindle_hz / hz;
+        let one = Complex64::new(1.0, 0.0);
+        one / Complex64::new(1.0 - u * u, 2.0 * damping * u) - one
+    }
+}
+
+/// Between the places of a revolution.
+fn read(around: &[Vec<f64>; 3], angle: f64) -> V3 {
+    let at = angle.rem_euclid(TAU) / TAU * GRID as f64;
+    let (i, u) = (at as usize % GRID, at.fract());
+    std::array::from_fn(|k| around[k][i] + u * (around[k][(i + 1) % GRID] - around[k][i]))
+}

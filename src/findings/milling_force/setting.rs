@@ -1,0 +1,132 @@
+//! What of the process may differ from what is stated, as one vector: coefficients (SI), runout along
+//! tooth 1 and a quarter turn on (m), how much each tooth is shorter (m), then of every cut its width (m),
+//! its depth (m) and its relative spindle speed.
+
+use crate::cutting::wave::Side;
+use crate::experiments::milling_force::{CutScene, PHASE, RUNOUT, SPEED, UNKNOWNS, WIDTH};
+use crate::ground::spatial::V3;
+
+/// Shape of a cause of the process: this, then the direction of every amount in the vector.
+pub(super) const PROCESS: f64 = 1.0;
+/// Shape of a cause of the sensor: this, then what its effect wants to know again.
+pub(super) const SENSOR: f64 = 0.0;
+
+/// Steps of forward differences: length of a tooth, width, depth, m.
+const STEPS: [f64; 3] = [1e-6, 2e-5, 1e-5];
+
+/// Places in the vector.
+#[derive(Debug, Clone, Copy)]
+pub struct Places {
+    /// Teeth of the tool.
+    pub teeth: usize,
+    /// Cuts of the file.
+    pub cuts: usize,
+}
+
+impl Places {
+    /// Length of the vector.
+    pub fn len(&self) -> usize {
+        8 + self.teeth + 3 * self.cuts
+    }
+
+    /// How much a tooth is shorter.
+    pub fn shorter(&self, tooth: usize) -> usize {
+        8 + tooth
+    }
+
+    /// Width of a cut.
+    pub fn width(&self, cut: usize) -> usize {
+        8 + self.teeth + 3 * cut
+    }
+
+    /// Depth of a cut.
+    pub fn depth(&self, cut: usize) -> usize {
+        self.width(cut) + 1
+    }
+
+    /// Relative spindle speed of a cut.
+    pub fn speed(&self, cut: usize) -> usize {
+        self.width(cut) + 2
+    }
+
+    /// Places that act on a cut.
+    pub fn of_cut(&self, cut: usize) -> impl Iterator<Item = usize> {
+        (0..8 + self.teeth).chain(self.width(cut)..self.width(cut) + 3)
+    }
+}
+
+/// One cut at a setting: its forces and their slopes over the vector and over the angle of tooth 1.
+pub struct Slopes {
+    /// Forces at the samples, N.
+    pub force: Vec<V3>,
+    /// Per place that acts on this cut, in the order of [`Places::of_cut`].
+    pub slopes: Vec<Vec<V3>>,
+    /// Over the angle of tooth 1, N/rad.
+    pub phase: Vec<V3>,
+}
+
+/// A cut as it is simulated before anything is blamed.
+#[derive(Debug, Clone)]
+pub struct Present {
+    /// The scene; its speed is what the record shows.
+    pub scene: CutScene,
+    /// Its unknowns.
+    pub p: [f64; UNKNOWNS],
+    /// Relative error of the stated speed that is in the scene.
+    pub speed: f64,
+}
+
+impl Present {
+    /// The scene where the vector differs by `offset` from what is stated. The speed stays what it is.
+    pub fn moved(&self, places: Places, cut: usize, offset: &[f64]) -> (CutScene, [f64; UNKNOWNS]) {
+        let (mut scene, mut p) = (self.scene.clone(), self.p);
+        (0..8.min(RUNOUT + 2)).for_each(|i| p[i] += offset[i]);
+        scene.shorter = (0..places.teeth)
+            .map(|j| offset[places.shorter(j)])
+            .collect();
+        let most = 2.0 * scene.tool.radius_m;
+        p[WIDTH] = (p[WIDTH] + offset[places.width(cut)]).clamp(1e-6, most);
+        scene.cut.depth_m = (scene.cut.depth_m + offset[places.depth(cut)]).max(1e-6);
+        (scene, p)
+    }
+
+    /// Forces there, with their slopes.
+    pub fn slopes(&self, places: Places, cut: usize, offset: &[f64]) -> Slopes {
+        let (scene, p) = self.moved(places, cut, offset);
+        let at = scene.predict(&p);
+        let stepped = |place: usize, step: f64| {
+            let mut offset = offset.to_vec();
+            offset[place] += step;
+            let (scene, p) = self.moved(places, cut, &offset);
+            difference(&scene.predict(&p).force, &at.force, step)
+        };
+        let mut slopes: Vec<Vec<V3>> = at.slopes[..8].to_vec();
+        let teeth = 0..places.teeth;
+        slopes.extend(teeth.map(|j| match places.teeth {
+            1 => vec![[0.0; 3]; at.force.len()],
+            _ => stepped(places.shorter(j), STEPS[0]),
+        }));
+        slopes.push(match scene.cut.side {
+            Side::Slot => vec![[0.0; 3]; at.force.len()],
+            _ => stepped(places.width(cut), -STEPS[1]),
+        });
+        slopes.push(stepped(places.depth(cut), STEPS[2]));
+        let stated = 1.0 + self.speed;
+        slopes.push(
+            at.slopes[SPEED]
+                .iter()
+                .map(|v| v.map(|x| x / stated))
+                .collect(),
+        );
+        Slopes {
+            phase: at.slopes[PHASE].clone(),
+            force: at.force,
+            slopes,
+        }
+    }
+}
+
+fn difference(there: &[V3], here: &[V3], step: f64) -> Vec<V3> {
+    let one = |(a, b): (&V3, &V3)| std::array::from_fn(|k| (a[k] - b[k]) / step);
+    there.iter().zip(here).map(one).collect()
+}

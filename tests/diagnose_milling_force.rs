@@ -1,0 +1,214 @@
+//! Diagnosis of milling forces: one thing at a time is changed on a test bench that shares nothing with the
+//! program, and must be named, alone or among at most three that the data cannot tell apart.
+
+mod milling_bench;
+
+use ident::findings::engine::{Found, Judgement, diagnose};
+use ident::findings::milling_force::Case;
+use ident::findings::{Answer, Verdict};
+use ident::ground::random::Random;
+use ident::measurement::milling_force::MillingForce;
+use ident::measurement::table::Table;
+use milling_bench::{Cutter, Pass, Recording, csv, record};
+use std::f64::consts::TAU;
+
+const NOMINAL: [f64; 6] = [951.365, 262.597, 323.33, 11.115, 11.314, 1.105];
+const NOISE: f64 = 3.0;
+
+/// A cut as it is and as the file says it is, and what the sensor makes of it.
+struct Bench {
+    cutter: Cutter,
+    said: Vec<Pass>,
+    done: Vec<Pass>,
+    truth: [f64; 6],
+}
+
+impl Bench {
+    fn new(teeth: usize) -> Self {
+        let pass = |feed: f64, depth: f64, width: f64, side: &'static str| Pass {
+            rpm: 6000.0,
+            feed,
+            depth,
+            width,
+            side,
+        };
+        let said = vec![
+            pass(1400.0, 1.5, 16.0, "slot"),
+            pass(2800.0, 1.5, 16.0, "slot"),
+            pass(2400.0, 2.5, 6.0, "down"),
+            pass(2400.0, 2.0, 8.0, "up"),
+        ];
+        Self {
+            cutter: Cutter {
+                radius: 8e-3,
+                teeth,
+                helix: 0.5235987755982988,
+                runout: 0.0,
+                runout_angle: 0.7,
+                chip: 0.0,
+            },
+            done: said.clone(),
+            said,
+            truth: NOMINAL,
+        }
+    }
+
+    /// Rows of cut, time and force on the workpiece.
+    fn rows(&self) -> Vec<[f64; 5]> {
+        record(
+            &self.cutter,
+            &self.done,
+            &self.truth,
+            &recording(),
+            &mut Random::new(4),
+        )
+    }
+
+    fn found(&self, sensor: impl Fn(&mut [f64; 5])) -> Found {
+        let mut rows = self.rows();
+        rows.iter_mut().for_each(sensor);
+        self.diagnosed(&rows)
+    }
+
+    fn diagnosed(&self, rows: &[[f64; 5]]) -> Found {
+        let k = NOMINAL;
+        let nominal = format!(
+            "# nominal = {{ Ktc_N_mm2 = {}, Krc_N_mm2 = {}, Kac_N_mm2 = {}, Kte_N_mm = {}, Kre_N_mm = {}, Kae_N_mm = {}, rel_std = 0.03 }}\ncut,time_s",
+            k[0], k[1], k[2], k[3], k[4], k[5]
+        );
+        let text =
+            csv(&self.cutter, &self.said, &recording(), rows).replace("cut,time_s", &nominal);
+        let bytes = text.len() as u64;
+        let table = Table::from_reader("cuts.csv".as_ref(), text.as_bytes(), bytes).unwrap();
+        let case = Case::new(MillingForce::from_table(table).unwrap());
+        diagnose(&case, &Judgement::default())
+    }
+}
+
+fn recording() -> Recording {
+    Recording {
+        rate_hz: 20_000.0,
+        turns: 5.0,
+        bandwidth_hz: Some(2500.0),
+        noise: NOISE,
+        colour: 0.0,
+        clipped: true,
+    }
+}
+
+/// Everybody named, alone or in groups.
+fn names(answer: &Answer) -> Vec<(&'static str, String)> {
+    let causes = answer.causes.iter().map(|c| (c.effect, c.site.clone()));
+    let groups = answer.groups.iter().flat_map(|g| {
+        let each = g.effects.iter().zip(&g.sites);
+        each.map(|(e, s)| (*e, s.clone())).collect::<Vec<_>>()
+    });
+    causes.chain(groups).collect()
+}
+
+fn is_named(found: &Found, effect: &str) {
+    let answer = &found.answer;
+    let named = names(answer);
+    let held = named.iter().any(|n| n.0 == effect);
+    let told = format!(
+        "{effect}: {:?} {named:?} {:?}",
+        answer.verdict, found.blamed
+    );
+    assert!(held && named.len() <= 3, "{told}");
+}
+
+#[test]
+fn a_cut_as_it_is_stated_is_sufficient() {
+    for teeth in [2, 3] {
+        let found = Bench::new(teeth).found(|_| ());
+        assert_eq!(
+            found.answer.verdict,
+            Verdict::Sufficient,
+            "{:?} {}",
+            names(&found.answer),
+            found.answer.discrepancy.rms
+        );
+    }
+}
+
+#[test]
+fn other_coefficients_are_named() {
+    let mut bench = Bench::new(3);
+    (0..3).for_each(|j| bench.truth[j] *= 1.25);
+    is_named(&bench.found(|_| ()), "cutting_coefficients");
+    let mut bench = Bench::new(3);
+    (3..6).for_each(|j| bench.truth[j] *= 1.9);
+    is_named(&bench.found(|_| ()), "edge_coefficients");
+}
+
+#[test]
+fn uneven_teeth_are_named() {
+    let mut bench = Bench::new(4);
+    bench.cutter.runout = 8e-6;
+    is_named(&bench.found(|_| ()), "runout");
+    let mut bench = Bench::new(4);
+    bench.cutter.chip = 15e-6;
+    is_named(&bench.found(|_| ()), "chipped_tooth");
+}
+
+#[test]
+fn another_engagement_is_named() {
+    let mut bench = Bench::new(3);
+    bench.done[2..].iter_mut().for_each(|p| p.width += 0.4);
+    is_named(&bench.found(|_| ()), "width_of_cut");
+    let mut bench = Bench::new(3);
+    bench.done.iter_mut().for_each(|p| p.depth += 0.25);
+    is_named(&bench.found(|_| ()), "depth_of_cut");
+}
+
+#[test]
+fn another_speed_is_named_however_many_turns_it_costs() {
+    for error in [0.004, -0.03] {
+        let mut bench = Bench::new(3);
+        bench.done.iter_mut().for_each(|p| p.rpm *= 1.0 + error);
+        let found = bench.found(|_| ());
+        is_named(&found, "spindle_speed");
+        let cause = &found.answer.causes[0];
+        let said = cause.parameters[0].1;
+        assert!((said / error - 1.0).abs() < 0.05, "{said} {error}");
+    }
+}
+
+#[test]
+fn what_the_sensor_makes_of_a_force_is_named() {
+    let bench = Bench::new(3);
+    is_named(&bench.found(|r| r[3] *= 1.15), "force_gain");
+    is_named(&bench.found(|r| r[4] += 0.08 * r[2]), "cross_talk");
+    is_named(&bench.found(|r| r[3] += 12.0), "sensor_offset");
+}
+
+#[test]
+fn what_changes_with_time_is_named() {
+    let bench = Bench::new(3);
+    is_named(&bench.found(|r| r[2] += 60.0 * r[1]), "thermal_drift");
+    let chatter = |r: &mut [f64; 5]| {
+        if r[0] == 3.0 {
+            r[2] += 25.0 * (TAU * 743.0 * r[1]).sin();
+            r[3] += 30.0 * (TAU * 743.0 * r[1] + 0.4).cos();
+        }
+    };
+    is_named(&bench.found(chatter), "chatter");
+}
+
+#[test]
+fn a_sensor_that_rings_is_named() {
+    let bench = Bench::new(3);
+    let mut rows = bench.rows();
+    // x'' + 2Dw x' + w²x = w²f on y, by small steps with the force held between samples
+    let (w, d) = (TAU * 1330.0, 0.06);
+    let (mut x, mut v) = (rows[0][3], 0.0);
+    for row in &mut rows {
+        for _ in 0..40 {
+            let h = 1.0 / 20_000.0 / 40.0;
+            v += h * (w * w * (row[3] - x) - 2.0 * d * w * v);
+            x += h * v;
+        }
+        row[3] = x;
+    }
+    is_named(&bench.diagnosed(&rows), "sensor_resonance");
+}
