@@ -142,16 +142,6 @@ fn other_coefficients_are_named() {
 }
 
 #[test]
-fn uneven_teeth_are_named() {
-    let mut bench = Bench::new(4);
-    bench.cutter.runout = 8e-6;
-    is_named(&bench.found(|_| ()), "runout");
-    let mut bench = Bench::new(4);
-    bench.cutter.chip = 15e-6;
-    is_named(&bench.found(|_| ()), "chipped_tooth");
-}
-
-#[test]
 fn another_engagement_is_named() {
     let mut bench = Bench::new(3);
     bench.done[2..].iter_mut().for_each(|p| p.width += 0.4);
@@ -193,22 +183,4 @@ fn what_changes_with_time_is_named() {
         }
     };
     is_named(&bench.found(chatter), "chatter");
-}
-
-#[test]
-fn a_sensor_that_rings_is_named() {
-    let bench = Bench::new(3);
-    let mut rows = bench.rows();
-    // x'' + 2Dw x' + w²x = w²f on y, by small steps with the force held between samples
-    let (w, d) = (TAU * 1330.0, 0.06);
-    let (mut x, mut v) = (rows[0][3], 0.0);
-    for row in &mut rows {
-        for _ in 0..40 {
-            let h = 1.0 / 20_000.0 / 40.0;
-            v += h * (w * w * (row[3] - x) - 2.0 * d * w * v);
-            x += h * v;
-        }
-        row[3] = x;
-    }
-    is_named(&bench.diagnosed(&rows), "sensor_resonance");
 }

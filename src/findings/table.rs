@@ -3,6 +3,9 @@
 
 use super::engine::{Blamed, Member, Suspect};
 
+/// Parameters of a cause: name, value SI, unit.
+pub type Parameters = Vec<(&'static str, f64, &'static str)>;
+
 /// One effect of a kind whose case is `C`.
 pub struct Effect<C> {
     /// Name, as in the answers.
@@ -14,7 +17,7 @@ pub struct Effect<C> {
     /// Where it may sit in this case, and its shapes there.
     pub places: fn(&C) -> Vec<Place>,
     /// Its parameters once it is named: name, value SI, unit.
-    pub parameters: fn(&C, &Blamed) -> Vec<(&'static str, f64, &'static str)>,
+    pub parameters: fn(&C, &Blamed) -> Parameters,
     /// What would tell it from rivals, a phrase.
     pub would_tell: &'static str,
 }

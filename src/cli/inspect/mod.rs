@@ -60,8 +60,11 @@ const OWN: &[(&str, Reader)] = &[
 /// Kinds that `ident` writes, and paths: nothing diagnoses them, and they can be looked at.
 const WRITTEN: &[&str] = &["path", "trajectory", "course"];
 
+/// Whether an ending is that of a form.
+type EndingTest = fn(&str) -> bool;
+
 /// Files that are no tables: who looks at them, and whether it does, by the ending.
-const ENDINGS: &[(Reader, fn(&str) -> bool)] = &[
+const ENDINGS: &[(Reader, EndingTest)] = &[
     (job::account, |ending| ending == "toml"),
     (toolpath::account, toolpath::has_ending),
 ];

@@ -38,7 +38,7 @@ fn of(case: &Case, cause: &'static dyn Cause) -> Vec<Suspect> {
         let members = members(case, cause, &site);
         let share = (cause.readiness(&case.robot, &site) / total).ln();
         let card = cause.card();
-        (!members.is_empty()).then(|| Suspect {
+        (!members.is_empty()).then_some(Suspect {
             effect: card.name,
             site,
             summary: card.summary,

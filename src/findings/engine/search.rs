@@ -38,8 +38,8 @@ pub fn search(bank: &mut Bank, judgement: &Judgement) -> Vec<Scored> {
         sets: BTreeMap::new(),
     };
     book.offer(bank, nothing);
-    for size in 0..judgement.largest.min(CONTINUED.len()) {
-        for base in book.top(size, CONTINUED[size]) {
+    for (size, count) in CONTINUED.iter().enumerate().take(judgement.largest) {
+        for base in book.top(size, *count) {
             book.extend(bank, &base);
         }
         book.reshape(bank);

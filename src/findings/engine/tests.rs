@@ -18,10 +18,13 @@ fn noise(seed: u64, row: usize) -> f64 {
     (-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()
 }
 
+/// Causes by name, each with its shapes.
+type Causes = Vec<(&'static str, Vec<Member>)>;
+
 /// Columns of a toy kind: its causes by name, each with its shapes.
 struct Toy {
     reading: Vec<f64>,
-    causes: fn(usize) -> Vec<(&'static str, Vec<Member>)>,
+    causes: fn(usize) -> Causes,
     nuisance: fn(usize) -> f64,
 }
 
@@ -29,7 +32,7 @@ impl Toy {
     fn new(
         seed: u64,
         rows: usize,
-        causes: fn(usize) -> Vec<(&'static str, Vec<Member>)>,
+        causes: fn(usize) -> Causes,
         hidden: impl Fn(usize) -> f64,
     ) -> Self {
         let nuisance = |i: usize| (i as f64 / 9.0).cos();
@@ -109,7 +112,7 @@ impl Experiment for Toy {
     }
 }
 
-fn steps(rows: usize) -> Vec<(&'static str, Vec<Member>)> {
+fn steps(rows: usize) -> Causes {
     let of = |f: fn(f64) -> f64| {
         vec![Member::given(
             (0..rows)
@@ -129,7 +132,7 @@ fn load(i: usize) -> f64 {
     (i as f64 * 0.1).sin()
 }
 
-fn cycle(rows: usize) -> Vec<(&'static str, Vec<Member>)> {
+fn cycle(rows: usize) -> Causes {
     let gap = |width: f64| {
         Member::free((0..rows).map(|i| (load(i) / width).tanh()).collect())
             .positive()

@@ -160,7 +160,7 @@ fn share(ramps: &[(usize, usize)], drive: &[f64], response: &[f64]) -> f64 {
 fn cells(ramps: &[(usize, usize)], rows: usize) -> Vec<(usize, usize)> {
     let mut found = Vec::new();
     for (a, b) in ramps {
-        let n = (b - a).min(BINS).max(1);
+        let n = (b - a).clamp(1, BINS);
         let edge = |k: usize| a + k * (b - a) / n;
         found.extend((0..n).map(|k| (edge(k), edge(k + 1).min(rows))));
     }

@@ -79,8 +79,9 @@ fn read(text: &str) -> Outcome<PitchTable> {
                 let table: usize = at.first()?.trim().parse().ok()?;
                 Some((table, value))
             });
-            let own = found.and_then(|(table, value)| Some(values.get_mut(table)?.push(value)));
-            own.ok_or_else(|| strange(i, "`$AN_CEC[0,0]=0.001`"))?;
+            let own = found.and_then(|(table, value)| Some((values.get_mut(table)?, value)));
+            let (own, value) = own.ok_or_else(|| strange(i, "`$AN_CEC[0,0]=0.001`"))?;
+            own.push(value);
         }
     }
     let [forward, backward] = values;

@@ -32,7 +32,7 @@ fn look(on: &Course) -> Said {
     let Some(nominal) = file.facts.nominal_stiffness else {
         return found;
     };
-    if !(line.is_finite() && line > 0.0) || !on.relation.is_real() {
+    if !(line.is_finite() && line > 0.0 && on.relation.is_real()) {
         return found;
     }
     let ratio = line / nominal;

@@ -21,7 +21,7 @@ const LEVELS: usize = 5;
 fn look(on: &Loaded) -> Said {
     let steps = &on.test.steps;
     let mut found = Vec::new();
-    for k in 0..3 {
+    for (k, name) in DIRECTIONS.iter().enumerate() {
         let values: Vec<f64> = steps.iter().map(|s| s.displacement[k]).collect();
         let (low, high) = range(&values);
         let rows = [low, high]
@@ -39,8 +39,7 @@ fn look(on: &Loaded) -> Said {
         let stands = rows >= PLATEAU && rows >= LEVELS * typical.unwrap_or(1).min(rows);
         if high > low && stands {
             let what = format!(
-                "the displacement d{} stands at its extreme in {rows} steps of different force: it is clipped",
-                DIRECTIONS[k]
+                "the displacement d{name} stands at its extreme in {rows} steps of different force: it is clipped"
             );
             found.push((Weight::Fatal, what));
         }
