@@ -120,11 +120,11 @@ fn points_are_read_with_axes_angles_feeds_and_stations() {
 #[test]
 fn a_nurbs_is_read_with_its_knots_and_weights() {
     let text = "# kind = \"path\"\n# curve = \"nurbs\"\n# degree = 2\n# knots = [0, 0, 0, 1, 1, 1]\n\
-                x_mm,y_mm,z_mm,weight\n1,0,0,1\n1,1,0,0.7071\n0,1,0,1\n";
+                x_mm,y_mm,z_mm,weight\n1,0,0,1\n1,1,0,0.7\n0,1,0,1\n";
     let path = understood("a.csv", text);
     let curve = path.curve.unwrap();
     assert!(path.moves.is_empty() && curve.degree == 2 && curve.knots.len() == 6);
-    assert_eq!((curve.weights[1], curve.lines[2]), (0.7071, 8));
+    assert_eq!((curve.weights[1], curve.lines[2]), (0.7, 8));
     assert!(close(mm(curve.points[1]), [1.0, 1.0, 0.0]));
 }
 
