@@ -1,6 +1,5 @@
 //! Laws of the literature for every mechanism, of arbitrary size: the case scales them.
 
-use super::one;
 use super::schedule::Schedule;
 use ident::ground::random::Random;
 use std::f64::consts::TAU;
