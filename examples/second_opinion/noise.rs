@@ -198,9 +198,15 @@ impl Coloured {
             .filter(|k| power[*k] > LINE * near(*k).max(f64::MIN_POSITIVE))
             .collect();
         for k in &lines {
-            for j in k.saturating_sub(1)..(k + 2).min(n) {
-                let factor = (power[j] / near(j)).max(1.0).sqrt();
-                self.colour[j] *= factor;
+            let beside = k.saturating_sub(1)..(k + 2).min(n);
+            for (j, colour) in self
+                .colour
+                .iter_mut()
+                .enumerate()
+                .take(beside.end)
+                .skip(beside.start)
+            {
+                *colour *= (power[j] / near(j)).max(1.0).sqrt();
             }
         }
         if !lines.is_empty() {
