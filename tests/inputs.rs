@@ -82,27 +82,15 @@ fn check(cases: Vec<Refused>) {
 
 #[test]
 fn what_is_no_text_table_is_refused() {
-    let utf16: Vec<u8> = [0xFF, 0xFE]
-        .into_iter()
-        .chain(
-            with_rows(&rows(9))
-                .encode_utf16()
-                .flat_map(u16::to_le_bytes),
-        )
-        .collect();
     let big_endian: Vec<u8> = "# kind".encode_utf16().flat_map(u16::to_be_bytes).collect();
     let binary: Vec<u8> = (0..40_000u32)
         .map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8)
         .collect();
-    let mut latin = with_rows(&rows(20)).into_bytes();
-    latin.splice(0..0, b"# note = \"K\xF6ln\"\n".iter().copied());
     check(vec![
         refused("empty file", "", 1, "empty"),
         refused("only a line end", "\n", None, "header"),
-        refused("binary", binary, 1, "not UTF-8"),
-        refused("UTF-16 with mark", utf16, 1, "UTF-16"),
-        refused("UTF-16 without mark", big_endian, 1, "UTF-8"),
-        refused("Latin-1", latin, 1, "UTF-8"),
+        refused("binary", binary, 1, "text"),
+        refused("UTF-16 without mark", big_endian, 1, "text"),
         refused("spreadsheet", "PK\x03\x04xxxx", 1, "spreadsheet"),
         refused("front matter only", FRONT, first_row() - 1, "header"),
         refused("headers only", with_body(""), first_row(), "0 usable rows"),
@@ -144,7 +132,12 @@ fn broken_facts_are_refused() {
             "not TOML",
         ),
         refused("no kind", without_fact("kind"), 1, "kind"),
-        refused("wrong kind", with_fact("kind", "\"screw\""), 1, "`screw`"),
+        refused(
+            "wrong kind",
+            with_fact("kind", "\"weather\""),
+            1,
+            "`weather`",
+        ),
         refused("kind as a number", with_fact("kind", "3"), 1, "text"),
         refused("no joint", without_fact("joint"), 1, "joint"),
         refused("joint 7", with_fact("joint", "7"), line_of("joint"), "is 7"),

@@ -415,8 +415,8 @@ fn bad_input_is_refused_with_place_and_remedy() {
         ),
         (
             swap("joint_angles_deg", "angles"),
-            ":1: ",
-            "`joint_angles_deg` is missing",
+            "`angles`",
+            "is not a fact of this kind",
         ),
         (
             swap("[0.0, -94.8276, 108.615,", "[0.0, -94.8276,"),
