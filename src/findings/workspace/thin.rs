@@ -5,7 +5,7 @@ use crate::fit::suitability::{Doubt, Weight};
 use crate::measurement::workspace_test::WorkspaceTest;
 
 /// Points that are diagnosed at most.
-pub const MOST_POINTS: usize = 64;
+pub const MOST_POINTS: usize = 24;
 
 /// The test with at most [`MOST_POINTS`] of its points, evenly spread over the file, and what to say of that.
 pub fn thinned(test: &WorkspaceTest) -> Option<(WorkspaceTest, Doubt)> {
