@@ -43,48 +43,6 @@ fn a_dead_channel_is_refused_at_once() {
 }
 
 #[test]
-fn force_steps_of_hundreds_of_points_are_bounded() {
-    let example = File::example("workspace.csv");
-    let angles: Vec<String> = (0..900)
-        .map(|i| {
-            format!(
-                "[{}, {}, {}, 5.0, 60.0, 10.0]",
-                -40 + i % 80,
-                -100 + i / 20,
-                80 + i % 31
-            )
-        })
-        .collect();
-    let mut file = example.clone();
-    file.front
-        .retain(|l| l.contains(" = ") && !l.contains("joint_angles"));
-    file.front
-        .push(format!("# joint_angles_deg = [{}]", angles.join(", ")));
-    let nine: Vec<Vec<String>> = example
-        .rows
-        .iter()
-        .filter(|r| r[2] == "1")
-        .cloned()
-        .collect();
-    file.rows = (0..100)
-        .flat_map(|block| {
-            nine.iter().map(move |row| {
-                let mut row = row.clone();
-                row[0] = (block * 9 + row[0].parse::<usize>().unwrap()).to_string();
-                row
-            })
-        })
-        .collect();
-    let bench = Bench::new();
-    bench.put("many.csv", file.text().as_bytes());
-    within(60, "900 points", || {
-        let ran = bench.run(&["diagnose", "--json", "--dry-run", "many.csv"]);
-        assert!(ran.status < 2, "{}", ran.errors);
-        assert!(document(&ran)["doubts"].to_string().contains("many-points"));
-    });
-}
-
-#[test]
 fn endless_and_deep_inputs_are_refused() {
     let bench = Bench::new();
     let header = (0..120_000)
