@@ -1,6 +1,6 @@
 //! Rule 3: bounded cost, no panic, clean exits.
 
-use crate::bench_of_files::{Bench, document, rows, with_rows};
+use crate::bench_of_files::{Bench, rows, with_rows};
 use crate::file::File;
 use crate::withheld::short_hammer;
 use std::process::{Command, Stdio};
