@@ -50,6 +50,30 @@ const SUITES: &[Suite] = &[
         times: 1,
         shows: "Dampings of the example's robot: intervals",
     },
+    Suite {
+        test: "force_sensor",
+        cases: "IDENT_COVERAGE_TESTS",
+        times: 13,
+        shows: "Force sensors: intervals",
+    },
+    Suite {
+        test: "cubes",
+        cases: "IDENT_COVERAGE_TESTS",
+        times: 7,
+        shows: "Measuring cubes: intervals",
+    },
+    Suite {
+        test: "judge_instruments",
+        cases: "IDENT_JUDGE_CASES",
+        times: 3,
+        shows: "Screws, force sensors, cutting forces and cubes by a judge of the physics alone",
+    },
+    Suite {
+        test: "compensate_interval",
+        cases: "IDENT_COVERAGE_PLANTS",
+        times: 12,
+        shows: "Compensated parts: intervals of what is left",
+    },
 ];
 
 fn main() {

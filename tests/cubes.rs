@@ -1,6 +1,8 @@
 //! Measuring cubes: the KR 300 of source 002 bent by formulas of this file (products of rotations about
 //! lines), known stiffnesses in, known stiffnesses out.
 
+use ident::findings::cubes::Case;
+use ident::findings::kinds::examined;
 use ident::fit::cubes::{Account, identify};
 use ident::fit::parameter::Status;
 use ident::ground::random::Random;
@@ -200,8 +202,27 @@ struct Bench<'a> {
     change: &'a dyn Fn(&str) -> f64,
 }
 
+/// What happens to a cube in a test: number of the test, its name, its movement (m, rad) and that of all.
+type Spoil = fn(usize, &str, &mut [f64; 6], &[(String, [f64; 6])]);
+
+/// What the file does not say.
+struct Hidden {
+    /// The load that acts where this one is stated.
+    load: fn([f64; 6]) -> [f64; 6],
+    spoil: Spoil,
+}
+
+const NOTHING: Hidden = Hidden {
+    load: |load| load,
+    spoil: |_, _, _, _| {},
+};
+
 impl Bench<'_> {
     fn text(&self, robot: &Robot) -> String {
+        self.text_with(robot, &NOTHING)
+    }
+
+    fn text_with(&self, robot: &Robot, hidden: &Hidden) -> String {
         let mut random = Random::new(self.seed);
         let hinges = hinges(robot, &self.degrees, self.change);
         let rest = motions(&hinges, &vec![0.0; hinges.len()]);
@@ -232,8 +253,9 @@ impl Bench<'_> {
             self.frame_mm
         );
         for (number, load) in loads(self.times).iter().enumerate() {
-            let bent = self.bent(robot, &hinges, load);
+            let bent = self.bent(robot, &hinges, &(hidden.load)(*load));
             let frame: V = std::array::from_fn(|_| self.frame_mm * 1e-3 * random.normal());
+            let mut moved: Vec<(String, [f64; 6])> = Vec::new();
             for cube in &self.cubes {
                 let hinge = behind(cube.1);
                 let (a, b) = (place(&rest, hinge, cube.4), place(&bent, hinge, cube.4));
@@ -242,18 +264,20 @@ impl Bench<'_> {
                         std::array::from_fn(|i| std::array::from_fn(|j| rest[h].0[j][i]));
                     vector(&times(&bent[h].0, &before))
                 });
-                let cell = |value: f64, scale: f64| format!("{:.8}", value * scale);
+                let own =
+                    [0, 1, 2, 3, 4, 5].map(|k| if k < 3 { b[k] - a[k] } else { turned[k - 3] });
+                moved.push((cube.0.to_string(), own));
+            }
+            let true_ones = moved.clone();
+            for (name, own) in &mut moved {
+                (hidden.spoil)(number + 1, name, own, &true_ones);
                 let mut cells: Vec<String> = load.iter().map(|x| x.to_string()).collect();
-                cells.push(cube.0.into());
-                (0..3).for_each(|k| {
-                    cells.push(cell(
-                        b[k] - a[k] + frame[k] + self.noise[0] * random.normal(),
-                        1e3,
-                    ))
-                });
-                (0..3).for_each(|k| {
-                    cells.push(cell(turned[k] + self.noise[1] * random.normal(), 1e3))
-                });
+                cells.push(name.clone());
+                for k in 0..6 {
+                    let more = if k < 3 { frame[k] } else { 0.0 };
+                    let read = own[k] + more + self.noise[k / 3] * random.normal();
+                    cells.push(format!("{:.8}", read * 1e3));
+                }
                 text += &format!("{},{}\n", number + 1, cells.join(","));
             }
         }
@@ -279,9 +303,13 @@ impl Bench<'_> {
     }
 
     fn read(&self, robot: &Robot) -> CubeTest {
+        self.read_with(robot, &NOTHING)
+    }
+
+    fn read_with(&self, robot: &Robot, hidden: &Hidden) -> CubeTest {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("cubes.csv");
-        std::fs::write(&path, self.text(robot)).unwrap();
+        std::fs::write(&path, self.text_with(robot, hidden)).unwrap();
         CubeTest::read(&path).unwrap()
     }
 }
@@ -363,8 +391,10 @@ fn table_1_of_the_source_comes_back_within_a_percent() {
 #[test]
 fn intervals_hold_the_truth_as_often_as_they_claim() {
     let robot = kr300();
+    let count = std::env::var("IDENT_COVERAGE_TESTS").ok();
+    let count = count.and_then(|n| n.parse().ok()).unwrap_or(40);
     let (mut held, mut all) = (0, 0);
-    for seed in 0..40 {
+    for seed in 0..count {
         let bench = Bench {
             seed: 500 + seed,
             degrees: POSE,
@@ -384,7 +414,7 @@ fn intervals_hold_the_truth_as_often_as_they_claim() {
         }
     }
     let share = held as f64 / all as f64;
-    println!("{held} of {all} intervals hold the truth ({share:.3})");
+    println!("{held} of {all} intervals hold the truth ({share:.3}) in {count} tests");
     assert!((0.92..=0.98).contains(&share), "{share}");
 }
 
@@ -489,4 +519,100 @@ fn what_cannot_be_read_is_refused_with_line_and_remedy() {
             .1
             .contains("axis 9")
     );
+}
+
+/// A test of the KR 300 with usual sensors, and what the diagnosis names in it: effect and site.
+fn named(change: &dyn Fn(&str) -> f64, hidden: &Hidden) -> Vec<(String, String)> {
+    let robot = kr300();
+    let bench = Bench {
+        seed: 11,
+        degrees: POSE,
+        noise: [2e-6, 1e-5],
+        frame_mm: 0.005,
+        times: 1.0,
+        cubes: cubes(),
+        change,
+    };
+    let case = Case::new(bench.read_with(&robot, hidden), robot).unwrap();
+    let found = examined(case);
+    let causes = found.answer().causes.iter();
+    causes
+        .map(|c| (c.effect.to_string(), c.site.clone()))
+        .collect()
+}
+
+fn only(found: &[(String, String)], effect: &str, site: &str) {
+    assert_eq!(found, [(effect.to_string(), site.to_string())]);
+}
+
+#[test]
+fn springs_that_are_softer_than_stated_are_named_and_nothing_where_all_is_right() {
+    assert!(named(&|_| 1.0, &NOTHING).is_empty());
+    for (site, effect) in [
+        ("A3", "drive_stiffness"),
+        ("A2-tilt", "tilt_stiffness"),
+        ("linked-arm-y", "link_compliance"),
+        ("arm-z", "link_compliance"),
+    ] {
+        let softer = |own: &str| if own == site { 1.3 } else { 1.0 };
+        only(&named(&softer, &NOTHING), effect, site);
+    }
+}
+
+#[test]
+fn a_loose_cube_that_follows_its_neighbour_is_named() {
+    let share = Hidden {
+        spoil: |_, name, own, all| {
+            if name == "carousel" {
+                let other = all.iter().find(|a| a.0 == "foot").unwrap().1;
+                (0..6).for_each(|k| own[k] += 0.3 * (other[k] - own[k]));
+            }
+        },
+        ..NOTHING
+    };
+    only(&named(&|_| 1.0, &share), "loose_cube", "carousel");
+}
+
+#[test]
+fn a_frame_that_moved_is_named() {
+    let moved = Hidden {
+        spoil: |test, _, own, _| {
+            if test == 7 {
+                own[0] += 60e-6;
+                own[2] -= 45e-6;
+            }
+        },
+        ..NOTHING
+    };
+    let found = named(&|_| 1.0, &moved);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].0, "frame_motion", "{found:?}");
+}
+
+#[test]
+fn a_wrong_load_is_named() {
+    let gain = Hidden {
+        load: |load| load.map(|x| 1.06 * x),
+        ..NOTHING
+    };
+    let found = named(&|_| 1.0, &gain);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].0, "force_gain", "{found:?}");
+    let turned = Hidden {
+        load: |[a, b, c, d, e, f]| {
+            let (s, k) = 0.05_f64.sin_cos();
+            [
+                k * a - s * b,
+                s * a + k * b,
+                c,
+                k * d - s * e,
+                s * d + k * e,
+                f,
+            ]
+        },
+        ..NOTHING
+    };
+    let found = named(&|_| 1.0, &turned);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].0, "load_misalignment", "{found:?}");
 }

@@ -78,6 +78,7 @@ fn recording(bandwidth_hz: Option<f64>, noise: f64, colour: f64) -> Recording {
         noise,
         colour,
         clipped: true,
+        ring: None,
     }
 }
 

@@ -53,6 +53,7 @@ fn campaign(folder: &Path) -> PathBuf {
         noise: 4.0,
         colour: 0.0,
         clipped: true,
+        ring: None,
     };
     let rows = record(&cutter, &passes, &TRUTH, &recording, &mut Random::new(7));
     let path = folder.join("measurements/al/cuts.csv");

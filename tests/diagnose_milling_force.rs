@@ -21,6 +21,7 @@ struct Bench {
     said: Vec<Pass>,
     done: Vec<Pass>,
     truth: [f64; 6],
+    ring: Option<[f64; 3]>,
 }
 
 impl Bench {
@@ -50,6 +51,7 @@ impl Bench {
             done: said.clone(),
             said,
             truth: NOMINAL,
+            ring: None,
         }
     }
 
@@ -59,7 +61,10 @@ impl Bench {
             &self.cutter,
             &self.done,
             &self.truth,
-            &recording(),
+            &Recording {
+                ring: self.ring,
+                ..recording()
+            },
             &mut Random::new(4),
         )
     }
@@ -93,6 +98,7 @@ fn recording() -> Recording {
         noise: NOISE,
         colour: 0.0,
         clipped: true,
+        ring: None,
     }
 }
 
@@ -183,4 +189,27 @@ fn what_changes_with_time_is_named() {
         }
     };
     is_named(&bench.found(chatter), "chatter");
+}
+
+#[test]
+fn teeth_that_do_not_run_alike_are_named() {
+    let mut bench = Bench::new(4);
+    bench.cutter.runout = 14e-6;
+    let found = bench.found(|_| ());
+    is_named(&found, "runout");
+    let size = found.answer.causes[0].parameters[0].1;
+    assert!((size / 14e-6 - 1.0).abs() < 0.1, "{size}");
+    let mut bench = Bench::new(4);
+    bench.cutter.chip = 40e-6;
+    is_named(&bench.found(|_| ()), "chipped_tooth");
+}
+
+#[test]
+fn a_sensor_that_rings_is_named_with_its_frequency() {
+    let mut bench = Bench::new(3);
+    bench.ring = Some([1330.0, 0.06, 1.0]);
+    let found = bench.found(|_| ());
+    is_named(&found, "sensor_resonance");
+    let hz = found.answer.causes[0].parameters[0].1;
+    assert!((hz / 1330.0 - 1.0).abs() < 0.02, "{hz}");
 }

@@ -176,8 +176,10 @@ fn a_sensor_mounted_a_quarter_turn_off_is_found() {
 
 #[test]
 fn intervals_hold_the_truth_as_often_as_they_claim() {
+    let count = std::env::var("IDENT_COVERAGE_TESTS").ok();
+    let count = count.and_then(|n| n.parse().ok()).unwrap_or(60);
     let (mut held, mut all) = (0, 0);
-    for seed in 0..60 {
+    for seed in 0..count {
         let found = identified(&file(&TRUTH, &many(), 100 + seed, [0.3, 0.02], |_| {
             [0.0; 3]
         }));
@@ -195,7 +197,7 @@ fn intervals_hold_the_truth_as_often_as_they_claim() {
         );
     }
     let share = held as f64 / all as f64;
-    println!("{held} of {all} intervals hold the truth ({share:.3})");
+    println!("{held} of {all} intervals hold the truth ({share:.3}) in {count} tests");
     assert!((0.92..=0.98).contains(&share), "{share}");
 }
 
@@ -341,8 +343,16 @@ fn a_real_sensor_with_24_poses_comes_out_as_an_independent_fit_says() {
             value(name)
         );
     }
+    // that fit weighs newtons and newton-metres alike and leaves 0.073 N and 0.0057 N·m; each by its own noise,
+    // forces are left a little more and moments a third (and the tilt, 0.08 N of force, follows the moments)
     let [force, moment] = found.remainder.before;
-    assert!(force < 0.12 && moment < 0.0060, "{force} {moment}");
+    println!("rms left {force} N, {moment} N·m");
+    assert!(force < 0.11 && moment < 0.0020, "{force} {moment}");
+    assert!(
+        found.remainder.held_out[0] < 0.08,
+        "{:?}",
+        found.remainder.held_out
+    );
 }
 
 #[test]

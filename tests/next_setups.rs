@@ -6,6 +6,7 @@ use ident::findings::next_setups::{
 };
 use ident::ground::random::Random;
 use ident::ground::spatial::{V3, cross, sub};
+use ident::measurement::rig::Rig;
 use ident::measurement::workspace_test::WorkspaceTest;
 use ident::motion::kinematics::{forward_kinematics, place, tcp};
 use ident::motion::statics::displacement;
@@ -49,7 +50,7 @@ fn base_about_z_and_a1_are_one_for_every_sensor_but_the_foot() {
     let (a1, base) = pair(&desk.belief, "A1", "base-z");
     let scale = desk.unknowns.sites[base].compliance / desk.unknowns.sites[a1].compliance;
     let (mut looked, mut told) = (0, 0);
-    for setting in candidates(&desk.unknowns.robot, &[]) {
+    for setting in candidates(&desk.unknowns.robot, &[], &Rig::default()) {
         let rows = sights.rows(&setting);
         let apart = (rows.column(base) - scale * rows.column(a1)).norm();
         let size = rows.column(a1).norm().max(rows.column(base).norm());
@@ -313,5 +314,40 @@ fn wrong_use_is_refused_with_a_remedy() {
         let out = ident(bench.path(), words);
         assert_eq!(out.status.code(), Some(2), "{words:?}");
         assert!(!out.stderr.is_empty() && out.stdout.is_empty());
+    }
+}
+
+#[test]
+fn only_set_ups_that_the_laboratory_can_build_are_proposed() {
+    let rig = Rig {
+        tool: Some([[1.0, -0.6, 0.4], [2.2, 0.6, 1.8]]),
+        keep_out: vec![[[1.4, -0.2, 0.0], [1.8, 0.2, 1.0]]],
+        directions: Some(vec![0, 2]),
+        sensors: Some(vec!["tool".into(), "foot".into()]),
+        bars: Some(false),
+    };
+    let desk = Desk::new(&kr210(), &[], None).within(rig.clone());
+    let plan = desk.plan(4, &[]);
+    assert!(
+        plan.chosen.len() == 4 && plan.compared > 200,
+        "{}",
+        plan.compared
+    );
+    let chain = rigid(&kr210());
+    let mut work = Work::new(&chain);
+    for one in &plan.chosen {
+        let tip = forward_kinematics(&chain, &mut work, &one.setting.angles).point;
+        let [low, high] = rig.tool.unwrap();
+        assert!(
+            (0..3).all(|i| tip[i] >= low[i] && tip[i] <= high[i]),
+            "{tip:?}"
+        );
+        let [low, high] = rig.keep_out[0];
+        assert!(
+            (0..3).any(|i| tip[i] < low[i] || tip[i] > high[i]),
+            "{tip:?}"
+        );
+        assert!(one.setting.direction != 1 && one.setting.reach == Reach::Mounted);
+        assert!(matches!(one.setting.seat, Seat::Tool | Seat::Foot));
     }
 }

@@ -84,6 +84,8 @@ fn a_point_out_of_reach_is_named_and_nothing_is_written() {
     assert!(ran.errors.contains("part.csv:7:"), "{}", ran.errors);
     let body: Value = serde_json::from_str(&ran.out).unwrap();
     assert_eq!(body["exceeded"][0]["what"], "reach");
+    assert_eq!(body["unreached"]["line"], 7);
+    assert_eq!(body["unreached"]["point_mm"].as_array().unwrap().len(), 3);
     assert!(body["trajectory"].is_null());
     assert!(!bench.path("reports").exists());
 }

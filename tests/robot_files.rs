@@ -35,6 +35,20 @@ fn a_small_robot_reads() {
     assert_eq!(file::read(&write::write(&robot)).unwrap(), robot);
 }
 
+#[test]
+fn a_stiffness_may_state_its_spread_where_no_interval_is_known() {
+    let with = |spread: &str| {
+        let text = format!("stiffness_Nm_rad = 1.0e6, stiffness_rel_std = {spread}");
+        file::read(&GOOD.replace("stiffness_Nm_rad = 1.0e6", &text))
+    };
+    let robot = with("0.1").unwrap();
+    let drive = robot.joints[0].drive.as_ref().unwrap();
+    assert_eq!(drive.relative_std(), Some(0.1));
+    for wrong in ["-0.1", "0.0", "nan", "\"some\""] {
+        assert!(with(wrong).is_err(), "{wrong}");
+    }
+}
+
 /// Text replaced, words that the problem must name, line if it has one.
 const BAD: &[(&str, &str, &[&str], Option<usize>)] = &[
     (

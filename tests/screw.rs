@@ -1,11 +1,13 @@
 //! Linear axes: figures, groups and tables against formulas of this file.
 
 use ident::fit::screw::groups::Joint;
+use ident::fit::screw::in_motion::{Demand, in_motion};
 use ident::fit::screw::positions::Extremes;
 use ident::fit::screw::{Account, Request, identify};
 use ident::ground::random::Random;
-use ident::measurement::pitch_table::PitchTable;
+use ident::measurement::pitch_table::{PitchTable, exporter};
 use ident::measurement::screw::ScrewTest;
+use ident::motion::servo::{BANDWIDTH, Drive, Loop, Screw, Stroke, course};
 use std::path::Path;
 
 /// Error of the screw, µm, at a position in mm.
@@ -15,6 +17,11 @@ type Error = fn(f64, bool) -> f64;
 fn worn(x: f64, forward: bool) -> f64 {
     let cyclic = 2.0 * (std::f64::consts::TAU * x / 5.08).sin();
     0.12 * x + 9.0 * (x / 60.0).sin() + cyclic + if forward { 0.0 } else { 11.0 }
+}
+
+/// The same with a narrow worn stretch: its targets differ by several µm from one to the next.
+fn pitted(x: f64, forward: bool) -> f64 {
+    worn(x, forward) - 30.0 * (-((x - 140.0) / 14.0).powi(2)).exp()
 }
 
 /// A file of seven runs; `table` corrects the command.
@@ -248,6 +255,82 @@ fn the_table_takes_at_least_four_fifths_of_the_error() {
     let smooth = before.table(true);
     let after = judged(&file(3, 5.0, worn, 0.5, Some(&smooth)), 2.0);
     assert!(after.figures.a.unwrap() < 0.35 * a);
+}
+
+#[test]
+fn in_motion_a_point_table_disturbs_the_speed_and_quadratics_do_not() {
+    let account = judged(&file(1, 5.0, pitted, 0.8, None), 2.0);
+    let demand = Demand::at(5.0 / 60.0);
+    let runs = in_motion(&account, &demand);
+    let holds = |key: &str| {
+        let run = runs.iter().find(|r| r.key == key).unwrap();
+        println!("{key:10} {:?} m/s, {:?} m", run.speed, run.error);
+        let (speed, position) = (run.holds_speed(&demand), run.holds_position(&demand));
+        (speed.unwrap(), position.unwrap())
+    };
+    assert_eq!(holds("none"), (true, false));
+    assert_eq!(holds("points"), (false, true));
+    for key in ["lines", "quadratics", "continuous"] {
+        assert_eq!(holds(key), (true, true), "{key}");
+    }
+}
+
+#[test]
+fn in_motion_the_table_brings_the_true_screw_to_where_it_is_told() {
+    // the truth of this file turns under the loop, once per turn included
+    let account = judged(&file(1, 5.0, worn, 0.8, None), 2.0);
+    let table = account.table(false);
+    let drive = Drive::of_pitch(5.08e-3);
+    let control = Loop::with_bandwidth(&drive, BANDWIDTH);
+    let error = |x: f64| 1e-6 * (worn(1e3 * x, true) + 5.5);
+    let screw = Screw {
+        error: &error,
+        play: 11e-6,
+    };
+    let stroke = Stroke {
+        ends: [-0.041, 0.319],
+        speed: 5.0 / 60.0,
+        acceleration: 2.0,
+        rest: 0.1,
+    };
+    let worst = |correction: &dyn Fn(f64, bool) -> f64| {
+        let mut worst = 0.0_f64;
+        course(&drive, &control, &screw, &stroke, correction, |now| {
+            if now.steady {
+                worst = worst.max(now.error.abs());
+            }
+        });
+        worst
+    };
+    let before = worst(&|_, _| 0.0);
+    let after = worst(&|x, forward| 1e-6 * table.correction_um(1e3 * x, forward));
+    println!("{before:e} {after:e}");
+    assert!(before > 40e-6 && after < 8e-6, "{before} {after}");
+}
+
+#[test]
+fn linuxcnc_finds_a_triplet_in_every_line_up_to_the_last_target() {
+    // it stops at the first line that is none (usrmotLoadComp)
+    let table = judged(&file(1, 5.0, worn, 0.8, None), 2.0).table(false);
+    let text = (exporter("linuxcnc").unwrap().write)(&table).unwrap();
+    let triplet = |line: &&str| {
+        let cells: Vec<&str> = line.split_whitespace().collect();
+        cells.len() == 3 && cells.iter().all(|c| c.parse::<f64>().is_ok())
+    };
+    assert_eq!(text.lines().take_while(triplet).count(), 73);
+    // type 1: the trim is nominal less actual
+    let first: Vec<f64> = text
+        .lines()
+        .next()
+        .unwrap()
+        .split(' ')
+        .map(|c| c.parse().unwrap())
+        .collect();
+    assert_eq!(first[0], -41.0);
+    assert!(
+        (first[1] + 1e-3 * worn(-41.0, true)).abs() < 1.5e-3,
+        "{first:?}"
+    );
 }
 
 #[test]

@@ -1,7 +1,9 @@
 //! What one verb did for a campaign, as a chapter of the campaign's report.
 
 use super::Ending;
-use crate::sheet::page::{Block, Page};
+use crate::ground::problem::Problem;
+use crate::measurement::workspace::Place;
+use crate::sheet::page::{Block, Page, Tone};
 use std::path::PathBuf;
 
 /// A chapter.
@@ -17,6 +19,40 @@ pub struct Chapter {
 }
 
 impl Chapter {
+    /// A file that cannot carry a number: its name, with its hash, and why.
+    pub fn withheld(title: String, input: (PathBuf, String), why: &Problem) -> Self {
+        let said = format!("{title}: {}; {}.", why.what, why.remedy);
+        let page = Page::new(title.as_str(), "withheld");
+        Self {
+            title,
+            ending: Ending::Attention,
+            inputs: vec![input],
+            page: page.with(Block::verdict(Tone::Attention, said)),
+        }
+    }
+
+    /// The chapters of several files as one; none of none.
+    pub fn together(title: &str, parts: Vec<Self>) -> Option<Self> {
+        let several = parts.len() > 1;
+        let mut parts = parts.into_iter();
+        let mut whole = parts.next()?;
+        if several {
+            let head = Block::heading(&whole.title);
+            whole.page.blocks.insert(0, head);
+        }
+        whole.title = title.into();
+        for part in parts {
+            if part.ending == Ending::Attention {
+                whole.ending = Ending::Attention;
+            }
+            whole.inputs.extend(part.inputs);
+            whole.page.synthetic |= part.page.synthetic;
+            whole.page.blocks.push(Block::heading(&part.title));
+            whole.page.blocks.extend(part.page.blocks);
+        }
+        Some(whole)
+    }
+
     /// Verdicts, the first figure and the first table in the open, the rest folded away.
     pub fn blocks(self) -> Vec<Block> {
         let (mut figure, mut table) = (true, true);
@@ -33,6 +69,12 @@ impl Chapter {
         open.push(Block::details(more, without_empty_sections(rest)));
         open
     }
+}
+
+/// The job of a campaign's part, `measurements/<campaign>/part/job.toml`, if there is one.
+pub fn part(place: &Place) -> Option<PathBuf> {
+    let job = place.measurements().join("part").join("job.toml");
+    job.is_file().then_some(job)
 }
 
 /// Leaves out headings that nothing stands under any more.

@@ -11,6 +11,7 @@ use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::{hammer_uff, uff};
 use crate::report::json;
+use crate::sheet::number::fixed;
 use crate::signal::coherence::random_error;
 use crate::signal::frf::Estimator;
 use crate::signal::jackknife;
@@ -278,16 +279,16 @@ fn row(frf: &HammerFrf, input: &InputFrf, output: usize, estimator: Estimator) -
     let peak = peak.max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0);
     let coherence = input.sums.coherence(output);
     let coherence: Vec<f64> = excited.iter().map(|k| coherence[*k]).collect();
-    let middle = crate::signal::pulse::median(&coherence);
+    let middle = crate::signal::outliers::median(&coherence);
     let error = 100.0 * random_error(middle, input.hits.len());
     format!(
-        "{:<3} {:<4} {:>4} {:>14.3} {:>9.4} {:>10.4} {:>15.2}\n",
+        "{:<3} {:<4} {:>4} {:>14} {:>9} {:>10} {:>15}\n",
         input.input,
         frf.outputs[output],
         input.hits.len(),
-        frf.frequency_hz[peak],
-        h[peak].norm(),
-        middle,
-        error
+        fixed(frf.frequency_hz[peak], 3),
+        fixed(h[peak].norm(), 4),
+        fixed(middle, 4),
+        fixed(error, 2)
     )
 }

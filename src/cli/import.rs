@@ -41,6 +41,9 @@ struct Arguments {
     /// Encoding: utf-8, utf-16 or windows-1252; left out: by the bytes
     #[arg(long)]
     encoding: Option<String>,
+    /// Sheet, group or variable, in a file of several tables
+    #[arg(long, value_name = "NAME")]
+    table: Option<String>,
     /// Print one JSON document
     #[arg(long)]
     json: bool,
@@ -122,6 +125,7 @@ fn asked(mut sidecar: Sidecar, arguments: &Arguments) -> Outcome<Sidecar> {
         sidecar.columns.push((name.to_string(), source));
     }
     sidecar.skip_rows = arguments.skip_rows.or(sidecar.skip_rows);
+    sidecar.table = arguments.table.clone().or(sidecar.table);
     sidecar.encoding = arguments.encoding.clone().or(sidecar.encoding);
     Ok(sidecar)
 }
@@ -163,7 +167,6 @@ fn missing(facts: &toml::Table) -> Vec<String> {
         None => &["kind"],
         Some("workspace" | "hammer" | "cubes") => &["robot", "joint_angles_deg"],
         Some("milling-force") => &["diameter_mm", "teeth", "cuts"],
-        Some("milled-part") => &["job"],
         Some(_) => &[],
     };
     needed
@@ -181,11 +184,15 @@ fn account(one: &Imported) -> String {
             one.rows
         ),
         Some(reading) => format!(
-            "{}: {} rows below line {}, {}\n",
+            "{}: {} rows below line {}, {}{}\n",
             one.path.display(),
             one.rows,
             reading.first_line - 1,
-            reading.encoding
+            reading.encoding,
+            reading
+                .sheet
+                .as_ref()
+                .map_or(String::new(), |s| format!(", table `{s}`"))
         ),
     };
     for (title, name) in one.reading.iter().flat_map(|r| &r.columns) {
@@ -233,6 +240,10 @@ fn body(one: &Imported) -> Map<String, Value> {
     let mut map = Map::new();
     map.insert("file".into(), json!(one.path.display().to_string()));
     map.insert("rows".into(), json!(one.rows));
+    let format = one.reading.as_ref().map(|r| r.encoding);
+    let sheet = one.reading.as_ref().and_then(|r| r.sheet.clone());
+    map.insert("format".into(), json!(format));
+    map.insert("table".into(), json!(sheet));
     map.insert("columns".into(), columns.into());
     map.insert("facts".into(), json!(one.sidecar.facts));
     map.insert("missing".into(), json!(one.missing));

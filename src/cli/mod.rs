@@ -1,7 +1,9 @@
 //! Floor 10: one file per verb. A new verb is one file, one `mod` line and one line in [`VERBS`].
 
 mod chapter;
+mod compare;
 mod compensate;
+mod completions;
 mod damping;
 mod diagnose;
 mod effects;
@@ -12,9 +14,10 @@ mod inspect;
 mod lab;
 mod lobes;
 mod mill;
+mod new;
 mod output;
+mod part_map;
 mod plan;
-mod planned;
 mod progress;
 mod report;
 mod robot;
@@ -73,6 +76,9 @@ pub const VERBS: &[Verb] = &[
     simulate::VERB,
     effects::VERB,
     lab::VERB,
+    compare::VERB,
+    new::VERB,
+    completions::VERB,
 ];
 
 /// Adds the arguments of a derived `Args` type: the usual [`Verb::arguments`].

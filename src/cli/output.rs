@@ -28,6 +28,13 @@ pub fn tell(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{}", harmless(text));
 }
 
+/// Warnings, one line each, on standard error.
+pub fn warn(remarks: &[String]) {
+    remarks
+        .iter()
+        .for_each(|remark| tell(&format!("warning: {remark}")));
+}
+
 /// A text without what would steer a terminal: files name kinds, units, joints and hits as they like.
 /// Control characters but line ends and tabs, and marks that turn the direction of writing, become U+FFFD.
 pub fn harmless(text: &str) -> Cow<'_, str> {

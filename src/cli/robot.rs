@@ -199,7 +199,7 @@ fn check_file(file: &File) -> Outcome<Ending> {
     if let Err(problem) = check::dynamics(&loaded.robot) {
         let told = |remark: &Remark| tell(&format!("{}: {}", remark.site, remark.text));
         remarks.iter().for_each(told);
-        return Err(problem.in_file(Path::new(&loaded.path)));
+        return Err(problem.in_text(Path::new(&loaded.path)));
     }
     match file.json {
         true => print_result("robot check", &[loaded.input()], check_json(&remarks))?,

@@ -3,12 +3,14 @@
 use super::chapter::Chapter;
 use super::output::print;
 use super::progress::Progress;
-use super::{Ending, Verb, arguments, damping, diagnose, parsed, plan, stiffness, validate};
+use super::{
+    Ending, Verb, arguments, damping, diagnose, parsed, plan, screw, sensor, stiffness, validate,
+};
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::workspace::Place;
 use crate::report::{folder, json};
 use crate::sheet::page::{Block, Page, Tone};
-use clap::{ArgMatches, Args};
+use clap::{ArgMatches, Args, ValueEnum};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -28,9 +30,19 @@ struct Arguments {
     /// Print one JSON document instead of the account
     #[arg(long)]
     json: bool,
+    /// End with 1 where a step found something (a limit, a cause), not only where one could not do its work
+    #[arg(long, value_name = "WHAT")]
+    fail_on: Option<FailOn>,
     /// Report progress on standard error even without a terminal
     #[arg(long)]
     progress: bool,
+}
+
+/// What ends a run with 1 beside a file that no step took.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum FailOn {
+    /// Anything that a step found.
+    Findings,
 }
 
 /// A step, by the name of its verb: its chapter, if the campaign has such files.
@@ -39,8 +51,11 @@ type Step = (&'static str, fn(&Place) -> Outcome<Option<Chapter>>);
 /// Every step in the order of work: what one finds, the next ones use.
 const STEPS: &[Step] = &[
     ("stiffness", stiffness::chapter),
+    ("stiffness", stiffness::cubes_chapter),
     ("validate", validate::chapter),
     ("damping", damping::chapter),
+    ("sensor", sensor::chapter),
+    ("screw", screw::chapter),
     ("diagnose", diagnose::chapter),
     ("plan", plan::chapter),
 ];
@@ -59,7 +74,8 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
         return Err(nothing(&place));
     }
     let over = passed_over(&place);
-    let attention = !over.is_empty() || chapters.iter().any(|c| c.1.ending == Ending::Attention);
+    let found = chapters.iter().any(|c| c.1.ending == Ending::Attention);
+    let attention = !over.is_empty() || (found && arguments.fail_on == Some(FailOn::Findings));
     let said = match arguments.json {
         true => as_json(&place, &chapters, &over),
         false => as_text(&place, &chapters, &over),

@@ -4,11 +4,17 @@
 //! Corrections are normal to the feed: along it they would change the time, not the part (source 002,
 //! eqs. 10 and 11, with |v|² where the print has |v|).
 
+pub mod answering;
+pub mod calm;
 pub mod correction;
+pub mod executed;
+pub mod limits;
 pub mod method;
+pub mod online;
 pub mod proof;
 pub mod remaining;
 pub mod shifted;
+pub mod text;
 
 pub use correction::Correction;
-pub use method::{Method, Search, search};
+pub use method::{Method, Search, Task, search};

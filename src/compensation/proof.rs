@@ -6,6 +6,7 @@ use crate::ground::spatial::norm;
 use crate::planning::Plan;
 use crate::process::run::Outcome as Milled;
 use crate::process::way::{Row, Way};
+use crate::robot::Joint;
 use std::f64::consts::PI;
 
 /// One thing that was checked.
@@ -29,6 +30,9 @@ pub struct Checked {
 
 /// A hand this near to straight is singular: |A5|, rad.
 const STRAIGHT: f64 = 0.035;
+/// Time in which a milling robot's joint reaches its highest speed, s; its speed where none is stated, rad/s.
+const RAMP_S: f64 = 0.4;
+const FAST: f64 = 1.5;
 /// Largest correction, m.
 const BOUND: f64 = 5e-3;
 
@@ -43,7 +47,7 @@ pub fn proof(plan: &Plan, way: &Way, correction: &Correction, milled: &Milled) -
                 .max_speed
                 .map(|limit| speed(rows, i, &joint.name, limit)),
         );
-        all.push(acceleration(way, &plan.rows, i, &joint.name));
+        all.push(acceleration(way, &plan.rows, i, joint));
     }
     all.push(singularity(rows));
     all.push(bound(correction));
@@ -93,16 +97,20 @@ fn speed(rows: &[Row], i: usize, site: &str, limit: f64) -> Checked {
     }
 }
 
-/// No robot file states accelerations: the corrected path is held against twice the uncorrected one's
-/// largest, or what a correction may add.
-fn acceleration(way: &Way, plan: &[crate::planning::plan::Row], i: usize, site: &str) -> Checked {
-    /// rad/s² that any drive of a milling robot has to spare.
-    const SPARE: f64 = 1.0;
+/// No robot file states accelerations: a joint is taken to reach its highest speed in [`RAMP_S`], and to do
+/// twice what the uncorrected path asks.
+fn acceleration(
+    way: &Way,
+    plan: &[crate::planning::plan::Row],
+    i: usize,
+    joint: &Joint,
+) -> Checked {
+    let site = &joint.name;
     let second = |a: f64, b: f64, c: f64, h: f64| ((a - 2.0 * b + c) / (h * h)).abs();
     let drawn = plan
         .windows(3)
         .map(|r| second(r[0].q[i], r[1].q[i], r[2].q[i], r[1].t - r[0].t));
-    let limit = 2.0 * drawn.fold(0.0, f64::max) + SPARE;
+    let limit = (2.0 * drawn.fold(0.0, f64::max)).max(joint.max_speed.unwrap_or(FAST) / RAMP_S);
     let triples = way.rows().windows(3).map(|r| {
         let h = r[1].time_s - r[0].time_s;
         (
@@ -114,7 +122,7 @@ fn acceleration(way: &Way, plan: &[crate::planning::plan::Row], i: usize, site: 
     let worst = worst.max(0.0);
     Checked {
         what: "joint-acceleration",
-        site: site.into(),
+        site: site.clone(),
         worst: worst.to_degrees(),
         limit: Some(limit.to_degrees()),
         ok: worst <= limit,

@@ -19,6 +19,8 @@ pub struct Setup {
     angles: Vec<f64>,
     /// The places whose compliance acts as one number; `axes` are hinges of the chain.
     pub sites: Vec<Site>,
+    /// How well the robot file says that each is known (`stiffness_rel_std`), relative.
+    pub stated: Vec<Option<f64>>,
     cubes: Vec<Seat>,
     load: Seat,
 }
@@ -73,8 +75,14 @@ impl Setup {
                 at: cube.centre,
             })
         };
+        let sites = sites(&chain);
+        let stated = |site: &Site| {
+            let mut springs = robot.springs();
+            springs.find(|s| s.0 == site.name)?.1.stiffness_rel_std
+        };
         Ok(Self {
-            sites: sites(&chain),
+            stated: sites.iter().map(stated).collect(),
+            sites,
             cubes: test.facts.cubes.iter().map(seat).collect::<Outcome<_>>()?,
             load: Seat {
                 hinges: chain.len(),

@@ -1,13 +1,16 @@
 //! What naming a cause gains on data that were not fitted.
 
 use crate::fit::parameter::Z95;
+use serde::Serialize;
 
 /// Rms error on held-out data before and after, with the interval of its reduction.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Gain {
     /// Rms error on held-out data without the cause.
+    #[serde(rename = "held_out_rms_before")]
     pub before: f64,
     /// With it.
+    #[serde(rename = "held_out_rms_after")]
     pub after: f64,
     /// 1 − after/before in percent.
     pub reduction_percent: f64,

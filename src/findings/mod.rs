@@ -5,6 +5,7 @@ pub mod answer;
 pub mod belief;
 pub mod campaign;
 pub mod cubes;
+mod document;
 pub mod engine;
 pub mod force_sensor;
 pub mod gain;

@@ -1,16 +1,19 @@
-//! What the axis tests of a campaign found: the fits that `ident stiffness` left on disk.
+//! What the axis tests and the measuring cubes of a campaign found: the fits that `ident stiffness` left on
+//! disk.
 
-use super::parameter::{Identified, Z95};
+use super::cubes::store::StoredCubes;
+use super::parameter::{Identified, Status, Z95};
 use super::store::{SCHEMA, StoredFit};
 use crate::ground::files;
 use crate::ground::problem::Outcome;
 use crate::measurement::leading::front_of;
 use crate::measurement::load_cycle::{LEVER_REL_STD, lever_spread};
+use crate::measurement::workspace::Place;
 use crate::robot::Robot;
 use crate::robot::joint_effect::JointEffect;
 use std::path::{Path, PathBuf};
 
-/// One axis test with its stiffness.
+/// One axis test with its stiffness; or one site that measuring cubes fixed, elastic axes of links included.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxisTest {
     /// Drive or bearing, as `A6` or `A6-tilt`.
@@ -48,27 +51,52 @@ pub struct Found {
     pub remarks: Vec<String>,
 }
 
-/// The axis tests in a folder of fits. Several of one site are pooled, with the scatter between them; a
-/// fit whose measurement is gone or changed is not used. `measurements` holds the files that were fitted.
+/// The axis tests in a folder of fits, and the sites that measuring cubes fixed. Several of one site are
+/// pooled, with the scatter between them; a fit whose measurement is gone or changed is not used.
+/// `measurements` holds the files that were fitted.
 ///
 /// # Errors
 /// A fit that cannot be read.
 pub fn read(folder: &Path, measurements: &Path) -> Outcome<Found> {
+    gathered(folder, measurements, |path| {
+        Ok(match one(path, measurements)? {
+            Some(test) => vec![test],
+            None => of_cubes(path)?,
+        })
+    })
+}
+
+/// The axis tests alone, as [`read`].
+///
+/// # Errors
+/// A fit that cannot be read.
+pub fn without_cubes(folder: &Path, measurements: &Path) -> Outcome<Found> {
+    gathered(folder, measurements, |path| {
+        Ok(one(path, measurements)?.into_iter().collect())
+    })
+}
+
+fn gathered(
+    folder: &Path,
+    measurements: &Path,
+    tests: impl Fn(&Path) -> Outcome<Vec<AxisTest>>,
+) -> Outcome<Found> {
     let mut found = Found::default();
     let mut sites: Vec<Vec<AxisTest>> = Vec::new();
     for path in fits(folder) {
-        let Some(test) = one(&path, measurements)? else {
-            continue;
-        };
-        if let Some(why) = outdated(&test, measurements) {
+        let tests = tests(&path)?;
+        // all of one file rest on the same measurements
+        if let Some(why) = tests.first().and_then(|t| outdated(t, measurements)) {
             found
                 .remarks
                 .push(format!("{} is not used: {why}", path.display()));
             continue;
         }
-        match sites.iter_mut().find(|own| own[0].site == test.site) {
-            Some(own) => take(own, test),
-            None => sites.push(vec![test]),
+        for test in tests {
+            match sites.iter_mut().find(|own| own[0].site == test.site) {
+                Some(own) => take(own, test),
+                None => sites.push(vec![test]),
+            }
         }
     }
     for own in sites {
@@ -78,14 +106,43 @@ pub fn read(folder: &Path, measurements: &Path) -> Outcome<Found> {
     Ok(found)
 }
 
-/// Why a fit no longer belongs to a measurement.
+/// The axis tests of a campaign by the names of this robot's joints; a remark for each that is not used as
+/// it stands.
+///
+/// # Errors
+/// A fit that cannot be read.
+pub fn of_robot(place: &Place, robot: &Robot) -> Outcome<Found> {
+    let mut found = read(&place.fits(), &place.measurements())?;
+    found.tests = named_as(found.tests, robot);
+    for test in &found.tests {
+        let drive = test.site.trim_end_matches("-tilt");
+        let elastic = robot.elastic.iter().any(|axis| axis.name == test.site);
+        if !elastic && robot.joints.iter().all(|joint| joint.name != drive) {
+            found.remarks.push(format!(
+                "the test of {} is not used: the robot `{}` has no such joint",
+                test.site, robot.name
+            ));
+        }
+    }
+    Ok(found)
+}
+
+/// Why a fit no longer belongs to its measurements.
 fn outdated(test: &AxisTest, measurements: &Path) -> Option<String> {
-    let path = measurements.join(&test.input.0);
     if !measurements.is_dir() {
         return None;
     }
-    match files::open(&path).and_then(|_| hash(&path)) {
-        Ok(hash) if hash == test.input.1 => None,
+    let (names, hashes) = (test.input.0.split(TOGETHER), test.input.1.split(TOGETHER));
+    let why = |(name, told): (&str, &str)| changed(&measurements.join(name), told);
+    names.zip(hashes).find_map(why)
+}
+
+/// Between the names of several measurements of one fit, and between their hashes.
+const TOGETHER: &str = " + ";
+
+fn changed(path: &Path, told: &str) -> Option<String> {
+    match files::open(path).and_then(|_| hash(path)) {
+        Ok(hash) if hash == told => None,
         Ok(_) => Some(format!(
             "{} was changed since it was fitted",
             path.display()
@@ -249,6 +306,33 @@ fn one(path: &Path, measurements: &Path) -> Outcome<Option<AxisTest>> {
         backlash: backlash.map(|(value, _, ci95)| (value, ci95)),
         effects: carried(&fit),
     }))
+}
+
+/// Every site that measuring cubes fixed, if the file holds such a fit.
+fn of_cubes(path: &Path) -> Outcome<Vec<AxisTest>> {
+    let bytes = files::read_bytes(path)?;
+    let Some(stored) = StoredCubes::of(&String::from_utf8_lossy(&bytes)) else {
+        return Ok(Vec::new());
+    };
+    let joined = |list: Vec<&str>| list.join(TOGETHER);
+    let input = (
+        joined(stored.inputs.iter().map(|i| i.file.as_str()).collect()),
+        joined(stored.inputs.iter().map(|i| i.sha256.as_str()).collect()),
+    );
+    let test = |p: &Identified| {
+        let known = p.status == Status::Identified && p.stderr? > 0.0;
+        Some(AxisTest {
+            site: p.site.clone(),
+            path: path.to_path_buf(),
+            sha256: files::sha256(&bytes),
+            input: input.clone(),
+            stiffness: (p.value.filter(|_| known)?, p.stderr?),
+            ci95: p.ci95?,
+            backlash: None,
+            effects: Vec::new(),
+        })
+    };
+    Ok(stored.parameters.iter().filter_map(test).collect())
 }
 
 /// The effects of a fit that a joint can carry. Their loop is what the test fixed, even where it leaves

@@ -99,7 +99,7 @@ pub const AXES: [&str; 3] = ["x", "y", "z"];
 /// # Errors
 /// No usable hit.
 pub fn test(path: &Path, record: HammerRecord, settings: &Settings) -> Outcome<Test> {
-    let frf = estimate(&record, settings).map_err(|problem| problem.in_file(path))?;
+    let frf = estimate(&record, settings).map_err(|problem| problem.in_text(path))?;
     Ok(Test {
         path: path.to_path_buf(),
         modes: modes(&frf, settings.band_hz),

@@ -33,6 +33,7 @@ fn take_axis_test(spring: &mut Spring, test: &AxisTest) {
         .unwrap_or_else(|| "the robot file".into());
     spring.stiffness = test.stiffness.0;
     spring.ci95.stiffness = Some(test.ci95);
+    spring.stiffness_rel_std = None;
     let mut found = vec!["stiffness"];
     if let Some((gap, ci95)) = test.backlash {
         spring.backlash = vec![gap.max(0.0)];
@@ -83,6 +84,7 @@ fn with_stiffnesses(robot: &Robot, parameters: &[Identified], found_by: &str) ->
                 .unwrap_or_else(|| "the robot file".into());
             spring.stiffness = value;
             spring.ci95.stiffness = Some(ci95);
+            spring.stiffness_rel_std = None;
             drop_impossible(spring);
             spring.source = Some(format!(
                 "stiffness: {found_by}, starting from what follows; {before}"

@@ -1,7 +1,7 @@
 //! `fits/<campaign>/*-extended.toml` of a joint motion: what was found, with provenance, loaded back.
 
 use super::parameter::Identified;
-use super::stored_text::stored_text;
+use super::stored_text::{stored, stored_text};
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use serde::{Deserialize, Serialize};
@@ -71,15 +71,14 @@ impl StoredMotion {
     /// It is no such fit.
     pub fn read(path: &Path) -> Outcome<Self> {
         let bytes = files::read_bytes(path)?;
-        let refused = |why: String| {
-            let remedy = "give a fit of a joint motion that `ident diagnose` wrote";
-            Problem::new(format!("is no such fit ({why})"), remedy).in_file(path)
-        };
-        let text = String::from_utf8(bytes).map_err(|e| refused(e.to_string()))?;
-        let fit: Self = toml::from_str(&text).map_err(|e| refused(e.message().trim().into()))?;
+        let remedy = "give a fit of a joint motion that `ident diagnose` wrote";
+        let fit: Self = stored(path, bytes, ("a fit of a joint motion", remedy))?;
         match fit.schema == SCHEMA {
             true => Ok(fit),
-            false => Err(refused(format!("its schema is `{}`", fit.schema))),
+            false => {
+                let what = format!("has the schema `{}`, not `{SCHEMA}`", fit.schema);
+                Err(Problem::new(what, remedy).in_text(path))
+            }
         }
     }
 }

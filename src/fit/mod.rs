@@ -3,6 +3,7 @@
 pub mod axis_tests;
 pub mod bootstrap;
 pub mod candidates;
+pub mod compare;
 pub mod compliance;
 pub mod convex;
 pub mod cubes;

@@ -51,8 +51,7 @@ pub struct Parts {
     pub levers: f64,
 }
 
-/// 97.5 % point of the normal distribution.
-pub const Z95: f64 = 1.959_963_984_540_054;
+pub use crate::ground::stats::Z95;
 
 impl Identified {
     /// A parameter the data fix, with its standard error.

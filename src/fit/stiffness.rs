@@ -13,6 +13,7 @@ use crate::fit::screen::screen;
 use crate::fit::second::log_ratio;
 use crate::fit::suitability::load_cycle::doubts;
 use crate::fit::suitability::{Doubt, is_fatal, is_odd};
+use crate::ground::stats::mean;
 use crate::measurement::load_cycle::{LEVER_REL_STD, LoadCycle};
 
 /// What is identified when nothing else is asked for.
@@ -241,10 +242,6 @@ fn warnings(account: &Account, file: &LoadCycle) -> Vec<String> {
         said.push("these data do not support a stiffness".into());
     }
     said
-}
-
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len().max(1) as f64
 }
 
 /// Measured loss of each cycle by numerical integration, J.

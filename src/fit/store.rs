@@ -2,7 +2,7 @@
 
 use super::parameter::{Identified, Status};
 use super::solution::Solution;
-use super::stored_text::stored_text;
+use super::stored_text::{stored, stored_text};
 use crate::effects::Composite;
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
@@ -127,25 +127,8 @@ impl StoredFit {
     /// Reads it back.
     pub fn read(path: &Path) -> Outcome<Self> {
         let bytes = files::read_bytes(path)?;
-        let text = String::from_utf8(bytes).map_err(|_| {
-            Problem::new("is not UTF-8 text", "give a fit that `ident` wrote")
-                .at_line(1)
-                .in_file(path)
-        })?;
-        let line = |at: usize| {
-            1 + text.as_bytes()[..at.min(text.len())]
-                .iter()
-                .filter(|b| **b == b'\n')
-                .count()
-        };
-        let fit: Self = toml::from_str(&text).map_err(|e| {
-            Problem::new(
-                format!("is not a fit: {}", e.message().trim()),
-                "give a file that `ident stiffness` or `ident diagnose` wrote under fits/",
-            )
-            .at_line(e.span().map_or(1, |span| line(span.start)))
-            .in_file(path)
-        })?;
+        let remedy = "give a file that `ident stiffness` or `ident diagnose` wrote under fits/";
+        let fit: Self = stored(path, bytes, ("a fit", remedy))?;
         if fit.schema != SCHEMA {
             return Err(Problem::new(
                 format!(

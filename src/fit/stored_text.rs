@@ -2,6 +2,8 @@
 
 use crate::ground::problem::{Outcome, Problem};
 use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::path::Path;
 
 /// A fit as TOML, labelled where the measurement was simulated.
 ///
@@ -21,4 +23,25 @@ pub fn stored_text(fit: &impl Serialize, synthetic: bool) -> Outcome<String> {
     Ok(format!(
         "{label}# SI units; value and interval are left out where the data do not fix them\n{body}"
     ))
+}
+
+/// What a fit on disk holds; `is` says what it should be, as `a fit`.
+///
+/// # Errors
+/// It is no such fit, with the line of what is wrong.
+pub fn stored<T: DeserializeOwned>(
+    path: &Path,
+    bytes: Vec<u8>,
+    (is, remedy): (&str, &str),
+) -> Outcome<T> {
+    let refuse = |what: String, line: usize| Problem::new(what, remedy).at_line(line).in_file(path);
+    let text = String::from_utf8(bytes).map_err(|_| refuse("is not UTF-8 text".into(), 1))?;
+    let line = |at: usize| {
+        let before = &text.as_bytes()[..at.min(text.len())];
+        1 + before.iter().filter(|b| **b == b'\n').count()
+    };
+    toml::from_str(&text).map_err(|e| {
+        let at = e.span().map_or(1, |span| line(span.start));
+        refuse(format!("is not {is}: {}", e.message().trim()), at)
+    })
 }

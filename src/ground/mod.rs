@@ -1,5 +1,5 @@
 //! Floor 0: what knows no robots and no measurements. Units, problems with a remedy, scalars that
-//! carry derivatives, 6-D spatial algebra, seeded random numbers.
+//! carry derivatives, 6-D spatial algebra, seeded random numbers, statistics.
 
 pub mod cholesky;
 pub mod dual;
@@ -8,6 +8,7 @@ pub mod nearest;
 pub mod problem;
 pub mod random;
 pub mod spatial;
+pub mod stats;
 pub mod trig;
 pub mod units;
 pub mod vector;

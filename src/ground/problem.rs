@@ -41,6 +41,15 @@ impl Problem {
         self
     }
 
+    /// The same problem, found in the text of `file`: in its first line where no closer place is known.
+    #[must_use]
+    pub fn in_text(self, file: &Path) -> Self {
+        match self.file.is_some() {
+            true => self,
+            false => self.at_line(1).in_file(file),
+        }
+    }
+
     /// The same problem, found in 1-based `line`.
     #[must_use]
     pub fn at_line(mut self, line: usize) -> Self {

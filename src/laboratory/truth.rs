@@ -1,8 +1,11 @@
 //! The readable truth of a synthetic campaign, and the files it makes.
 
+use super::cubes_truth::CubesTruth;
 use super::hammer_truth::HammerTruth;
 use super::noise::autoregressive;
 use super::recording::Recording;
+use super::screw_truth::ScrewTruth;
+use super::sensor_truth::SensorTruth;
 use super::workspace::WorkspaceTruth;
 use crate::effects::{Composite, Scene};
 use crate::experiments::schedule;
@@ -30,6 +33,15 @@ pub struct Truth {
     pub workspace: Option<WorkspaceTruth>,
     /// The hammer tests.
     pub hammer: Option<HammerTruth>,
+    /// The measuring cubes.
+    #[serde(default)]
+    pub cubes: Vec<CubesTruth>,
+    /// The force sensors.
+    #[serde(default)]
+    pub force_sensor: Vec<SensorTruth>,
+    /// The screws.
+    #[serde(default)]
+    pub screw: Vec<ScrewTruth>,
 }
 
 /// One axis test.
@@ -97,6 +109,10 @@ fn three() -> usize {
 const LEVER_REL_STD: f64 = 0.002;
 /// Stands apart from the numbers of the axis tests.
 const WORKSPACE_SEED: u64 = 900_001;
+/// As the seed of the workspace: each kind its own.
+const CUBES_SEED: u64 = 910_000;
+const SENSOR_SEED: u64 = 920_000;
+const SCREW_SEED: u64 = 930_000;
 /// Noise of the load cell over the largest force.
 const LOAD_CELL: f64 = 5e-5;
 
@@ -147,7 +163,29 @@ impl Truth {
                 files.push((PathBuf::from(&file.name), record.text()));
             }
         }
+        files.extend(self.instruments()?);
         Ok(files)
+    }
+
+    /// Cubes, force sensors and screws.
+    fn instruments(&self) -> Outcome<Vec<(PathBuf, String)>> {
+        let machine = (self.robot.as_str(), self.source.as_str());
+        let mut made: Vec<(String, String)> = Vec::new();
+        for (i, test) in self.cubes.iter().enumerate() {
+            let seed = self.seed_of(CUBES_SEED + i as u64);
+            made.push((test.file.clone(), test.record(machine, seed)?));
+        }
+        for (i, test) in self.force_sensor.iter().enumerate() {
+            let seed = self.seed_of(SENSOR_SEED + i as u64);
+            made.push((test.file.clone(), test.record(machine, seed)?.text()));
+        }
+        for (i, test) in self.screw.iter().enumerate() {
+            let seed = self.seed_of(SCREW_SEED + i as u64);
+            let record = test.record(machine, seed, &made)?;
+            made.push((test.file.clone(), record.text()));
+        }
+        let named = |(file, text): (String, String)| (PathBuf::from(file), text);
+        Ok(made.into_iter().map(named).collect())
     }
 
     /// Every file has its own noise, so that adding one leaves the others as they were.

@@ -1,26 +1,17 @@
 //! Kind `cubes`: measuring cubes on the structure of a robot, loaded less unloaded (source 002,
 //! section 2.5).
 
-use super::facts::{measured, missing, needed, stem};
+use super::facts::{measured, missing, needed};
 use super::front::Front;
 use super::table::Table;
+use super::test::{Kind, Test};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::V3;
 use crate::ground::units::{DEGREE, Dimension};
-use std::path::{Path, PathBuf};
 use toml::Value;
 
 const HEADER: &str =
     "test,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,cube,dx_mm,dy_mm,dz_mm,rx_mrad,ry_mrad,rz_mrad";
-const KEYS: &[&str] = &[
-    "robot",
-    "joint_angles_deg",
-    "cubes",
-    "load_point_m",
-    "sensor_noise_mm",
-    "sensor_noise_mrad",
-    "frame_std_mm",
-];
 
 /// One cube.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,64 +61,23 @@ pub struct Reading {
 }
 
 /// A cubes file, SI.
-#[derive(Debug, Clone)]
-pub struct CubeTest {
-    /// Where it came from.
-    pub path: PathBuf,
-    /// SHA-256 of the file.
-    pub sha256: String,
-    /// Its facts.
-    pub facts: Facts,
-    /// The readings, in the order of the file.
-    pub readings: Vec<Reading>,
-    /// Data rows of the file.
-    pub rows: usize,
-    /// Rows left out for an empty cell.
-    pub left_out: usize,
-}
+pub type CubeTest = Test<Facts>;
 
-impl CubeTest {
-    /// Reads a file of kind `cubes`.
-    ///
-    /// # Errors
-    /// Whatever cannot be understood, with file, line, column and remedy.
-    pub fn read(path: &Path) -> Outcome<Self> {
-        Self::from_table(Table::read(path)?).map_err(|problem| problem.in_file(path))
-    }
+impl Kind for Facts {
+    const NAME: &'static str = "cubes";
+    const KEYS: &'static [&'static str] = &[
+        "robot",
+        "joint_angles_deg",
+        "cubes",
+        "load_point_m",
+        "sensor_noise_mm",
+        "sensor_noise_mrad",
+        "frame_std_mm",
+    ];
+    const NEEDS: &'static str =
+        "every row needs test, load, cube and at least one displacement or rotation";
+    type Reading = Reading;
 
-    /// Interprets a table that was read already.
-    ///
-    /// # Errors
-    /// As [`CubeTest::read`].
-    pub fn from_table(table: Table) -> Outcome<Self> {
-        table.front.expect_kind("cubes")?;
-        table.front.only(KEYS)?;
-        let facts = Facts::of(&table.front)?;
-        let readings = readings(&table, &facts.cubes)?;
-        if readings.is_empty() {
-            return Err(Problem::new(
-                format!("holds no usable row ({} left out)", table.rows),
-                "every row needs test, load, cube and at least one displacement or rotation",
-            )
-            .at_line(table.first_line));
-        }
-        Ok(Self {
-            left_out: table.rows - readings.len(),
-            rows: table.rows,
-            sha256: table.sha256,
-            path: table.path,
-            facts,
-            readings,
-        })
-    }
-
-    /// File name without its ending.
-    pub fn stem(&self) -> String {
-        stem(&self.path, "cubes")
-    }
-}
-
-impl Facts {
     fn of(front: &Front) -> Outcome<Self> {
         let lacking = |key: &str, remedy: &str| {
             Problem::new(format!("the fact `{key}` is missing"), remedy.to_string()).at_line(1)
@@ -165,6 +115,10 @@ impl Facts {
             frame_std: front.not_negative("frame_std_mm")?.map(|mm| mm * 1e-3),
             synthetic: front.synthetic(),
         })
+    }
+
+    fn readings(&self, table: &Table) -> Outcome<Vec<Reading>> {
+        readings(table, &self.cubes)
     }
 }
 

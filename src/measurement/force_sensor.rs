@@ -1,23 +1,15 @@
 //! Kind `force-sensor`: what a force-torque sensor at the flange reads while the robot turns it, without
 //! touching anything (source 002, section 2.6).
 
-use super::facts::{measured, missing, needed, stem};
+use super::facts::{measured, missing, needed};
 use super::front::Front;
 use super::table::Table;
+use super::test::{Kind, Test};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::M3;
 use crate::ground::units::Dimension;
-use std::path::{Path, PathBuf};
 
 const HEADER: &str = "point,qw,qx,qy,qz,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm";
-const KEYS: &[&str] = &[
-    "robot",
-    "nominal_weight_N",
-    "nominal_com_m",
-    "nominal_rel_std",
-    "sensor_noise_N",
-    "sensor_noise_Nm",
-];
 /// Names of the six channels in the header.
 pub const CHANNELS: [(&str, &str); 6] = [
     ("fx", "N"),
@@ -61,64 +53,22 @@ pub struct Reading {
 }
 
 /// A force-sensor file, SI.
-#[derive(Debug, Clone)]
-pub struct SensorTest {
-    /// Where it came from.
-    pub path: PathBuf,
-    /// SHA-256 of the file.
-    pub sha256: String,
-    /// Its facts.
-    pub facts: Facts,
-    /// The readings, in the order of the file.
-    pub readings: Vec<Reading>,
-    /// Data rows of the file.
-    pub rows: usize,
-    /// Rows left out for an empty cell.
-    pub left_out: usize,
-}
+pub type SensorTest = Test<Facts>;
 
-impl SensorTest {
-    /// Reads a file of kind `force-sensor`.
-    ///
-    /// # Errors
-    /// Whatever cannot be understood, with file, line, column and remedy.
-    pub fn read(path: &Path) -> Outcome<Self> {
-        Self::from_table(Table::read(path)?).map_err(|problem| problem.in_file(path))
-    }
+impl Kind for Facts {
+    const NAME: &'static str = "force-sensor";
+    const KEYS: &'static [&'static str] = &[
+        "robot",
+        "nominal_weight_N",
+        "nominal_com_m",
+        "nominal_rel_std",
+        "sensor_noise_N",
+        "sensor_noise_Nm",
+    ];
+    const NEEDS: &'static str =
+        "every reading needs an orientation, three forces and three moments";
+    type Reading = Reading;
 
-    /// Interprets a table that was read already.
-    ///
-    /// # Errors
-    /// As [`SensorTest::read`].
-    pub fn from_table(table: Table) -> Outcome<Self> {
-        table.front.expect_kind("force-sensor")?;
-        table.front.only(KEYS)?;
-        let facts = Facts::of(&table.front)?;
-        let readings = readings(&table)?;
-        if readings.is_empty() {
-            return Err(Problem::new(
-                format!("holds no usable row ({} left out)", table.rows),
-                "every reading needs an orientation, three forces and three moments",
-            )
-            .at_line(table.first_line));
-        }
-        Ok(Self {
-            left_out: table.rows - readings.len(),
-            rows: table.rows,
-            sha256: table.sha256,
-            path: table.path,
-            facts,
-            readings,
-        })
-    }
-
-    /// File name without its ending.
-    pub fn stem(&self) -> String {
-        stem(&self.path, "sensor")
-    }
-}
-
-impl Facts {
     fn of(front: &Front) -> Outcome<Self> {
         let com = front.numbers("nominal_com_m")?;
         let three = |list: Vec<f64>| {
@@ -141,6 +91,10 @@ impl Facts {
             ],
             synthetic: front.synthetic(),
         })
+    }
+
+    fn readings(&self, table: &Table) -> Outcome<Vec<Reading>> {
+        readings(table)
     }
 }
 

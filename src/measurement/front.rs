@@ -21,7 +21,7 @@ const SMALLEST: f64 = 1e-30;
 const LARGEST: f64 = 1e30;
 
 /// Facts that every kind knows.
-const COMMON: &[&str] = &[
+pub(super) const COMMON: &[&str] = &[
     "kind",
     "source",
     "synthetic",

@@ -53,11 +53,11 @@ pub struct HammerRun {
 
 /// Reads a file of kind `hammer`.
 pub fn read_hammer(path: &Path) -> Outcome<HammerRecord> {
-    from_table(&Table::read(path)?).map_err(|problem| problem.in_file(path))
+    from_table(&Table::read(path)?).map_err(|problem| problem.in_text(path))
 }
 
 /// The facts of this kind, as they are written.
-const FACTS: &[&str] = &[
+pub(super) const FACTS: &[&str] = &[
     "joint_angles_deg",
     "accelerometer_noise_m_s2",
     "nominal_stiffness_rel_std",

@@ -25,7 +25,7 @@ pub fn read_any(path: &Path) -> Outcome<HammerRecord> {
 /// the hits; else the k-th force belongs to the k-th record of each response.
 pub fn read_hammer(path: &Path) -> Outcome<HammerRecord> {
     let file = uff::read(path)?;
-    let record = from_functions(&file.functions_si()).map_err(|problem| problem.in_file(path))?;
+    let record = from_functions(&file.functions_si()).map_err(|problem| problem.in_text(path))?;
     Ok(HammerRecord {
         sha256: files::sha256(&files::read_bytes(path)?),
         ..record

@@ -8,7 +8,7 @@ use crate::ground::units::Dimension;
 use std::path::{Path, PathBuf};
 
 /// The facts of this kind, as they are written.
-const FACTS: &[&str] = &[
+pub(super) const FACTS: &[&str] = &[
     "gear_ratio",
     "encoder_delay_s",
     "sensor_delay_s",
@@ -96,7 +96,7 @@ impl JointMotion {
     /// # Errors
     /// What is missing or wrong, with line, column and remedy.
     pub fn read(path: &Path) -> Outcome<Self> {
-        Self::from_table(Table::read(path)?).map_err(|problem| problem.in_file(path))
+        Self::from_table(Table::read(path)?).map_err(|problem| problem.in_text(path))
     }
 
     /// Interprets a table that was read already.

@@ -71,7 +71,7 @@ impl Modal {
     /// # Errors
     /// Whatever is unknown, missing or impossible, with file, line and remedy.
     pub fn read(path: &Path) -> Outcome<Self> {
-        Self::of_bytes(path, &read_bytes(path)?).map_err(|problem| problem.in_file(path))
+        Self::of_bytes(path, &read_bytes(path)?).map_err(|problem| problem.in_text(path))
     }
 
     fn of_bytes(path: &Path, bytes: &[u8]) -> Outcome<Self> {

@@ -1,15 +1,14 @@
 //! Kind `screw`: positions that a linear axis was told and those that a scale read, run by run in both
 //! directions (source 003, section 3.2; ISO 230-2).
 
-use super::facts::{measured, missing, needed, stem};
+use super::facts::{measured, missing, needed};
 use super::front::Front;
 use super::table::Table;
+use super::test::{Kind, Test};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::units::Dimension;
-use std::path::{Path, PathBuf};
 
 const HEADER: &str = "run,direction,target_mm,actual_mm";
-const KEYS: &[&str] = &["pitch_mm", "scale_noise_um", "robot", "axis"];
 
 /// The facts of a screw file, SI.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -40,70 +39,24 @@ pub struct Reading {
 }
 
 /// A screw file, SI.
-#[derive(Debug, Clone)]
-pub struct ScrewTest {
-    /// Where it came from.
-    pub path: PathBuf,
-    /// SHA-256 of the file.
-    pub sha256: String,
-    /// Its facts.
-    pub facts: Facts,
-    /// The readings, in the order of the file.
-    pub readings: Vec<Reading>,
-    /// Data rows of the file.
-    pub rows: usize,
-    /// Rows left out because run, direction, target or reading was empty.
-    pub left_out: usize,
-}
+pub type ScrewTest = Test<Facts>;
 
-impl ScrewTest {
-    /// Reads a file of kind `screw`.
-    ///
-    /// # Errors
-    /// Whatever cannot be understood, with file, line, column and remedy.
-    pub fn read(path: &Path) -> Outcome<Self> {
-        Self::from_table(Table::read(path)?).map_err(|problem| problem.in_file(path))
-    }
+impl Kind for Facts {
+    const NAME: &'static str = "screw";
+    const KEYS: &'static [&'static str] = &["pitch_mm", "scale_noise_um", "robot", "axis"];
+    const NEEDS: &'static str = "every reading needs run, direction, target and actual position";
+    type Reading = Reading;
 
-    /// Interprets a table that was read already.
-    ///
-    /// # Errors
-    /// As [`ScrewTest::read`].
-    pub fn from_table(table: Table) -> Outcome<Self> {
-        table.front.expect_kind("screw")?;
-        table.front.only(KEYS)?;
-        let facts = Facts::of(&table.front)?;
-        let readings = readings(&table)?;
-        if readings.is_empty() {
-            return Err(Problem::new(
-                format!("holds no usable row ({} left out)", table.rows),
-                "every reading needs run, direction, target and actual position",
-            )
-            .at_line(table.first_line));
-        }
-        Ok(Self {
-            left_out: table.rows - readings.len(),
-            rows: table.rows,
-            sha256: table.sha256,
-            path: table.path,
-            facts,
-            readings,
-        })
-    }
-
-    /// File name without its ending.
-    pub fn stem(&self) -> String {
-        stem(&self.path, "screw")
-    }
-}
-
-impl Facts {
     fn of(front: &Front) -> Outcome<Self> {
         Ok(Self {
             pitch: front.positive("pitch_mm")?.map(|mm| mm * 1e-3),
             scale_noise: front.not_negative("scale_noise_um")?.map(|um| um * 1e-6),
             synthetic: front.synthetic(),
         })
+    }
+
+    fn readings(&self, table: &Table) -> Outcome<Vec<Reading>> {
+        readings(table)
     }
 }
 

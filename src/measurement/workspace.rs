@@ -1,5 +1,7 @@
 //! A workspace on disk: `measurements/<campaign>/`, `fits/<campaign>/`, `reports/<campaign>/`.
 
+use super::foreign::binary::FORMATS;
+use super::foreign::sidecar;
 use super::leading::kind_of;
 use crate::ground::nearest::nearest;
 use crate::ground::problem::{Outcome, Problem};
@@ -17,7 +19,9 @@ pub struct Place {
 /// Names of results that no measurement may take.
 const RESERVED: &[&str] = &["robot", "extended-robot"];
 /// Endings of files that hold measurements.
-const MEASURED: &[&str] = &["csv", "txt", "dat", "uff", "unv"];
+const MEASURED: &[&str] = &[
+    "csv", "txt", "dat", "uff", "unv", "xlsx", "npy", "mat", "tdms",
+];
 /// Folder for what is made from a job: `reports/<campaign>/<folder of the job>/` for a job under
 /// `measurements/<campaign>/`, else `reports/` in the folder that `ident` runs in; a job that is not
 /// called `job.toml` has a folder of its own name in it.
@@ -106,17 +110,15 @@ impl Place {
         self.root.join("measurements").join(&self.campaign)
     }
 
-    /// The CSV files of the campaign that say they are of `kind`, by name.
+    /// The tables of the campaign that say, or of which it is said beside them, that they are of `kind`, by
+    /// name.
     pub fn files_of(&self, kind: &str) -> Outcome<Vec<PathBuf>> {
         let entries = std::fs::read_dir(self.measurements())
             .into_iter()
             .flatten()
             .flatten();
         let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
-        files.retain(|path| {
-            path.extension()
-                .is_some_and(|e| e.eq_ignore_ascii_case("csv"))
-        });
+        files.retain(|path| is_table(path));
         files.sort();
         let mut found = Vec::new();
         for path in files {
@@ -258,6 +260,19 @@ fn folders(under: &Path) -> Vec<PathBuf> {
     found
 }
 
+/// Whether a file may be a table of measurements: CSV, a format of other programs, or any text that a
+/// sidecar tells about.
+fn is_table(path: &Path) -> bool {
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    let ending = ending.to_lowercase();
+    let formats = FORMATS.iter().flat_map(|format| format.endings);
+    match ending.as_str() {
+        "csv" => true,
+        "txt" | "dat" => sidecar::place(path).is_file(),
+        ending => formats.copied().any(|known| known == ending),
+    }
+}
+
 /// The only measurement of a kind in the folder of a campaign.
 ///
 /// # Errors
@@ -266,7 +281,7 @@ pub fn only_of_kind(folder: &Path, kind: &str) -> Outcome<PathBuf> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let paths = entries.map(|e| e.path());
     let mut found: Vec<PathBuf> = paths
-        .filter(|p| p.extension().is_some_and(|e| e == "csv"))
+        .filter(|p| is_table(p))
         .filter(|p| kind_of(p).ok().flatten().as_deref() == Some(kind))
         .collect();
     found.sort();

@@ -67,7 +67,7 @@ impl WorkspaceTest {
     /// # Errors
     /// Whatever cannot be understood, with file, line, column and remedy.
     pub fn read(path: &Path) -> Outcome<Self> {
-        Self::from_table(Table::read(path)?).map_err(|problem| problem.in_file(path))
+        Self::from_table(Table::read(path)?).map_err(|problem| problem.in_text(path))
     }
 
     /// Interprets a table that was read already.
@@ -128,7 +128,7 @@ impl Facts {
 }
 
 /// The facts of this kind, as they are written.
-const FACTS: &[&str] = &[
+pub(super) const FACTS: &[&str] = &[
     ANGLES,
     "nominal_stiffness_rel_std",
     "setup_repeatability",

@@ -234,8 +234,10 @@ impl SphericalWrist {
             let side = rotate_back(&hand, rotate(rest, a5));
             [q4, q5, angle_about(a6, a5, side)]
         };
-        let second = (across >= 1e-12).then(|| complete(start - lean));
-        ([Some(complete(start + lean)), second], straight)
+        // A4 and A6 half a turn on, A5 leant the other way: the same hand, since A5 is across both
+        let first = complete(start + lean);
+        let second = [first[0] + PI, start - lean, first[2] + PI];
+        ([Some(first), (across >= 1e-12).then_some(second)], straight)
     }
 
     fn posture(
@@ -273,8 +275,10 @@ fn branches<T>(
 fn within(q: f64, seed: f64, [low, high]: &[f64; 2]) -> (f64, bool) {
     const SLACK: f64 = 1e-9;
     let nearest = q + TAU * ((seed - q) / TAU).round();
+    if nearest >= low - SLACK && nearest <= high + SLACK {
+        return (nearest, true);
+    }
     let turns = [
-        nearest,
         nearest - TAU,
         nearest + TAU,
         nearest - 2.0 * TAU,

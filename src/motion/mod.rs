@@ -13,6 +13,7 @@ pub mod linear;
 pub mod modes;
 pub mod numeric;
 pub mod receptance;
+pub mod servo;
 pub mod statics;
 pub mod swing;
 pub mod swing_state;

@@ -51,6 +51,8 @@ pub struct Halt {
 pub struct Path {
     /// What was programmed.
     pub programme: Programme,
+    /// The blend distance that was asked for, m; `None`: the file's own.
+    pub blend_radius: Option<f64>,
     /// The shapes in order; they join without gaps.
     pub pieces: Vec<Piece>,
     /// The corner after each element but the last.
@@ -78,6 +80,7 @@ impl Path {
         let corners = corners(&programme, drawing.blend_radius);
         let mut path = Self {
             programme,
+            blend_radius: drawing.blend_radius,
             pieces: Vec::new(),
             corners,
             spans: Vec::new(),
@@ -258,12 +261,16 @@ impl Path {
 
     /// For every element the arc length of the path at which its own would be zero, m.
     fn zeros(&self) -> Vec<f64> {
-        let cut = |corner: &Corner| match corner.passage {
+        (0..=self.corners.len()).map(|k| self.zero(k)).collect()
+    }
+
+    /// The arc length of the path at which that of element `k` would be zero, m.
+    pub fn zero(&self, k: usize) -> f64 {
+        let corner = k.checked_sub(1).and_then(|k| self.corners.get(k));
+        corner.map_or(0.0, |corner| match corner.passage {
             Passage::Blend => corner.end - corner.radius,
             _ => corner.end,
-        };
-        let after = self.corners.iter().map(cut);
-        [0.0].into_iter().chain(after).collect()
+        })
     }
 
     /// Where the tool turns about the corner after element `k`: arc lengths, m.

@@ -3,10 +3,11 @@
 use super::cell::Cell;
 use super::plan::Plan;
 use crate::ground::spatial::{
-    Pose, V3, cross, dot, norm, product, rotate, rotate_back, scale, sub, transpose, unit,
+    Pose, V3, add, cross, dot, norm, product, rotate, rotate_back, scale, sub, transpose, unit,
 };
-use crate::measurement::toolpath::Shape;
+use crate::measurement::toolpath::{Arc, Shape};
 use crate::path::Curve;
+use crate::path::build::Side;
 use crate::path::corner::{Corner, Passage};
 use crate::path::element::Element;
 use crate::path::programs::{Program, ProgramMove};
@@ -16,12 +17,25 @@ use crate::path::timeline::Feeds;
 const CHORD: f64 = 1e-6;
 /// Chords of one element at most.
 const MOST: f64 = 1e5;
+/// An element along which the tool turns about the spindle is cut where it has turned by this, rad ...
+const TURN: f64 = 2e-4;
+/// ... into pieces of at least this many blend distances, so that no blend is shortened.
+const BLENDS: f64 = 2.002;
 
-/// The program of a plan. `spindle`: its speed, rad/s, positive for M3.
-pub fn program(plan: &Plan, name: &str, comments: Vec<String>, spindle: Option<f64>) -> Program {
+/// The program of a plan. `spindle`: its speed, rad/s, positive for M3; `turns`: the language states
+/// orientations, so that elements along which the tool turns about the spindle are told in pieces.
+pub fn program(
+    plan: &Plan,
+    name: &str,
+    comments: Vec<String>,
+    spindle: Option<f64>,
+    turns: bool,
+) -> Program {
     let mut writer = Writer {
         plan,
         spindle,
+        turns,
+        turn: plan.spin.turn(0.0),
         moves: Vec::new(),
     };
     writer.all();
@@ -64,6 +78,9 @@ fn outward(cell: &Cell) -> V3 {
 struct Writer<'a> {
     plan: &'a Plan,
     spindle: Option<f64>,
+    turns: bool,
+    /// Turn about the spindle at the last move, rad.
+    turn: f64,
     moves: Vec<ProgramMove>,
 }
 
@@ -104,11 +121,8 @@ impl Writer<'_> {
         let s = corner.map_or(path.length, |c| 0.5 * (c.begin + c.end));
         let length = element.curve.length();
         let (to, turned) = (element.curve.point(length), element.ends[1]);
+        let shape = self.pieces(k, element);
         match &element.curve {
-            Curve::Circle(circle) => {
-                let shape = Shape::Arc(circle.arc());
-                self.push(to, turned, s, shape, element, blend);
-            }
             Curve::Nurbs(nurbs) => {
                 let count = chords(&element.curve);
                 let step = length / count as f64;
@@ -122,7 +136,53 @@ impl Writer<'_> {
                 }
                 self.push(to, turned, s, Shape::Line, element, blend);
             }
-            _ => self.push(to, turned, s, Shape::Line, element, blend),
+            _ => self.push(to, turned, s, shape, element, blend),
+        }
+    }
+
+    /// Tells an element along which the tool turns about the spindle in pieces, all but the last; the
+    /// shape of that.
+    fn pieces(&mut self, k: usize, element: &Element) -> Shape {
+        let path = &self.plan.path;
+        let (count, joint) = self.cut(k, element);
+        let piece = element.curve.length() / count as f64;
+        for i in 1..count {
+            let along = i as f64 * piece;
+            let s = path.zero(k) + along;
+            let turned = path.orientation(s, Side::Before);
+            let shape = shape(&element.curve, along - piece, piece);
+            self.push(element.curve.point(along), turned, s, shape, element, joint);
+        }
+        shape(&element.curve, (count - 1) as f64 * piece, piece)
+    }
+
+    /// Into how many pieces an element is cut, and the blend distance where they meet, m.
+    fn cut(&self, k: usize, element: &Element) -> (usize, f64) {
+        let joint = self.joint(element);
+        if !self.turns || joint <= 0.0 || matches!(element.curve, Curve::Nurbs(_)) {
+            return (1, 0.0);
+        }
+        let length = element.curve.length();
+        let most = (length / (BLENDS * joint)).clamp(1.0, MOST).floor() as usize;
+        let zero = self.plan.path.zero(k);
+        let turn = |i: usize| self.plan.spin.turn(zero + length * i as f64 / most as f64);
+        let turned: f64 = (0..most).map(|i| (turn(i + 1) - turn(i)).abs()).sum();
+        (most.min((turned / TURN).ceil() as usize).max(1), joint)
+    }
+
+    /// The blend distance asked for, m.
+    fn joint(&self, element: &Element) -> f64 {
+        let asked = self.plan.path.blend_radius.or(element.blend);
+        asked.unwrap_or(0.0)
+    }
+
+    /// The turn about the spindle to state at the arc length `s` (m), rad. After a stop it is that of the
+    /// stop: what begins there would else have to turn on the spot first.
+    fn turn_at(&self, s: f64, element: &Element) -> f64 {
+        let stopped = self.moves.last().is_some_and(|last| last.blend == 0.0);
+        match self.turns && stopped && self.joint(element) > 0.0 {
+            true => self.turn,
+            false => self.plan.spin.turn(s),
         }
     }
 
@@ -135,7 +195,9 @@ impl Writer<'_> {
         element: &Element,
         blend: f64,
     ) {
-        let rotation = self.plan.spin.apply(s, turned).matrix();
+        self.turn = self.turn_at(s, element);
+        let axis = self.plan.cell.spindle;
+        let rotation = turned.turned(scale(self.turn, axis)).matrix();
         let feeds: &Feeds = &self.plan.feeds;
         self.moves.push(ProgramMove {
             to,
@@ -148,6 +210,20 @@ impl Writer<'_> {
             spindle: self.spindle,
         });
     }
+}
+
+/// A line, or the arc from the length `from` (m) of the curve on.
+fn shape(curve: &Curve, from: f64, length: f64) -> Shape {
+    let Curve::Circle(circle) = curve else {
+        return Shape::Line;
+    };
+    let whole = circle.arc();
+    let rise = sub(curve.point(from), curve.point(0.0));
+    Shape::Arc(Arc {
+        centre: add(whole.centre, scale(dot(rise, whole.axis), whole.axis)),
+        angle: whole.angle * length / curve.length(),
+        ..whole
+    })
 }
 
 /// The blend asked for at a corner that is not a stop, m.

@@ -6,6 +6,7 @@
 
 pub mod course;
 pub mod oscillator;
+pub mod planned;
 pub mod pose;
 pub mod rigid;
 pub mod run;
@@ -16,5 +17,6 @@ pub mod swinging;
 pub mod uncertainty;
 pub mod way;
 
+pub use planned::Planned;
 pub use run::{Cut, Outcome as Milled, Settings, mill};
 pub use way::{Moment, Row, Way};

@@ -80,19 +80,28 @@ impl Outcome {
 
     /// The deviation at a time (s), linear between stations, m.
     pub fn deviation_at(&self, time_s: f64) -> V3 {
+        self.between(time_s, |cut| cut.deviation)
+    }
+
+    /// The force at a time (s), linear between stations, N.
+    pub fn force_at(&self, time_s: f64) -> V3 {
+        self.between(time_s, |cut| cut.force)
+    }
+
+    fn between(&self, time_s: f64, value: fn(&Cut) -> V3) -> V3 {
         let after = self.course.partition_point(|c| c.time_s < time_s);
         let (Some(a), Some(b)) = (
             self.course.get(after.saturating_sub(1)),
             self.course.get(after),
         ) else {
-            return self.course.last().map_or([0.0; 3], |c| c.deviation);
+            return self.course.last().map_or([0.0; 3], value);
         };
         match b.time_s > a.time_s {
             true => {
                 let share = (time_s - a.time_s) / (b.time_s - a.time_s);
-                add(a.deviation, scale(share, sub(b.deviation, a.deviation)))
+                add(value(a), scale(share, sub(value(b), value(a))))
             }
-            false => b.deviation,
+            false => value(b),
         }
     }
 

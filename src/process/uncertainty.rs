@@ -1,11 +1,12 @@
 //! What the uncertainty of springs and coefficients makes of the deviation at one station.
 //!
-//! Linearised: every spring and every coefficient is moved by one standard deviation, the part is
-//! milled again with springs only, and the changes at the station are summed as independent.
+//! Linearised: every spring, damper and coefficient is moved by one standard deviation, the part is
+//! milled again, and the changes at the station are summed as independent.
 
 use super::setup::{Setup, Support};
 use crate::ground::problem::Outcome;
 use crate::ground::spatial::{V3, dot, norm, scale, sub};
+use crate::ground::stats::Z95;
 use crate::robot::Robot;
 use rayon::prelude::*;
 
@@ -24,28 +25,43 @@ pub struct Doubt {
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Which {
     Spring(usize),
+    Damper(usize),
+    Gap(f64),
     Coefficient(usize),
 }
 
-/// Half of a 95 % interval in standard deviations.
-pub const NORMAL95: f64 = 1.959_964;
+/// Standard deviation of a place anywhere within a gap, over the gap: 1/√12.
+const ANYWHERE: f64 = 0.288_675;
 
-/// Everything whose uncertainty is stated: springs with intervals, and coefficients with these relative
+/// Everything whose uncertainty is stated: springs with intervals or a
+/// stated spread, and coefficients with these relative
 /// standard deviations (`None`: not stated).
 pub fn doubts(robot: &Robot, setup: &Setup, coefficients: &[Option<f64>]) -> Vec<Doubt> {
-    let springs = robot
-        .springs()
-        .enumerate()
-        .filter_map(|(i, (site, spring))| {
-            let [low, high] = spring.ci95.stiffness?;
-            let rel_std = (high - low) / (2.0 * NORMAL95 * spring.stiffness);
+    let of_springs = robot.springs().enumerate().flat_map(|(i, (site, spring))| {
+        let damping = spring.ci95.damping.filter(|_| spring.damping > 0.0);
+        let damping = damping.map(|[low, high]| (high - low) / (2.0 * Z95 * spring.damping));
+        let known = [
+            ("stiffness", spring.relative_std(), Which::Spring(i)),
+            ("damping", damping, Which::Damper(i)),
+        ];
+        known.into_iter().filter_map(move |(name, rel_std, which)| {
             Some(Doubt {
-                name: "stiffness".into(),
-                site,
-                rel_std,
-                which: Which::Spring(i),
+                name: name.into(),
+                site: site.clone(),
+                rel_std: rel_std?,
+                which,
             })
-        });
+        })
+    });
+    let gaps = robot.springs().filter_map(|(site, spring)| {
+        let gap = spring.ci95.backlash.map_or(spring.gap(), |ci95| ci95[1]);
+        (gap > 0.0).then(|| Doubt {
+            name: "backlash".into(),
+            site,
+            rel_std: ANYWHERE,
+            which: Which::Gap(gap),
+        })
+    });
     let card = setup.material.law.card();
     let coefficients = card.coefficients.iter().zip(coefficients).enumerate();
     let coefficients = coefficients.filter_map(|(i, (card, rel_std))| {
@@ -56,13 +72,29 @@ pub fn doubts(robot: &Robot, setup: &Setup, coefficients: &[Option<f64>]) -> Vec
             which: Which::Coefficient(i),
         })
     });
-    springs
+    of_springs
+        .chain(gaps)
         .chain(coefficients)
         .filter(|d| d.rel_std > 0.0)
         .collect()
 }
 
 impl Doubt {
+    /// What would measure it: an imperative phrase.
+    pub fn measured_by(&self) -> String {
+        match self.which {
+            Which::Spring(_) => {
+                format!("load {} through two cycles (`ident stiffness`)", self.site)
+            }
+            Which::Gap(_) => format!(
+                "load {} to and fro past zero (`ident stiffness`)",
+                self.site
+            ),
+            Which::Damper(_) => "hit the robot at the pose of the cut (`ident damping`)".into(),
+            Which::Coefficient(_) => "record the force of three cuts (`ident force`)".into(),
+        }
+    }
+
     /// The same job with this number one standard deviation larger.
     pub fn moved(&self, setup: &Setup) -> Setup {
         let mut setup = setup.clone();
@@ -73,6 +105,12 @@ impl Doubt {
                     spring.stiffness *= factor;
                 }
             }
+            Which::Damper(i) => {
+                if let Some((_, spring)) = setup.robot.springs_mut().nth(i) {
+                    spring.damping *= factor;
+                }
+            }
+            Which::Gap(_) => {}
             Which::Coefficient(i) => setup.material.coefficients[i] *= factor,
         }
         setup
@@ -84,24 +122,45 @@ impl Doubt {
 ///
 /// # Errors
 /// As the runs.
-pub fn changes(setup: &Setup, doubts: &[Doubt], times: &[f64]) -> Outcome<Vec<Vec<V3>>> {
+pub fn changes(
+    setup: &Setup,
+    support: Support,
+    doubts: &[Doubt],
+    times: &[f64],
+) -> Outcome<Vec<Vec<V3>>> {
     let deviations = |setup: &Setup| -> Outcome<Vec<V3>> {
-        let (out, _) = setup.run(Support::Static, |_| {})?;
+        let (out, _) = setup.run(support, |_| {})?;
         Ok(times.iter().map(|t| out.deviation_at(*t)).collect())
     };
     let runs = (0..=doubts.len()).into_par_iter().map(|i| match i {
         0 => deviations(setup),
+        _ if matches!(doubts[i - 1].which, Which::Gap(_)) => Ok(Vec::new()),
         _ => deviations(&doubts[i - 1].moved(setup)),
     });
     let runs = runs
         .collect::<Vec<_>>()
         .into_iter()
         .collect::<Outcome<Vec<_>>>()?;
-    let change = |moved: &Vec<V3>| {
-        let pairs = moved.iter().zip(&runs[0]);
-        pairs.map(|(a, b)| sub(*a, *b)).collect()
+    let change = |(moved, doubt): (&Vec<V3>, &Doubt)| match doubt.which {
+        Which::Gap(gap) => across(setup, &doubt.site, gap * doubt.rel_std, times),
+        _ => {
+            let pairs = moved.iter().zip(&runs[0]);
+            Ok(pairs.map(|(a, b)| sub(*a, *b)).collect())
+        }
     };
-    Ok(runs[1..].iter().map(change).collect())
+    runs[1..].iter().zip(doubts).map(change).collect()
+}
+
+/// What an angle of one spring does to the tip at some times, m: the simulation is linear, and a gap lies
+/// wherever friction leaves it.
+fn across(setup: &Setup, site: &str, angle: f64, times: &[f64]) -> Outcome<Vec<V3>> {
+    let mut carrier = setup.carrier();
+    let moved = |time: &f64| {
+        let linear = carrier.held(&setup.way.at(*time).joints)?.linear;
+        let own = linear.names.iter().position(|name| name == site);
+        Ok(own.map_or([0.0; 3], |i| scale(angle, linear.tool[i])))
+    };
+    times.iter().map(moved).collect()
 }
 
 /// Standard deviation of the length of `vector` at station `i`.

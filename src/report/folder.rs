@@ -14,18 +14,42 @@ pub fn write(folder: &Path, page: &Page) -> Outcome<Vec<PathBuf>> {
 
 /// [`write`] with another name for the page.
 pub fn write_as(folder: &Path, name: &str, page: &Page) -> Outcome<Vec<PathBuf>> {
-    let index = (name.to_string(), html::ink(page)?);
-    let figure = |(stem, chart): (String, &_)| Ok((file(&stem, chart), svg::ink(chart)?));
-    let figures = page.figures().into_iter().map(figure);
-    let mut contents = figures.collect::<Outcome<Vec<(String, String)>>>()?;
-    contents.push(index);
     let mut written = Vec::new();
-    for (name, content) in contents {
-        let path = folder.join(name);
+    for (path, content) in inked(folder, name, page)? {
         files::replace(&path, content.as_bytes())?;
         written.push(path);
     }
     Ok(written)
+}
+
+/// Files (path and text) and a page that rests on them: all of them, or none. Returns the page's path.
+///
+/// # Errors
+/// What cannot be inked or written.
+pub fn write_with(
+    mut files: Vec<(PathBuf, String)>,
+    folder: &Path,
+    name: &str,
+    page: &Page,
+) -> Outcome<PathBuf> {
+    files.extend(inked(folder, name, page)?);
+    let all: Vec<(&Path, &[u8])> = files
+        .iter()
+        .map(|(path, text)| (path.as_path(), text.as_bytes()))
+        .collect();
+    crate::ground::files::replace_all(&all)?;
+    Ok(folder.join(name))
+}
+
+/// Figures and page, the page last.
+fn inked(folder: &Path, name: &str, page: &Page) -> Outcome<Vec<(PathBuf, String)>> {
+    let index = (folder.join(name), html::ink(page)?);
+    let figure =
+        |(stem, chart): (String, &_)| Ok((folder.join(file(&stem, chart)), svg::ink(chart)?));
+    let figures = page.figures().into_iter().map(figure);
+    let mut contents = figures.collect::<Outcome<Vec<_>>>()?;
+    contents.push(index);
+    Ok(contents)
 }
 
 #[cfg(test)]

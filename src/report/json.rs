@@ -1,5 +1,6 @@
 //! The JSON of `formats.md`: one document, common head, numbers or null.
 
+use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
@@ -14,6 +15,14 @@ pub fn head(verb: &str, inputs: &[(&Path, &str)]) -> Map<String, Value> {
         .collect();
     map.insert("inputs".into(), Value::Array(list));
     map
+}
+
+/// What follows the head: a result that writes itself.
+pub fn body(result: &impl Serialize) -> Map<String, Value> {
+    match serde_json::to_value(result) {
+        Ok(Value::Object(map)) => map,
+        _ => Map::new(),
+    }
 }
 
 /// A document as it is printed: indented, with a newline at the end.

@@ -40,7 +40,7 @@ pub fn load(name: &str, measurement: Option<&Path>) -> Outcome<Loaded> {
     }
     let path = find(name, measurement);
     let bytes = read_bytes(&path).map_err(|problem| no_such(name, problem))?;
-    let robot = read(&bytes).map_err(|problem| problem.in_file(&path))?;
+    let robot = read(&bytes).map_err(|problem| problem.in_text(&path))?;
     Ok(Loaded {
         robot,
         path: path.display().to_string(),

@@ -2,6 +2,7 @@
 
 use super::joint_effect::JointEffect;
 use crate::effects::contract::Contact;
+use crate::ground::stats::Z95;
 
 /// A torsional spring-damper with the numbers' origin.
 ///
@@ -21,6 +22,8 @@ pub struct Spring {
     pub source: Option<String>,
     /// 95 % intervals, where they are known.
     pub ci95: Intervals,
+    /// How well the stiffness is known, standard deviation over its value, where it is only stated.
+    pub stiffness_rel_std: Option<f64>,
 }
 
 /// 95 % confidence intervals of the numbers of a [`Spring`], in the same units.
@@ -49,6 +52,14 @@ impl Spring {
         self.backlash.iter().fold(0.0, |sum, gap| sum + gap)
     }
 
+    /// Relative standard deviation of the stiffness: by its interval, else as stated; none where nothing is
+    /// known.
+    pub fn relative_std(&self) -> Option<f64> {
+        let of_interval = |[low, high]: [f64; 2]| (high - low) / (2.0 * Z95 * self.stiffness);
+        let interval = self.ci95.stiffness.map(of_interval);
+        interval.or(self.stiffness_rel_std)
+    }
+
     /// The dry contacts of all its effects.
     pub fn contacts(&self) -> Vec<Contact> {
         self.effects
@@ -67,6 +78,9 @@ impl Spring {
         }
         if !(self.damping >= 0.0 && self.damping.is_finite()) {
             return refuse("damping_Nms_rad", self.damping, "zero or positive");
+        }
+        if let Some(spread) = self.stiffness_rel_std.filter(|s| !(*s > 0.0 && *s < 10.0)) {
+            return refuse("stiffness_rel_std", spread, "above zero, as 0.1 for 10 %");
         }
         let bad = self
             .backlash

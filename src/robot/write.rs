@@ -134,6 +134,8 @@ fn entries(spring: &Spring) -> Vec<String> {
             .iter()
             .filter_map(|(key, ci)| Some(format!("{key} = {}", list(&(*ci)?)))),
     );
+    let stated = spring.stiffness_rel_std.iter();
+    out.extend(stated.map(|s| format!("stiffness_rel_std = {}", number(*s))));
     out.extend(
         spring
             .source

@@ -141,12 +141,18 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     if !value.is_finite() {
         return ABSENT.to_string();
     }
+    if value.abs() >= LONG {
+        return significant(value, 4);
+    }
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
         Some(rest) if rest.bytes().all(|b| b == b'0' || b == b'.') => rest.to_string(),
         _ => text,
     }
 }
+
+/// From here on a number is written with its power of ten.
+const LONG: f64 = 1e9;
 
 fn ten(exponent: i32) -> f64 {
     10f64.powi(exponent)

@@ -1,6 +1,7 @@
 //! Overload: a record that stands at its extreme instead of passing through it.
 
-use super::pulse::{median, spread};
+use super::outliers::median;
+use super::pulse::spread;
 
 /// Equal samples in a row that make a plateau.
 const PLATEAU: usize = 3;

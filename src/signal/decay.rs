@@ -1,6 +1,8 @@
 //! Whether a record holds the decay of its response.
 
-use super::pulse::{Pulse, median, spread};
+use super::outliers::median;
+use super::pulse::{Pulse, spread};
+use crate::ground::stats::mean;
 
 /// Rms of the last tenth of a response as a share of the rms of the first tenth after the hit, noise
 /// and mean taken off both; `average` samples are averaged first, so that only the band of interest counts.
@@ -33,8 +35,4 @@ pub fn residual_ring(response: &[f64], pulse: &Pulse, average: usize) -> f64 {
     } else {
         0.0
     }
-}
-
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len().max(1) as f64
 }

@@ -3,7 +3,8 @@
 use super::clipping::{clipped, pulse_clipped};
 use super::double_hit::second_pulse;
 use super::fault::Fault;
-use super::pulse::{Pulse, median};
+use super::outliers::median;
+use super::pulse::Pulse;
 use super::spectrum::{Transform, lines_up_to};
 
 /// Force spectrum at the upper end of the band against the lower end, dB, that is still enough

@@ -25,6 +25,7 @@ pub mod modal_structure;
 pub mod modes;
 pub mod off_axis;
 pub mod outliers;
+pub mod play;
 pub mod pulse;
 pub mod smooth;
 pub mod spectrum;

@@ -1,5 +1,6 @@
 //! The force pulse of one hit: where it is, how high, how long, above which baseline.
 
+use super::outliers::median;
 use std::ops::Range;
 
 /// Samples before the pulse from which a baseline is taken; with fewer, the median of the record.
@@ -106,16 +107,6 @@ pub fn baseline(record: &[f64], start: usize, otherwise: f64) -> f64 {
 pub fn noise_before(record: &[f64], start: usize) -> Option<f64> {
     let before = record.get(..quiet(start))?;
     (before.len() >= ENOUGH_PRETRIGGER).then(|| spread(before, median(before)))
-}
-
-/// Median; 0 for nothing.
-pub fn median(values: &[f64]) -> f64 {
-    if values.is_empty() {
-        return 0.0;
-    }
-    let mut copy = values.to_vec();
-    let half = copy.len() / 2;
-    *copy.select_nth_unstable_by(half, f64::total_cmp).1
 }
 
 /// Standard deviation as 1.4826 times the median absolute deviation from `middle`.

@@ -89,5 +89,5 @@ fn most_crowded(poles: &[Complex64]) -> Option<Complex64> {
 fn middle(group: &[Complex64]) -> Complex64 {
     let re: Vec<f64> = group.iter().map(|p| p.re).collect();
     let im: Vec<f64> = group.iter().map(|p| p.im).collect();
-    Complex64::new(super::pulse::median(&re), super::pulse::median(&im))
+    Complex64::new(super::outliers::median(&re), super::outliers::median(&im))
 }

@@ -1,6 +1,7 @@
 //! Hits in one long record.
 
-use super::pulse::{median, spread};
+use super::outliers::median;
+use super::pulse::spread;
 use std::ops::Range;
 
 /// How hits are found in a continuous record.

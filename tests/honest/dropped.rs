@@ -195,3 +195,18 @@ fn a_truncated_file_of_force_steps_is_noticed() {
         );
     }
 }
+
+#[test]
+fn facts_beside_a_file_that_no_kind_knows_are_refused_where_they_stand() {
+    for (name, line) in [("campaign.toml", 2), ("a.ident.toml", 2)] {
+        let bench = Bench::new();
+        bench.put("a.csv", File::example("axis6.csv").text().as_bytes());
+        bench.put(name, b"synthetic = true\nlever_rel_stdd = 0.5\n");
+        let ran = bench.run(&["stiffness", "--dry-run", "a.csv"]);
+        ran.is_refusal(name, name, Some(line), "lever_rel_stdd");
+        assert!(ran.errors.contains("`lever_rel_std`"), "{}", ran.errors);
+        bench.put(name, b"synthetic = \xff\n");
+        let ran = bench.run(&["stiffness", "--dry-run", "a.csv"]);
+        ran.is_refusal(name, name, Some(1), "UTF-8");
+    }
+}

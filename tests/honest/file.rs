@@ -15,7 +15,11 @@ impl File {
     pub fn example(name: &str) -> Self {
         let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
         let path = root.join("measurements/kr210").join(name);
-        let text = std::fs::read_to_string(&path).unwrap();
+        Self::of(&std::fs::read_to_string(&path).unwrap())
+    }
+
+    /// The parts of a text.
+    pub fn of(text: &str) -> Self {
         let front = text.lines().take_while(|l| l.starts_with('#'));
         let front: Vec<String> = front.map(str::to_string).collect();
         let mut rest = text.lines().skip(front.len());

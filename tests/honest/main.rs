@@ -4,9 +4,13 @@
 #[path = "../bench_of_files/mod.rs"]
 #[allow(dead_code)]
 mod bench_of_files;
+mod benches;
 mod dropped;
 mod ends;
 mod file;
+mod kinds;
 mod matrix;
+#[path = "../milling_bench/mod.rs"]
+mod milling_bench;
 mod unrelated;
 mod withheld;

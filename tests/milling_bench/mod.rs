@@ -2,6 +2,8 @@
 //! tool one by one, the low pass integrated through time. Nothing of the program is used but its noise.
 #![allow(dead_code)]
 
+pub mod hidden;
+
 use ident::ground::random::Random;
 use std::f64::consts::{PI, TAU};
 
@@ -38,6 +40,8 @@ pub struct Recording {
     pub colour: f64,
     /// Chips clipped at the border of the stock along their ray, or cut off at the nominal angle.
     pub clipped: bool,
+    /// A resonance of the sensor: Hz, damping ratio, axis (3: all).
+    pub ring: Option<[f64; 3]>,
 }
 
 const SLICES: usize = 12;
@@ -168,10 +172,11 @@ pub fn record(
         let step = 1.0 / recording.rate_hz;
         let samples = (recording.turns / rate / step) as usize;
         let mut filter = Filter::new(recording.bandwidth_hz, step);
+        let mut ring = Ring::new(recording.ring, step);
         let warm = (2.0 / rate / step) as usize;
         for i in 0..warm + samples {
             let t = i as f64 * step;
-            let f = filter.next(|u| at(first + rate * (t + u)));
+            let f = filter.next(|u| ring.next(u, at(first + rate * (t + u))));
             if i < warm {
                 continue;
             }
@@ -211,7 +216,7 @@ impl Filter {
     }
 
     /// The output now; then it moves on by one step.
-    fn next(&mut self, input: impl Fn(f64) -> [f64; 3]) -> [f64; 3] {
+    fn next(&mut self, mut input: impl FnMut(f64) -> [f64; 3]) -> [f64; 3] {
         let Some(corner) = self.corner else {
             return input(0.0);
         };
@@ -225,6 +230,43 @@ impl Filter {
                 let (y, d) = (s[0] + 0.5 * h * s[1], s[1] + 0.5 * h * rate(s[0], s[1]));
                 (s[0], s[1]) = (s[0] + h * d, s[1] + h * rate(y, d));
             }
+        }
+        out
+    }
+}
+
+/// A resonance in front of the low pass; called at times that only go forward.
+struct Ring {
+    of: Option<[f64; 3]>,
+    step: f64,
+    state: [[f64; 2]; 3],
+}
+
+impl Ring {
+    fn new(of: Option<[f64; 3]>, step: f64) -> Self {
+        Self {
+            of,
+            step: step / FINE as f64,
+            state: [[0.0; 2]; 3],
+        }
+    }
+
+    /// What it shows after one more small step (an ideal sensor reads a whole step at once).
+    fn next(&mut self, within: f64, input: [f64; 3]) -> [f64; 3] {
+        let Some([hz, damping, axis]) = self.of else {
+            return input;
+        };
+        let w = TAU * hz;
+        let count = if within == 0.0 { FINE } else { 1 };
+        let mut out = input;
+        for k in (0..3).filter(|k| axis == 3.0 || *k as f64 == axis) {
+            let [x, v] = &mut self.state[k];
+            for _ in 0..count * 4 {
+                let h = 0.25 * self.step;
+                *v += h * (w * w * (input[k] - *x) - 2.0 * damping * w * *v);
+                *x += h * *v;
+            }
+            out[k] = *x;
         }
         out
     }

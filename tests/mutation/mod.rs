@@ -1,6 +1,8 @@
 //! Shared by the short fuzzers: how a file is spoiled.
 #![allow(dead_code)]
 
+pub mod verbs;
+
 use ident::ground::random::Random;
 
 /// Spoils a file in one place: cut, turned bits, a piece that readers stumble over, another digit, the

@@ -7,7 +7,10 @@ use crate::sheet::number::significant;
 /// The account on standard output.
 pub fn text(result: &Result, written: &Written) -> String {
     let mut said: String = sentences(result).into_iter().map(|s| s + "\n").collect();
-    for file in [&written.path, &written.report].into_iter().flatten() {
+    for file in [&written.path, &written.program, &written.report]
+        .into_iter()
+        .flatten()
+    {
         said.push_str(&format!("wrote {}\n", file.display()));
     }
     said
@@ -19,7 +22,7 @@ pub fn sentences(result: &Result) -> Vec<String> {
     let fell = result.reduction_percent().map_or(String::new(), |percent| {
         format!(", {} % less", significant(percent, 3))
     });
-    let left = match result.ci95 {
+    let left = match result.certainty.ci95 {
         Some([low, high]) => format!(" (95 %: {} to {} mm)", mm(low), mm(high)),
         None => String::new(),
     };
@@ -42,7 +45,14 @@ pub fn sentences(result: &Result) -> Vec<String> {
         result.method.name,
         mm(found.correction.largest().0)
     ));
+    if result.slowed {
+        said.push(
+            "Rapid motions run at the feed of the cuts: the robot would still swing from them when it cuts."
+                .into(),
+        );
+    }
     said.push(verdict(result));
+    said.extend(limited(result));
     said.extend(result.checked.iter().filter(|c| !c.ok).map(failed));
     said
 }
@@ -59,6 +69,21 @@ fn verdict(result: &Result) -> String {
             format!("Whether the part will be within its {tolerance} mm is not certain.")
         }
     }
+}
+
+/// What limits the accuracy, and what to measure next.
+fn limited(result: &Result) -> Option<String> {
+    let certainty = &result.certainty;
+    let (limit, next) = (certainty.limits.first()?, certainty.next.as_ref()?);
+    let mm = |x: f64| significant(1e3 * x, 3);
+    Some(format!(
+        "What limits it most is {} of {} (one standard deviation: {} mm); to lower the upper end to {} mm: {}.",
+        limit.doubt.name,
+        limit.doubt.site,
+        mm(limit.change_m),
+        mm(next.high_after_m),
+        next.what
+    ))
 }
 
 /// One check that failed.

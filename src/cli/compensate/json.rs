@@ -2,7 +2,7 @@
 
 use super::{Result, Written};
 use crate::compensation::remaining::Size;
-use crate::process::uncertainty::NORMAL95;
+use crate::ground::stats::Z95;
 use crate::report::json::{number, numbers};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -17,14 +17,28 @@ pub fn body(result: &Result, written: &Written) -> Value {
         "last_change_mm": number(1e3 * found.last_change_m),
         "before": size(&result.before),
         "after": size(&result.after),
-        "after_ci95_max_mm": result.ci95.map(|ends| numbers(&ends.map(|x| 1e3 * x))),
+        "beside": result.beside.as_ref().map(|(name, left)| json!({
+            "method": name, "after": size(&Size::of(left)),
+        })),
+        "after_ci95_max_mm": result.certainty.ci95.map(|ends| numbers(&ends.map(|x| 1e3 * x))),
         "reduction_percent": result.reduction_percent().map(number),
         "tolerance_mm": result.planned.job.limits.tolerance.map(|t| number(1e3 * t)),
         "tolerance_met": result.met.word(),
+        "rapid_motions_slowed": result.slowed,
         "largest_correction_mm": number(1e3 * found.correction.largest().0),
         "interval_from": result.doubts.iter().map(|d| json!({
-            "name": d.name, "site": d.site, "rel_ci95": number(NORMAL95 * d.rel_std),
+            "name": d.name, "site": d.site, "rel_ci95": number(Z95 * d.rel_std),
         })).collect::<Value>(),
+        "limited_by": result.certainty.limits.iter().map(|l| json!({
+            "name": l.doubt.name,
+            "site": l.doubt.site,
+            "change_mm": number(1e3 * l.change_m),
+            "ci95_high_without_mm": number(1e3 * l.high_without_m),
+        })).collect::<Value>(),
+        "next": result.certainty.next.as_ref().map(|n| json!({
+            "measure": n.what,
+            "ci95_high_after_mm": number(1e3 * n.high_after_m),
+        })),
         "checked": result.checked.iter().map(|c| json!({
             "what": c.what,
             "site": c.site,
@@ -35,7 +49,7 @@ pub fn body(result: &Result, written: &Written) -> Value {
             "ok": c.ok,
         })).collect::<Value>(),
         "path": named(&written.path),
-        "program": Value::Null,
+        "program": named(&written.program),
         "report": named(&written.report),
     })
 }

@@ -4,24 +4,27 @@
 mod account;
 mod json;
 mod page;
-mod path;
 
 use super::output::{print, print_result, tell};
-use super::planned::Planned;
 use super::{Ending, Verb, arguments, parsed};
-use crate::compensation::method::{METHODS, Search, with};
+use crate::compensation::calm::calm;
+use crate::compensation::executed::executed;
+use crate::compensation::limits::{Certainty, certainty};
+use crate::compensation::method::{METHODS, Search};
+use crate::compensation::online::Sensor;
 use crate::compensation::proof::{Checked, proof};
-use crate::compensation::remaining::{Size, Station, interval, remaining};
-use crate::compensation::{Correction, Method, search};
-use crate::ground::files;
+use crate::compensation::remaining::{Size, Station, remaining};
+use crate::compensation::shifted::shifted;
+use crate::compensation::text::text;
+use crate::compensation::{Correction, Method, Task, search};
+use crate::fit::force_sensor::store::StoredSensor;
 use crate::ground::problem::{Outcome, Problem};
-use crate::ground::spatial::V3;
 use crate::measurement::workspace::job_results;
+use crate::path::programs::{EXPORTERS, Exporter, ProgramFile};
+use crate::process::Planned;
 use crate::process::setup::{Setup, Support};
 use crate::process::uncertainty::{self, Doubt};
-use crate::process::way::normal_part;
-use crate::report::{html, svg};
-use crate::sheet::page::file;
+use crate::report::folder;
 use clap::{ArgMatches, Args};
 use std::path::{Path, PathBuf};
 
@@ -40,12 +43,18 @@ struct Arguments {
     /// Print one JSON document instead of the account
     #[arg(long)]
     json: bool,
-    /// How the correction is found: mirror, ideal-force
+    /// How the correction is found: mirror, ideal-force, hybrid, online
     #[arg(long, default_value = METHODS[0].name)]
     method: String,
     /// Judge the corrected path on the robot and the material of another job
     #[arg(long, value_name = "JOB")]
     plant: Option<PathBuf>,
+    /// Language of the robot program: krl, rapid or gcode
+    #[arg(long, value_name = "LANGUAGE", default_value = EXPORTERS[0].name)]
+    program: String,
+    /// Model of the force sensor, written by `ident sensor` (online and hybrid)
+    #[arg(long, value_name = "FILE")]
+    sensor: Option<PathBuf>,
     /// Judge with springs only instead of robot and cut coupled in time
     #[arg(long = "static")]
     springs: bool,
@@ -71,11 +80,11 @@ impl Met {
         }
     }
 
-    /// From what is left (m), its interval and the tolerance.
-    fn of(max: f64, ci95: Option<[f64; 2]>, tolerance: Option<f64>) -> Self {
-        match (ci95, tolerance) {
+    /// From what is left (m), what it will not exceed (m) and the tolerance.
+    fn of(max: f64, at_most: Option<f64>, tolerance: Option<f64>) -> Self {
+        match (at_most, tolerance) {
             (_, Some(tolerance)) if max > tolerance => Self::No,
-            (Some([_, high]), Some(tolerance)) if high <= tolerance => Self::Yes,
+            (Some(at_most), Some(tolerance)) if at_most <= tolerance => Self::Yes,
             _ => Self::NotCertain,
         }
     }
@@ -87,10 +96,17 @@ struct Result {
     plant: Option<Planned>,
     method: &'static Method,
     found: Search,
+    /// The corrected path as a file, and the programs that run it.
+    text: String,
+    programs: Vec<ProgramFile>,
     before: Size,
     after: Size,
     stations: [Vec<Station>; 2],
-    ci95: Option<[f64; 2]>,
+    /// Rapid motions are slowed to the feed.
+    slowed: bool,
+    /// What the method that it improves on leaves, by its name.
+    beside: Option<(&'static str, Vec<Station>)>,
+    certainty: Certainty,
     doubts: Vec<Doubt>,
     met: Met,
     checked: Vec<Checked>,
@@ -100,6 +116,7 @@ struct Result {
 #[derive(Default)]
 struct Written {
     path: Option<PathBuf>,
+    program: Option<PathBuf>,
     report: Option<PathBuf>,
 }
 
@@ -110,7 +127,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
         true => Written::default(),
         false => write(&result)?,
     };
-    let inputs = result.inputs();
+    let inputs = inputs(&result.planned, result.plant.as_ref());
     match arguments.json {
         true => print_result("compensate", &inputs, json::body(&result, &written))?,
         false => print(&account::text(&result, &written))?,
@@ -118,12 +135,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
     for remark in account::remarks(&result) {
         tell(&format!("{}: {remark}", result.planned.job.path.display()));
     }
-    Ok(
-        match result.met == Met::Yes && result.checked.iter().all(|c| c.ok) {
-            true => Ending::Done,
-            false => Ending::Attention,
-        },
-    )
+    Ok(result.ending())
 }
 
 fn method(name: &str) -> Outcome<&'static Method> {
@@ -141,44 +153,134 @@ fn method(name: &str) -> Outcome<&'static Method> {
 
 fn act(arguments: &Arguments) -> Outcome<Result> {
     let method = method(&arguments.method)?;
+    let exporter = Exporter::named(&arguments.program)?;
     let planned = Planned::read(&arguments.job)?;
-    let setup = planned.setup(None)?;
     let in_job = |problem: Problem| problem.in_file(&planned.job.path);
-    let found = search(method, &setup, &planned.plan).map_err(in_job)?;
+    let support = arguments.support();
+    let calmed = match support {
+        Support::Coupled => calm(&planned)?,
+        _ => None,
+    };
+    let base = calmed.as_ref().unwrap_or(&planned);
+    let (drawn, setup) = (planned.setup(None)?, base.setup(None)?);
     let plant = arguments.plant.as_deref().map(Planned::read).transpose()?;
-    let truth = match &plant {
-        Some(plant) => of_plant(&setup, plant)?,
-        None => setup.clone(),
+    let of_plant = |setup: &Setup| {
+        plant
+            .as_ref()
+            .map_or(Ok(setup.clone()), |p| of_plant(setup, p))
     };
-    let support = if arguments.springs {
-        Support::Static
-    } else {
-        Support::Coupled
+    let truth = of_plant(&setup)?;
+    let task = Task {
+        setup: &setup,
+        truth: &truth,
+        plan: &base.plan,
+        support,
+        sensor: sensor(arguments.sensor.as_deref())?,
     };
-    let none = Correction::none(planned.plan.path.length);
-    let corrected = with(&truth, &planned.plan, &found.correction).map_err(in_job)?;
-    let (first, _) = truth.run(support, |_| {}).map_err(in_job)?;
-    let (second, _) = corrected.run(support, |_| {}).map_err(in_job)?;
-    let before = remaining(&first, &none, &setup.way);
+    let found = search(method, &task).map_err(in_job)?;
+    let inputs = inputs(&planned, plant.as_ref());
+    let synthetic = planned.toolpath.synthetic || planned.job.synthetic;
+    let text = text(
+        &base.plan,
+        &found.correction,
+        method.name,
+        &inputs,
+        synthetic,
+    );
+    let executed = match method.live {
+        true => None,
+        false => Some(executed(base, &corrected_path(&planned), &text)?),
+    };
+    let way = match &executed {
+        Some(executed) => executed.way.clone(),
+        None => shifted(&base.plan, &found.correction).map_err(in_job)?,
+    };
+    let runner = executed.as_ref().map_or(base, |e| &e.planned);
+    let programs = runner.programs(exporter, &inputs)?;
+    let none = Correction::none(base.plan.path.length);
+    let corrected = |setup: &Setup| Setup {
+        way: way.clone(),
+        ..setup.clone()
+    };
+    let (first, _) = of_plant(&drawn)?.run(support, |_| {}).map_err(in_job)?;
+    let (second, _) = corrected(&truth).run(support, |_| {}).map_err(in_job)?;
+    let before = remaining(&first, &none, &drawn.way);
     let after = remaining(&second, &found.correction, &setup.way);
+    let model = corrected(&setup);
+    let expected = match &plant {
+        None => after.clone(),
+        Some(_) => {
+            let (milled, _) = model.run(support, |_| {}).map_err(in_job)?;
+            remaining(&milled, &found.correction, &setup.way)
+        }
+    };
+    let beside = beside(method, &task).map_err(in_job)?;
     let doubts = uncertainty::doubts(&setup.robot, &setup, &planned.coefficient_stds());
-    let model = with(&setup, &planned.plan, &found.correction).map_err(in_job)?;
-    let ci95 = likely(&model, &setup, &doubts, &after)?;
+    let certainty = certainty(&model, &setup, support, &doubts, &expected).map_err(in_job)?;
     let size = Size::of(&after);
-    let checked = proof(&planned.plan, &corrected.way, &found.correction, &second);
+    let checked = proof(&planned.plan, &way, &found.correction, &second);
     Ok(Result {
-        met: Met::of(size.max_m, ci95, planned.job.limits.tolerance),
+        met: Met::of(
+            size.max_m,
+            certainty.at_most_m,
+            planned.job.limits.tolerance,
+        ),
         before: Size::of(&before),
         after: size,
         stations: [before, after],
+        slowed: calmed.is_some(),
+        beside,
+        text,
+        programs,
         planned,
         plant,
         method,
         found,
-        ci95,
+        certainty,
         doubts,
         checked,
     })
+}
+
+impl Arguments {
+    fn support(&self) -> Support {
+        match self.springs {
+            true => Support::Static,
+            false => Support::Coupled,
+        }
+    }
+}
+
+/// What the method that a method improves on leaves.
+fn beside(method: &Method, task: &Task) -> Outcome<Option<(&'static str, Vec<Station>)>> {
+    let Some(other) = METHODS.iter().find(|m| Some(m.name) == method.beside) else {
+        return Ok(None);
+    };
+    let found = search(other, task)?;
+    let corrected = Setup {
+        way: shifted(task.plan, &found.correction)?,
+        ..task.truth.clone()
+    };
+    let (milled, _) = corrected.run(task.support, |_| {})?;
+    let left = remaining(&milled, &found.correction, &task.setup.way);
+    Ok(Some((other.name, left)))
+}
+
+/// Where the corrected path goes.
+fn corrected_path(planned: &Planned) -> PathBuf {
+    job_results(&planned.job.path).join("compensated.csv")
+}
+
+/// What the sensor's model leaves of weight, offset and hoses.
+fn sensor(path: Option<&Path>) -> Outcome<Sensor> {
+    let usual = Sensor::default();
+    match path {
+        None => Ok(usual),
+        Some(path) => Ok(Sensor {
+            rest_n: StoredSensor::read(path)?.rest_n(),
+            ..usual
+        }),
+    }
 }
 
 /// The job's motion, stock and tool with the robot and the material of the plant.
@@ -191,50 +293,24 @@ fn of_plant(setup: &Setup, plant: &Planned) -> Outcome<Setup> {
     })
 }
 
-/// Most stations of an interval.
-const STATIONS: usize = 1500;
-
-/// 95 % interval of the largest deviation that is left.
-fn likely(
-    model: &Setup,
-    drawn: &Setup,
-    doubts: &[Doubt],
-    after: &[Station],
-) -> Outcome<Option<[f64; 2]>> {
-    if doubts.is_empty() {
-        return Ok(None);
-    }
-    let cutting: Vec<&Station> = after.iter().filter(|s| s.cutting).collect();
-    let every = cutting.len().div_ceil(STATIONS).max(1);
-    let worst = Size::of(after).at_m;
-    let chosen: Vec<&Station> = cutting
-        .iter()
-        .enumerate()
-        .filter(|(i, s)| i % every == 0 || s.s_m == worst)
-        .map(|(_, s)| *s)
-        .collect();
-    let times: Vec<f64> = chosen.iter().map(|s| s.time_s).collect();
-    let mut changes = uncertainty::changes(model, doubts, &times)?;
-    for list in &mut changes {
-        for (change, time) in list.iter_mut().zip(&times) {
-            *change = normal_part(*change, drawn.way.feed(*time));
+/// Path and hash of every file, the job first.
+fn inputs(planned: &Planned, plant: Option<&Planned>) -> Vec<(String, String)> {
+    let mut all = planned.inputs.clone();
+    for input in plant.iter().flat_map(|plant| &plant.inputs) {
+        if !all.contains(input) {
+            all.push(input.clone());
         }
     }
-    let left: Vec<V3> = chosen.iter().map(|s| s.left).collect();
-    Ok(interval(&left, &changes))
+    all
 }
 
 impl Result {
-    /// Path and hash of every file, the job first.
-    fn inputs(&self) -> Vec<(String, String)> {
-        let plant = self.plant.iter().flat_map(|plant| plant.inputs.clone());
-        let mut all = self.planned.inputs.clone();
-        for input in plant {
-            if !all.contains(&input) {
-                all.push(input);
-            }
+    /// Good, or something needs attention.
+    fn ending(&self) -> Ending {
+        match self.met == Met::Yes && self.checked.iter().all(|c| c.ok) {
+            true => Ending::Done,
+            false => Ending::Attention,
         }
-        all
     }
 
     /// By how much the largest deviation fell, percent.
@@ -245,22 +321,15 @@ impl Result {
 
 /// Writes everything, or nothing.
 fn write(result: &Result) -> Outcome<Written> {
-    let folder = job_results(&result.planned.job.path);
-    let corrected = folder.join("compensated.csv");
-    let report = folder.join("compensate.html");
-    let page = page::page(result);
-    let mut contents = vec![(corrected.clone(), path::text(result))];
-    for (stem, chart) in page.figures() {
-        contents.push((folder.join(file(&stem, chart)), svg::ink(chart)?));
-    }
-    contents.push((report.clone(), html::ink(&page)?));
-    let contents: Vec<(&Path, &[u8])> = contents
-        .iter()
-        .map(|(path, text)| (path.as_path(), text.as_bytes()))
-        .collect();
-    files::replace_all(&contents)?;
+    let place = job_results(&result.planned.job.path);
+    let corrected = corrected_path(&result.planned);
+    let mut files = vec![(corrected.clone(), result.text.clone())];
+    let programs = result.programs.iter();
+    files.extend(programs.map(|p| (place.join(&p.name), p.text.clone())));
+    let report = folder::write_with(files, &place, "compensate.html", &page::page(result))?;
     Ok(Written {
         path: Some(corrected),
+        program: result.programs.first().map(|p| place.join(&p.name)),
         report: Some(report),
     })
 }

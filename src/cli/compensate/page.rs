@@ -1,5 +1,6 @@
 //! The report page of `ident compensate`.
 
+use super::super::part_map::{classes, thinned};
 use super::{Met, Result, account};
 use crate::compensation::remaining::Station;
 use crate::ground::spatial::norm;
@@ -10,6 +11,8 @@ use crate::sheet::table::Table;
 
 /// Most points of one line.
 const POINTS: usize = 2000;
+/// Most points of a map.
+const PLACES: usize = 3000;
 
 /// The page.
 pub fn page(result: &Result) -> Page {
@@ -32,6 +35,7 @@ pub fn page(result: &Result) -> Page {
     page = sentences.fold(page, |page, s| page.with(Block::text(s)));
     page.with(Block::heading("Before and after"))
         .with(Block::Chart(deviations(result)))
+        .with(Block::Chart(map(result)))
         .with(Block::heading("What was checked"))
         .with(Block::Table(checked(result)))
 }
@@ -59,6 +63,31 @@ fn deviations(result: &Result) -> Chart {
     )
     .with(panel)
     .synthetic(result.planned.job.synthetic)
+}
+
+/// The part from above before and after, in the same classes.
+fn map(result: &Result) -> Chart {
+    let top = 1e3 * result.before.max_m;
+    let panel = |stations: &[Station], note: &str| {
+        let cutting: Vec<Station> = stations.iter().filter(|s| s.cutting).copied().collect();
+        let place = |s: &Station| [1e3 * s.tip[0], 1e3 * s.tip[1]];
+        let size = |s: &Station| 1e3 * norm(s.left);
+        classes(&thinned(&cutting, PLACES), place, size, top, "mm off").noted(note)
+    };
+    let [before, after] = &result.stations;
+    let chart = Chart::new(
+        "compensate-map",
+        "The part before and after",
+        "Distance of the tool from the drawn path normal to the feed, seen along z of the workpiece.",
+    )
+    .with(panel(before, "before"));
+    let chart = result
+        .beside
+        .iter()
+        .fold(chart, |chart, (name, left)| chart.with(panel(left, name)));
+    chart
+        .with(panel(after, result.method.name))
+        .synthetic(result.planned.job.synthetic)
 }
 
 fn checked(result: &Result) -> Table {

@@ -25,6 +25,8 @@ pub struct Input {
     pub place: Place,
     /// Comparison tests that were not taken.
     pub passed_over: Vec<PathBuf>,
+    /// What is odd about the tests.
+    pub doubts: Vec<Doubt>,
 }
 
 /// Reads what the arguments mean.
@@ -41,6 +43,10 @@ pub fn read(arguments: &Arguments, settings: &Settings) -> Outcome<Input> {
     let records = posed(arguments, records)?;
     let (taken, left) = chosen(arguments, records);
     let robot = robot(arguments, &place, &taken)?;
+    let doubts = taken
+        .iter()
+        .flat_map(|(record, _)| doubts(record))
+        .collect();
     let tests: Vec<Outcome<Test>> = taken
         .into_par_iter()
         .map(|(record, path)| passed(&path, record, settings))
@@ -50,13 +56,14 @@ pub fn read(arguments: &Arguments, settings: &Settings) -> Outcome<Input> {
         robot,
         place,
         passed_over: left.into_iter().map(|(_, path)| path).collect(),
+        doubts,
     })
 }
 
 /// A test that passes the gate: what is odd about it stands among its remarks.
 fn passed(path: &Path, record: HammerRecord, settings: &Settings) -> Outcome<Test> {
     let doubts = doubts(&record);
-    refuse(&doubts).map_err(|problem| problem.in_file(path))?;
+    refuse(&doubts).map_err(|problem| problem.in_text(path))?;
     let mut test = test(path, record, settings)?;
     let odd = doubts.iter().map(Doubt::sentence);
     test.frf.remarks.extend(odd);

@@ -17,7 +17,6 @@ use crate::fit::damping::{Account, Request, identify};
 use crate::fit::frf_robot::Released;
 use crate::fit::frf_tuning::Residuals;
 use crate::fit::parameter::{Identified, Status};
-use crate::fit::suitability::hammer::doubts;
 use crate::fit::suitability::is_fatal;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::workspace::Place;
@@ -122,11 +121,7 @@ fn act(arguments: &Arguments) -> Outcome<Damped> {
     let input = input::read(arguments, &request.settings)?;
     let mut account = identify(&input.tests, &input.robot.robot, &request)
         .map_err(|problem| problem.in_file(&PathBuf::from(&input.robot.path)))?;
-    if input
-        .tests
-        .iter()
-        .any(|test| is_fatal(&doubts(&test.record)))
-    {
+    if is_fatal(&input.doubts) {
         withhold(&mut account, &input.robot.robot);
     }
     Ok(Damped {

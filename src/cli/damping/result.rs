@@ -143,6 +143,7 @@ impl Damped {
                 "band_Hz": [self.request.from_hz, self.request.settings.band_hz],
             }),
         );
+        map.insert("doubts".into(), json!(self.input.doubts));
         map.insert(
             "remarks".into(),
             json!([self.remarks(), self.passed_over()].concat()),

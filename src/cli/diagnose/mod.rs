@@ -1,7 +1,6 @@
 //! `ident diagnose`: what the simulation gets wrong, and why.
 
 mod campaign;
-mod json;
 mod next;
 mod page;
 mod tables;
@@ -10,16 +9,18 @@ use super::output::{print, tell};
 use super::progress::Progress;
 use super::run::place;
 use super::{Ending, Verb, arguments, parsed};
-use crate::findings::kinds::{Diagnosed, kind, load_cycle};
+use crate::findings::campaign::DiagnosedFile;
+use crate::findings::kinds::{kind, load_cycle};
 use crate::findings::sentence::sentences;
-use crate::ground::files;
+use crate::ground::files::replace;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::workspace::{Place, resolve};
+use crate::report::json::body;
 use crate::report::{folder, html, svg, text};
 use crate::sheet::page::file;
 use clap::{ArgMatches, Args};
 use rayon::prelude::*;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 /// The verb.
@@ -54,14 +55,6 @@ struct Arguments {
 }
 
 pub use campaign::chapter;
-pub use json::doubts_json;
-
-/// One file, diagnosed.
-pub struct One {
-    kind: &'static str,
-    place: Place,
-    found: Box<dyn Diagnosed>,
-}
 
 fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let arguments: Arguments = parsed(matches);
@@ -82,7 +75,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
         progress.done(&name.display().to_string());
         one
     });
-    let results = results.collect::<Outcome<Vec<One>>>()?;
+    let results = results.collect::<Outcome<Vec<DiagnosedFile>>>()?;
     progress.finish();
     if !arguments.dry_run {
         write(&results, Vec::new())?;
@@ -92,7 +85,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
         false => as_text(&results, arguments.dry_run)?,
     };
     print(&said)?;
-    let fine = |one: &One| one.found.answer().is_fine();
+    let fine = |one: &DiagnosedFile| one.found.answer().is_fine();
     Ok(match results.iter().all(fine) {
         true => Ending::Done,
         false => Ending::Attention,
@@ -107,7 +100,7 @@ fn misplaced(what: &str) -> Problem {
     )
 }
 
-fn one(name: &Path, fit: Option<&Path>) -> Outcome<One> {
+fn one(name: &Path, fit: Option<&Path>) -> Outcome<DiagnosedFile> {
     let (path, said) = resolve(name)?;
     said.iter().for_each(|s| tell(s));
     let (kind, diagnose) = kind(&path)?;
@@ -116,81 +109,35 @@ fn one(name: &Path, fit: Option<&Path>) -> Outcome<One> {
         Some(fit) if kind == "load-cycle" => load_cycle::diagnosed_with(&path, fit)?,
         Some(_) => return Err(misplaced(&format!("this is of kind `{kind}`")).in_file(&path)),
     };
-    Ok(One {
+    Ok(DiagnosedFile {
         kind,
         place: Place::of(&path),
         found,
     })
 }
 
-impl One {
-    fn path(&self) -> &Path {
-        self.found.source().path
-    }
+fn report(file: &DiagnosedFile) -> PathBuf {
+    let reports = file.place.reports();
+    reports.join(format!("{}-diagnosis.html", file.stem()))
+}
 
-    fn stem(&self) -> String {
-        let stem = self.path().file_stem().unwrap_or_default();
-        stem.to_string_lossy().to_string()
+/// Everything that is written for a file.
+fn results(diagnosed: &DiagnosedFile) -> Outcome<Vec<(PathBuf, String)>> {
+    let page = page::page(diagnosed.found.as_ref(), &diagnosed.stem());
+    let mut out: Vec<(PathBuf, String)> = diagnosed.model()?.into_iter().collect();
+    for (stem, chart) in page.figures() {
+        let figure = diagnosed.place.reports().join(file(&stem, chart));
+        out.push((figure, svg::ink(chart)?));
     }
-
-    /// Where the extended model goes, and its text; none if nothing was extended.
-    fn model(&self) -> Outcome<Option<(PathBuf, String)>> {
-        let path = self
-            .place
-            .fits()
-            .join(format!("{}-extended.toml", self.stem()));
-        if self.found.answer().is_withheld() {
-            return Ok(None);
-        }
-        Ok(self.found.model()?.map(|text| (path, text)))
-    }
-
-    /// File name.
-    fn name(&self) -> String {
-        let name = self.path().file_name().unwrap_or_default();
-        name.to_string_lossy().to_string()
-    }
-
-    /// Its JSON.
-    fn body(&self, dry: bool) -> Outcome<Map<String, Value>> {
-        let model = if dry {
-            None
-        } else {
-            self.model()?.map(|m| m.0)
-        };
-        let (answer, synthetic) = (self.found.answer(), self.found.source().synthetic);
-        let mut body = json::body(answer, synthetic, model.as_deref());
-        body.insert("kind".into(), json!(self.kind));
-        body.extend(self.found.more());
-        Ok(body)
-    }
-
-    fn report(&self) -> PathBuf {
-        self.place
-            .reports()
-            .join(format!("{}-diagnosis.html", self.stem()))
-    }
-
-    /// Everything that is written for it.
-    fn files(&self) -> Outcome<Vec<(PathBuf, String)>> {
-        let page = page::page(self.found.as_ref(), &self.stem());
-        let mut out: Vec<(PathBuf, String)> = self.model()?.into_iter().collect();
-        for (stem, chart) in page.figures() {
-            out.push((
-                self.place.reports().join(file(&stem, chart)),
-                svg::ink(chart)?,
-            ));
-        }
-        out.push((self.report(), html::ink(&page)?));
-        Ok(out)
-    }
+    out.push((report(diagnosed), html::ink(&page)?));
+    Ok(out)
 }
 
 /// A whole campaign.
 fn whole(place: &Place, arguments: &Arguments) -> Outcome<Ending> {
     let campaign = campaign::examine(place, arguments.progress)?;
     if !arguments.dry_run {
-        write(&campaign.files, campaign.written())?;
+        write(&campaign.files, campaign::written(&campaign))?;
         folder::write_as(
             &place.reports(),
             "diagnosis.html",
@@ -202,27 +149,27 @@ fn whole(place: &Place, arguments: &Arguments) -> Outcome<Ending> {
             let sources: Vec<_> = campaign.files.iter().map(|r| r.found.source()).collect();
             let inputs: Vec<(&Path, &str)> = sources.iter().map(|s| (s.path, s.sha256)).collect();
             let mut map = crate::report::json::head("diagnose", &inputs);
-            map.extend(campaign::body(&campaign, arguments.dry_run)?);
+            map.extend(body(&campaign.document(!arguments.dry_run)?));
             crate::report::json::print(map)
         }
         false => campaign::account(&campaign),
     };
     print(&said)?;
-    Ok(campaign.ending())
+    Ok(campaign::ending(&campaign))
 }
 
-fn write(results: &[One], more: Vec<(PathBuf, String)>) -> Outcome<()> {
-    results
+fn write(files: &[DiagnosedFile], more: Vec<(PathBuf, String)>) -> Outcome<()> {
+    files
         .iter()
         .try_for_each(|one| Place::nameable(one.path()))?;
     let inked: Vec<Vec<(PathBuf, String)>> =
-        results.par_iter().map(One::files).collect::<Outcome<_>>()?;
+        files.par_iter().map(results).collect::<Outcome<_>>()?;
     let all = [inked.concat(), more].concat();
     all.iter()
-        .try_for_each(|(path, content)| files::replace(path, content.as_bytes()))
+        .try_for_each(|(path, content)| replace(path, content.as_bytes()))
 }
 
-fn as_text(results: &[One], dry: bool) -> Outcome<String> {
+fn as_text(results: &[DiagnosedFile], dry: bool) -> Outcome<String> {
     let mut said = String::new();
     for one in results {
         said.push_str(&account(one));
@@ -233,13 +180,13 @@ fn as_text(results: &[One], dry: bool) -> Outcome<String> {
             if let Some((path, _)) = one.model()? {
                 said.push_str(&format!("  model  {}\n", path.display()));
             }
-            said.push_str(&format!("  report {}\n", one.report().display()));
+            said.push_str(&format!("  report {}\n", report(one).display()));
         }
     }
     Ok(said)
 }
 
-fn account(one: &One) -> String {
+fn account(one: &DiagnosedFile) -> String {
     let (answer, source) = (one.found.answer(), one.found.source());
     let label = if source.synthetic { " (synthetic)" } else { "" };
     let head = format!(
@@ -253,7 +200,7 @@ fn account(one: &One) -> String {
     said.iter().fold(head, |all, s| all + &text::indented(s, 2))
 }
 
-fn tables_of(one: &One) -> String {
+fn tables_of(one: &DiagnosedFile) -> String {
     let answer = one.found.answer();
     let mut said = String::new();
     if !answer.causes.is_empty() || !answer.groups.is_empty() {
@@ -268,16 +215,15 @@ fn tables_of(one: &One) -> String {
     said
 }
 
-fn as_json(results: &[One], dry: bool) -> Outcome<String> {
+fn as_json(results: &[DiagnosedFile], dry: bool) -> Outcome<String> {
     let sources: Vec<_> = results.iter().map(|r| r.found.source()).collect();
     let inputs: Vec<(&Path, &str)> = sources.iter().map(|s| (s.path, s.sha256)).collect();
     let mut map = crate::report::json::head("diagnose", &inputs);
-    let body = |one: &One| one.body(dry);
     match results {
-        [one] => map.extend(body(one)?),
+        [one] => map.extend(body(&one.document(!dry)?)),
         many => {
-            let with_file = |one: &One| {
-                let mut map = body(one)?;
+            let with_file = |one: &DiagnosedFile| {
+                let mut map = body(&one.document(!dry)?);
                 map.insert("file".into(), json!(one.path().display().to_string()));
                 Ok(Value::Object(map))
             };

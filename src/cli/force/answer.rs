@@ -24,7 +24,8 @@ pub fn json(found: &Found, dry_run: bool) -> String {
     let path = found.material_path().filter(|_| !dry_run);
     let path = path.map_or(Value::Null, |p| json!(p.display().to_string()));
     map.insert("material".into(), path);
-    map.insert("remarks".into(), json!(account.remarks));
+    map.insert("remarks".into(), json!(found.remarks()));
+    map.insert("doubts".into(), json!(found.doubts));
     json::print(map)
 }
 

@@ -10,6 +10,7 @@ use super::output::{print, tell};
 use super::{Ending, Verb, arguments, parsed};
 use crate::fit::cut_force::{Account, identify};
 use crate::fit::parameter::Status;
+use crate::fit::suitability::{self, Doubt, is_odd};
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::milling_force::MillingForce;
@@ -48,6 +49,7 @@ struct Found {
     place: Place,
     name: String,
     account: Account,
+    doubts: Vec<Doubt>,
 }
 
 fn run(matches: &ArgMatches) -> Outcome<Ending> {
@@ -72,6 +74,12 @@ fn act(arguments: &Arguments) -> Outcome<Found> {
         files.push(MillingForce::read(&path)?);
     }
     one_tool(&files)?;
+    let mut doubts = Vec::new();
+    for file in &files {
+        let own = suitability::milling_force::doubts(file);
+        suitability::refuse(&file.path, &own)?;
+        doubts.extend(own);
+    }
     let name = match &arguments.name {
         Some(name) => plain(name)?,
         None => files[0].stem(),
@@ -81,6 +89,7 @@ fn act(arguments: &Arguments) -> Outcome<Found> {
         name,
         account: identify(&files),
         files,
+        doubts,
     })
 }
 
@@ -113,6 +122,12 @@ impl Found {
         self.files.iter().any(|f| f.facts.synthetic)
     }
 
+    /// What is odd about the data, then what the fit remarks.
+    fn remarks(&self) -> Vec<String> {
+        let odd = self.doubts.iter().map(Doubt::sentence);
+        odd.chain(self.account.remarks.iter().cloned()).collect()
+    }
+
     /// Where the material goes; none where a coefficient is open.
     fn material_path(&self) -> Option<PathBuf> {
         self.account.rel_std?;
@@ -123,7 +138,7 @@ impl Found {
 fn ending(found: &Found) -> Ending {
     let open = |s: &Status| *s == Status::NotIdentifiable;
     let coefficients = &found.account.parameters[..6];
-    match coefficients.iter().any(|p| open(&p.status)) {
+    match is_odd(&found.doubts) || coefficients.iter().any(|p| open(&p.status)) {
         true => Ending::Attention,
         false => Ending::Done,
     }
@@ -152,7 +167,7 @@ fn account(found: &Found, written: &[PathBuf]) -> String {
         said += &format!("\n{}", terminal::table(&table));
     }
     said += "\n";
-    for remark in &found.account.remarks {
+    for remark in found.remarks() {
         said += &format!("note: {remark}\n");
     }
     let ends = |end: &str| written.iter().find(|p| p.to_string_lossy().ends_with(end));

@@ -13,7 +13,7 @@ pub fn page(found: &Found) -> Page {
     for (tone, sentence) in tables::sentences(found) {
         page = page.with(Block::verdict(tone, sentence));
     }
-    for remark in &found.account.remarks {
+    for remark in found.remarks() {
         page = page.with(Block::verdict(Tone::Neutral, remark));
     }
     page = page

@@ -1,20 +1,67 @@
 //! The account of a kind that has none of its own: its facts, columns and ranges.
 
 use super::{Account, range, title};
+use crate::fit::suitability::{self, Doubt};
 use crate::ground::problem::Outcome;
+use crate::measurement::cubes::CubeTest;
+use crate::measurement::force_sensor::SensorTest;
+use crate::measurement::joint_motion::JointMotion;
+use crate::measurement::milling_force::MillingForce;
+use crate::measurement::screw::ScrewTest;
 use crate::measurement::table::{Cells, Column, Table};
 use crate::report::json;
+use crate::robot::load;
 use crate::sheet::number::significant;
 use serde_json::{Value, json};
 use std::path::Path;
+
+/// What is odd about a file of a kind.
+type Gate = fn(&Path) -> Outcome<Vec<Doubt>>;
+
+/// The gates of these kinds.
+const GATES: &[(&str, Gate)] = &[
+    ("joint-motion", |path| {
+        let file = JointMotion::read(path)?;
+        Ok(suitability::joint_motion::doubts(&file, |joint| {
+            joint.nominal_stiffness
+        }))
+    }),
+    ("cubes", |path| {
+        let test = CubeTest::read(path)?;
+        let robot = load(&test.facts.robot, Some(path))?;
+        Ok(suitability::cubes::doubts(&test, &robot.robot))
+    }),
+    ("force-sensor", |path| {
+        Ok(suitability::force_sensor::doubts(&SensorTest::read(path)?))
+    }),
+    ("screw", |path| {
+        Ok(suitability::screw::doubts(&ScrewTest::read(path)?))
+    }),
+    ("milling-force", |path| {
+        Ok(suitability::milling_force::doubts(&MillingForce::read(
+            path,
+        )?))
+    }),
+];
+
+/// What the gate of the kind finds odd, or why its reader refuses the file.
+fn doubted(kind: &str, path: &Path) -> Vec<String> {
+    let gate = GATES.iter().find(|(name, _)| *name == kind);
+    match gate.map(|(_, gate)| gate(path)) {
+        None => Vec::new(),
+        Some(Ok(doubts)) => doubts.iter().map(Doubt::sentence).collect(),
+        Some(Err(problem)) => vec![format!("{}: {}", problem.what, problem.remedy)],
+    }
+}
 
 /// Reads and tells.
 pub fn account(path: &Path) -> Outcome<Account> {
     let table = Table::read(path)?;
     let kind = table.front.text("kind")?.unwrap_or("unnamed").to_string();
+    let columns = table.columns.iter().filter_map(odd);
     Ok(Account {
         lines: lines(&table, &kind),
-        odd: table.columns.iter().filter_map(odd).collect(),
+        odd: columns.chain(doubted(&kind, path)).collect(),
         json: document(&table, &kind),
     })
 }

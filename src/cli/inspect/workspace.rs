@@ -8,6 +8,7 @@ use crate::ground::problem::Outcome;
 use crate::measurement::workspace_test::{DIRECTIONS, Step, WorkspaceTest};
 use crate::report::json;
 use crate::robot::load::load;
+use crate::sheet::number::fixed;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -106,11 +107,13 @@ fn direction_line(direction: usize, setups: &[Setup]) -> Option<String> {
     let axes: BTreeSet<&str> = own.iter().flat_map(|setup| setup.components()).collect();
     let axes: Vec<&str> = axes.into_iter().collect();
     Some(format!(
-        "force along {}: {} points, {} cycles and {} steps each, {low:.1} to {high:.1} N; displacement measured along {}",
+        "force along {}: {} points, {} cycles and {} steps each, {} to {} N; displacement measured along {}",
         DIRECTIONS[direction],
         own.len(),
         count(|setup| setup.cycles),
         count(|setup| setup.steps),
+        fixed(low, 1),
+        fixed(high, 1),
         axes.join(", ")
     ))
 }

@@ -92,7 +92,7 @@ fn round_end(cutter: &Cutter) -> Vec<String> {
 fn of_job(arguments: &Arguments, job: &Job) -> Outcome<Case> {
     let cutter = job.cutter()?;
     let loaded = load(&job.robot, Some(&job.path))?;
-    check::dynamics(&loaded.robot).map_err(|p| p.in_file(Path::new(&loaded.path)))?;
+    check::dynamics(&loaded.robot).map_err(|p| p.in_text(Path::new(&loaded.path)))?;
     let width_m = match arguments.width_mm {
         Some(mm) if mm > 0.0 && 1e-3 * mm <= cutter.diameter * (1.0 + 1e-9) => 1e-3 * mm,
         Some(mm) => {

@@ -1,11 +1,11 @@
 //! The figures of `ident mill`.
 
+use super::super::part_map::{classes, thinned};
 use super::Result;
 use crate::ground::spatial::norm;
 use crate::process::run::Cut;
 use crate::process::setup::Support;
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
-use crate::sheet::number::significant;
 
 /// Most points of one line.
 const POINTS: usize = 2000;
@@ -42,14 +42,6 @@ pub fn course(result: &Result) -> Chart {
     chart.with(deviation)
 }
 
-/// Every n-th.
-fn thinned<T: Copy>(all: &[T], most: usize) -> Vec<T> {
-    all.iter()
-        .step_by(all.len().div_ceil(most).max(1))
-        .copied()
-        .collect()
-}
-
 /// The deviation where it arises, in classes.
 pub fn map(result: &Result) -> Chart {
     let cutting: Vec<Cut> = result
@@ -67,8 +59,9 @@ pub fn map(result: &Result) -> Chart {
         "Where the part will be wrong",
         "Deviation normal to the feed at the tip, seen along z of the workpiece.",
     );
+    let top = cuts.iter().map(size).fold(0.0, f64::max);
     chart
-        .with(classes(&cuts, place, size, "mm off"))
+        .with(classes(&cuts, place, size, top, "mm off"))
         .synthetic(result.planned.job.synthetic)
 }
 
@@ -78,46 +71,12 @@ pub fn left(result: &Result) -> Chart {
     let places = thinned(&all, PLACES);
     let depth = |place: &([f64; 3], f64)| 1e3 * place.1;
     let at = |place: &([f64; 3], f64)| [1e3 * place.0[0], 1e3 * place.0[1]];
+    let top = places.iter().map(depth).fold(0.0, f64::max);
     Chart::new(
         "mill-left",
         "The surface left behind",
         "Depth of the surface below the top of the stock, seen along z of the workpiece.",
     )
-    .with(classes(&places, at, depth, "mm deep"))
+    .with(classes(&places, at, depth, top, "mm deep"))
     .synthetic(result.planned.job.synthetic)
-}
-
-/// Number of classes of a map.
-const CLASSES: usize = 5;
-
-/// Points on a map, sorted into classes of equal width.
-fn classes<T>(
-    all: &[T],
-    place: impl Fn(&T) -> [f64; 2],
-    size: impl Fn(&T) -> f64,
-    unit: &str,
-) -> Panel {
-    let panel = Panel::new(Axis::new("x", "mm"), Axis::new("y", "mm")).equal_axes();
-    let top = all.iter().map(&size).fold(0.0, f64::max);
-    if top <= 0.0 {
-        return panel.with(Series::points(
-            format!("0 {unit}"),
-            all.iter().map(place).collect(),
-        ));
-    }
-    let class = |x: f64| ((x / top * CLASSES as f64) as usize).min(CLASSES - 1);
-    let end = |i: usize| significant(top * i as f64 / CLASSES as f64, 2);
-    (0..CLASSES).fold(panel, |panel, i| {
-        let inside = all
-            .iter()
-            .filter(|t| class(size(t)) == i)
-            .map(&place)
-            .collect::<Vec<_>>();
-        let name = format!("{} to {} {unit}", end(i), end(i + 1));
-        if inside.is_empty() {
-            panel
-        } else {
-            panel.with(Series::points(name, inside))
-        }
-    })
 }

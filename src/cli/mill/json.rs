@@ -2,7 +2,7 @@
 
 use super::{Result, Written};
 use crate::ground::spatial::norm;
-use crate::process::uncertainty::NORMAL95;
+use crate::ground::stats::Z95;
 use crate::report::json::{number, numbers};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -22,7 +22,7 @@ pub fn body(result: &Result, written: &Written) -> Value {
         "step_us": number(milled.step_s * 1e6),
         "energy": energy(result),
         "interval_from": result.doubts.iter().map(|d| json!({
-            "name": d.name, "site": d.site, "rel_ci95": number(NORMAL95 * d.rel_std),
+            "name": d.name, "site": d.site, "rel_ci95": number(Z95 * d.rel_std),
         })).collect::<Value>(),
         "course": named(&written.course),
         "report": named(&written.report),

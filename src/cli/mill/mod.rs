@@ -7,23 +7,22 @@ mod json;
 mod page;
 
 use super::output::{print, print_result, tell};
-use super::planned::Planned;
 use super::progress::Progress;
 use super::{Ending, Verb, arguments, parsed};
 use crate::cutting::cutter::Cutter;
-use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::norm;
+use crate::ground::stats::Z95;
 use crate::measurement::workspace::job_results;
+use crate::process::Planned;
 use crate::process::course;
 use crate::process::run::{Cut, Outcome as Milled};
 use crate::process::setup::{Setup, Support};
-use crate::process::uncertainty::{self, Doubt, NORMAL95};
-use crate::report::{html, svg};
-use crate::sheet::page::{Page, file};
+use crate::process::uncertainty::{self, Doubt};
+use crate::report::folder;
 use clap::{ArgMatches, Args};
 use std::cell::Cell;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// The verb.
 pub const VERB: Verb = Verb {
@@ -181,8 +180,8 @@ fn worst(setup: &Setup, milled: &Milled, doubts: &[Doubt]) -> Outcome<Option<Wor
     let ci95 = match doubts.is_empty() {
         true => None,
         false => {
-            let changes = uncertainty::changes(setup, doubts, &[cut.time_s])?;
-            let half = NORMAL95 * uncertainty::spread(&changes, 0, cut.deviation);
+            let changes = uncertainty::changes(setup, Support::Static, doubts, &[cut.time_s])?;
+            let half = Z95 * uncertainty::spread(&changes, 0, cut.deviation);
             Some([(size(&cut) - half).max(0.0), size(&cut) + half])
         }
     };
@@ -206,33 +205,17 @@ impl Result {
 
 /// Writes everything, or nothing.
 fn write(result: &Result) -> Outcome<Written> {
-    let folder = job_results(&result.planned.job.path);
-    let course = folder.join("course.csv");
-    let report = folder.join("mill.html");
+    let place = job_results(&result.planned.job.path);
+    let course = place.join("course.csv");
     let text = course::text(
         &result.milled.course,
         &result.planned.inputs,
         result.support.name(),
     );
-    let mut contents = vec![(course.clone(), text)];
-    contents.extend(inked(&folder, &report, &page::page(result))?);
-    let contents: Vec<(&Path, &[u8])> = contents
-        .iter()
-        .map(|(path, text)| (path.as_path(), text.as_bytes()))
-        .collect();
-    files::replace_all(&contents)?;
+    let files = vec![(course.clone(), text)];
+    let report = folder::write_with(files, &place, "mill.html", &page::page(result))?;
     Ok(Written {
         course: Some(course),
         report: Some(report),
     })
-}
-
-/// Figures and page, the page last.
-fn inked(folder: &Path, report: &Path, page: &Page) -> Outcome<Vec<(PathBuf, String)>> {
-    let figures = page.figures().into_iter();
-    let figures =
-        figures.map(|(stem, chart)| Ok((folder.join(file(&stem, chart)), svg::ink(chart)?)));
-    let mut all = figures.collect::<Outcome<Vec<_>>>()?;
-    all.push((report.to_path_buf(), html::ink(page)?));
-    Ok(all)
 }

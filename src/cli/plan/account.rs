@@ -119,6 +119,6 @@ pub fn remarks(planned: &Planned) -> Vec<String> {
         ));
     }
     let passed_over = planned.toolpath.passed_over.iter();
-    all.extend(passed_over.map(|p| format!("{} passed over {} times", p.what, p.count)));
+    all.extend(passed_over.map(|p| format!("{} passed over ({})", p.what, p.count)));
     all
 }

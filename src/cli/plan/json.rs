@@ -39,6 +39,10 @@ pub fn body(planned: &Planned, written: &Written) -> Value {
 pub fn unreached(unreached: &Unreached) -> Value {
     json!({
         "exceeded": [exceeded(&unreached.exceeded())],
+        "unreached": {
+            "line": unreached.line,
+            "point_mm": unreached.point.map(|x| number(x * 1e3)),
+        },
         "trajectory": null,
         "program": null,
     })

@@ -5,22 +5,17 @@ mod figures;
 mod json;
 mod page;
 
-use super::chapter::Chapter;
+use super::chapter::{self, Chapter};
 use super::output::{print, print_result, tell};
 use super::{Ending, Verb, arguments, from_words, parsed};
-use crate::ground::files;
 use crate::ground::problem::Outcome;
-use crate::measurement::job::Job;
-use crate::measurement::toolpath::Toolpath;
 use crate::measurement::workspace::{Place, job_results};
 use crate::path::programs::{Exporter, ProgramFile};
-use crate::planning::program::program;
-use crate::planning::{self, Plan, trajectory};
-use crate::report::{html, svg};
-use crate::robot::load::load;
-use crate::sheet::page::{Page, file};
+use crate::planning::trajectory;
+use crate::process::Planned;
+use crate::report::folder;
 use clap::{ArgMatches, Args};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// The verb.
 pub const VERB: Verb = Verb {
@@ -45,15 +40,6 @@ struct Arguments {
     dry_run: bool,
 }
 
-/// A planned job with what it rests on.
-struct Planned {
-    job: Job,
-    toolpath: Toolpath,
-    plan: Plan,
-    /// Path and SHA-256 of every file, the job first.
-    inputs: Vec<(String, String)>,
-}
-
 /// What was written.
 #[derive(Default)]
 struct Written {
@@ -67,10 +53,9 @@ struct Written {
 /// # Errors
 /// A job that cannot be planned, results that cannot be written.
 pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
-    let job = place.measurements().join("part").join("job.toml");
-    if !job.is_file() {
+    let Some(job) = chapter::part(place) else {
         return Ok(None);
-    }
+    };
     let planned = planned(&from_words::<Arguments>(&[job]))?;
     write(&planned, Vec::new())?;
     let input = |(path, hash): &(String, String)| (PathBuf::from(path), hash.clone());
@@ -94,7 +79,8 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let exporter = arguments.program.as_deref().map(Exporter::named);
     let exporter = exporter.transpose()?;
     let planned = planned(&arguments)?;
-    let programs = exporter.map(|e| programs(e, &planned)).transpose()?;
+    let programs = exporter.map(|e| planned.programs(e, &planned.inputs));
+    let programs = programs.transpose()?;
     let written = match arguments.dry_run {
         true => Written::default(),
         false => write(&planned, programs.unwrap_or_default())?,
@@ -111,81 +97,31 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
 
 /// Reads and plans. Where the robot does not reach, the JSON document says so before the refusal.
 fn planned(arguments: &Arguments) -> Outcome<Planned> {
-    let job = Job::read(&arguments.job)?;
-    let toolpath = Toolpath::read(&job.toolpath)?;
-    let robot = load(&job.robot, Some(&job.path))?;
-    let mut inputs = vec![
-        (job.path.display().to_string(), job.sha256.clone()),
-        (toolpath.path.display().to_string(), toolpath.sha256.clone()),
-        robot.input(),
-    ];
-    let further = toolpath.inputs.iter().chain(&job.inputs);
-    inputs.extend(further.map(|(path, hash)| (path.display().to_string(), hash.clone())));
-    match planning::plan(&job, &toolpath, &robot.robot)? {
-        Ok(plan) => Ok(Planned {
-            job,
-            toolpath,
-            plan,
-            inputs,
-        }),
-        Err(unreached) => {
+    match Planned::try_read(&arguments.job)? {
+        Ok(planned) => Ok(planned),
+        Err(unplanned) => {
             if arguments.json {
-                print_result("plan", &inputs, json::unreached(&unreached))?;
+                let body = json::unreached(&unplanned.unreached);
+                print_result("plan", &unplanned.inputs, body)?;
             }
-            Err(unreached.problem().in_file(&toolpath.path))
+            Err(unplanned.problem)
         }
     }
 }
 
-/// The plan in the language of a controller, the main file first.
-fn programs(exporter: &Exporter, planned: &Planned) -> Outcome<Vec<ProgramFile>> {
-    let name = planned.toolpath.path.file_stem().unwrap_or_default();
-    let comment = |(path, hash): &(String, String)| format!("{path} sha256 {hash}");
-    let comments = planned.inputs.iter().map(comment).collect();
-    let stated = planned.toolpath.moves.iter().find_map(|step| step.spindle);
-    let cutter = planned
-        .job
-        .cutter
-        .as_ref()
-        .and_then(|cutter| cutter.spindle);
-    let name = name.to_string_lossy();
-    let program = program(&planned.plan, &name, comments, cutter.or(stated));
-    exporter
-        .write(&program)
-        .map_err(|problem| problem.in_file(&planned.job.path))
-}
-
 /// Writes everything, or nothing.
 fn write(planned: &Planned, programs: Vec<ProgramFile>) -> Outcome<Written> {
-    let folder = job_results(&planned.job.path);
-    let trajectory = folder.join("trajectory.csv");
-    let report = folder.join("index.html");
-    let mut contents = vec![(
-        trajectory.clone(),
-        trajectory::text(&planned.plan, &planned.inputs),
-    )];
-    let main = programs.first().map(|program| folder.join(&program.name));
+    let place = job_results(&planned.job.path);
+    let trajectory = place.join("trajectory.csv");
+    let text = trajectory::text(&planned.plan, &planned.inputs);
+    let mut files = vec![(trajectory.clone(), text)];
+    let main = programs.first().map(|program| place.join(&program.name));
     let programs = programs.into_iter();
-    contents.extend(programs.map(|program| (folder.join(&program.name), program.text)));
-    contents.extend(inked(&folder, &page::page(planned))?);
-    let contents: Vec<(&Path, &[u8])> = contents
-        .iter()
-        .map(|(path, text)| (path.as_path(), text.as_bytes()))
-        .collect();
-    files::replace_all(&contents)?;
+    files.extend(programs.map(|program| (place.join(&program.name), program.text)));
+    let report = folder::write_with(files, &place, "index.html", &page::page(planned))?;
     Ok(Written {
         trajectory: Some(trajectory),
         program: main,
         report: Some(report),
     })
-}
-
-/// Figures and page, the page last.
-fn inked(folder: &Path, page: &Page) -> Outcome<Vec<(PathBuf, String)>> {
-    let figures = page.figures().into_iter();
-    let figures =
-        figures.map(|(stem, chart)| Ok((folder.join(file(&stem, chart)), svg::ink(chart)?)));
-    let mut all = figures.collect::<Outcome<Vec<_>>>()?;
-    all.push((folder.join("index.html"), html::ink(page)?));
-    Ok(all)
 }

@@ -33,7 +33,9 @@ pub fn document(judged: &Judged, dry: bool) -> String {
             improvement(judged).map_or(Value::Null, number),
         );
     }
+    map.insert("motion".into(), super::motion::json(judged));
     map.insert("remarks".into(), json!(judged.remarks()));
+    map.insert("doubts".into(), json!(judged.doubts));
     map.insert("table_format".into(), json!(judged.exporter.name));
     let table = (!dry).then(|| judged.table_path().display().to_string());
     map.insert("table".into(), json!(table));

@@ -1,14 +1,18 @@
 //! `ident screw`: positions of a worn linear axis become figures of ISO 230-2, backlash and a pitch table.
 
 mod json;
+mod motion;
 mod page;
 mod tables;
 
+use super::chapter::Chapter;
 use super::output::{print, tell};
-use super::{Ending, Verb, arguments, parsed};
+use super::{Ending, Verb, arguments, from_words, parsed};
 use crate::fit::screw::groups::Joint;
+use crate::fit::screw::in_motion::{Demand, Run, in_motion};
 use crate::fit::screw::positions::Extremes;
 use crate::fit::screw::{Account, Request, identify};
+use crate::fit::suitability::{self, Doubt, is_odd};
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::pitch_table::{EXPORTERS, Exporter, PitchTable, exporter};
@@ -60,6 +64,9 @@ struct Arguments {
     /// What the table follows
     #[arg(long, value_enum, default_value_t = Follow::Targets)]
     follow: Follow,
+    /// Speed of the work, m/min, at which the axis is simulated in motion with each correction
+    #[arg(long, default_value_t = 5.0, value_name = "V")]
+    speed_m_min: f64,
     /// Form of the table
     #[arg(long, default_value = EXPORTERS[0].name, value_name = "NAME")]
     format: String,
@@ -110,6 +117,9 @@ struct Judged {
     table: PitchTable,
     exporter: &'static Exporter,
     limit_um: f64,
+    demand: Demand,
+    motion: Vec<Run>,
+    doubts: Vec<Doubt>,
 }
 
 fn run(matches: &ArgMatches) -> Outcome<Ending> {
@@ -125,52 +135,85 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
     for remark in judged.remarks() {
         tell(&format!("note: {remark}"));
     }
-    Ok(match judged.account.figures.a {
-        Some(_) => Ending::Done,
-        None => Ending::Attention,
-    })
+    Ok(judged.ending())
+}
+
+/// Judges every screw of a campaign by itself, and writes what that found.
+///
+/// # Errors
+/// A file that cannot be read, results that cannot be written.
+pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
+    let one = |file: PathBuf| {
+        let test = ScrewTest::read(&file)?;
+        if let Err(why) = passed(&test) {
+            let input = (test.path.clone(), test.sha256.clone());
+            return Ok(Chapter::withheld(test.stem(), input, &why));
+        }
+        let judged = judge(&from_words::<Arguments>(&[file]))?;
+        write(&judged)?;
+        Ok(Chapter {
+            title: judged.stem(),
+            ending: judged.ending(),
+            inputs: judged
+                .tests
+                .iter()
+                .map(|t| (t.path.clone(), t.sha256.clone()))
+                .collect(),
+            page: page::page(&judged),
+        })
+    };
+    let parts = place.files_of("screw")?.into_iter().map(one);
+    let parts = parts.collect::<Outcome<Vec<_>>>()?;
+    Ok(Chapter::together("Linear axes", parts))
 }
 
 fn judge(arguments: &Arguments) -> Outcome<Judged> {
     let exporter = exporter(&arguments.format)?;
     let request = request(arguments)?;
+    let demand = demand(arguments)?;
     let tests = arguments
         .files
         .iter()
         .map(|name| read(name))
         .collect::<Outcome<Vec<_>>>()?;
+    let mut doubts = Vec::new();
+    for test in &tests {
+        doubts.extend(passed(test)?);
+    }
     let account = identify(&tests, &request)?;
     let before = match &arguments.before {
         None => None,
         Some(name) => {
             let test = read(name)?;
+            doubts.extend(passed(&test)?);
             let account = identify(std::slice::from_ref(&test), &request)?;
             Some((test, account))
         }
     };
-    let named = |test: &ScrewTest| {
-        let name = test
-            .path
-            .file_name()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .to_string();
-        format!("{name} {}", test.sha256)
-    };
     let table = PitchTable {
-        inputs: tests.iter().map(named).collect(),
+        inputs: tests.iter().map(ScrewTest::provenance).collect(),
         synthetic: tests.iter().any(|test| test.facts.synthetic),
         ..account.table(request.smooth)
     };
     Ok(Judged {
         place: Place::of(&tests[0].path),
         tests,
-        account,
         before,
         table,
         exporter,
         limit_um: arguments.residual_um,
+        motion: in_motion(&account, &demand),
+        demand,
+        account,
+        doubts,
     })
+}
+
+/// What is odd about a test that can carry a number.
+fn passed(test: &ScrewTest) -> Outcome<Vec<Doubt>> {
+    let doubts = suitability::screw::doubts(test);
+    suitability::refuse(&test.path, &doubts)?;
+    Ok(doubts)
 }
 
 fn request(arguments: &Arguments) -> Outcome<Request> {
@@ -195,6 +238,18 @@ fn request(arguments: &Arguments) -> Outcome<Request> {
     })
 }
 
+fn demand(arguments: &Arguments) -> Outcome<Demand> {
+    let speed = arguments.speed_m_min;
+    match (1.0..=100.0).contains(&speed) {
+        true => Ok(Demand::at(speed / 60.0)),
+        false => Err(Problem::new(
+            format!("is {speed}"),
+            "give a speed in m/min between 1 and 100",
+        )
+        .in_column("--speed-m-min")),
+    }
+}
+
 fn read(name: &Path) -> Outcome<ScrewTest> {
     let (path, said) = resolve(name)?;
     said.iter().for_each(|s| tell(s));
@@ -202,6 +257,13 @@ fn read(name: &Path) -> Outcome<ScrewTest> {
 }
 
 impl Judged {
+    fn ending(&self) -> Ending {
+        match self.account.figures.a {
+            Some(_) if !is_odd(&self.doubts) => Ending::Done,
+            _ => Ending::Attention,
+        }
+    }
+
     fn stem(&self) -> String {
         self.tests[0].stem()
     }
@@ -221,7 +283,8 @@ impl Judged {
     }
 
     fn remarks(&self) -> Vec<String> {
-        let mut said = self.account.remarks();
+        let mut said: Vec<String> = self.doubts.iter().map(Doubt::sentence).collect();
+        said.extend(self.account.remarks());
         if self.left_out() > 0 {
             said.push(format!(
                 "{} rows were left out for an empty cell",
@@ -244,6 +307,8 @@ fn account(judged: &Judged, dry: bool) -> String {
     said += &text::table(&tables::figures(judged));
     said += "\n";
     said += &text::table(&tables::groups(judged));
+    said += "\n";
+    said += &text::table(&motion::table(judged));
     if !dry {
         let report = judged.place.reports().join(judged.report());
         said += &format!(

@@ -1,6 +1,6 @@
 //! The report page of `ident screw`.
 
-use super::{Judged, tables};
+use super::{Judged, motion, tables};
 use crate::fit::screw::Account;
 use crate::fit::screw::positions::{Target, in_mm};
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
@@ -41,7 +41,12 @@ pub fn page(judged: &Judged) -> Page {
             vec![Block::Table(least)],
         ));
     }
-    page
+    if judged.motion.is_empty() {
+        return page;
+    }
+    page.with(Block::heading("The axis in motion"))
+        .with(Block::Chart(motion::chart(judged)))
+        .with(Block::Table(motion::table(judged)))
 }
 
 fn capital(text: &str) -> String {
@@ -92,6 +97,9 @@ fn errors(judged: &Judged, account: &Account, ending: &str, state: &str) -> Char
     .synthetic(judged.table.synthetic)
 }
 
+/// Stretches of the curve of one group.
+const CURVE: i32 = 24;
+
 /// Mean error with the quadratics, and what they leave.
 fn groups(judged: &Judged) -> Chart {
     let account = &judged.account;
@@ -104,8 +112,12 @@ fn groups(judged: &Judged) -> Chart {
     let mut points = mean.iter();
     for group in &account.groups {
         for point in points.by_ref().take(group.points) {
-            curve.push([point[0], group.at(point[0])]);
             rest.push([point[0], point[1] - group.at(point[0])]);
+        }
+        for i in 0..=CURVE {
+            let share = f64::from(i) / f64::from(CURVE);
+            let x = group.from_mm + share * (group.to_mm - group.from_mm);
+            curve.push([x, group.at(x)]);
         }
         curve.push([group.to_mm, f64::NAN]);
     }

@@ -33,6 +33,7 @@ pub fn document(found: &Identified, dry: bool) -> String {
     map.insert("next".into(), next.collect());
     map.insert("orientations".into(), json!(account.poses.len()));
     map.insert("remarks".into(), json!(found.remarks()));
+    map.insert("doubts".into(), json!(found.doubts));
     if let Some(record) = &found.applied {
         map.insert("applied".into(), applied(record, dry));
     }

@@ -5,12 +5,14 @@ mod json;
 mod page;
 mod tables;
 
+use super::chapter::Chapter;
 use super::output::{print, tell};
-use super::{Ending, Verb, arguments, parsed};
+use super::{Ending, Verb, arguments, from_words, parsed};
 use crate::fit::force_sensor::model::Model;
 use crate::fit::force_sensor::store::StoredSensor;
 use crate::fit::force_sensor::{Account, identify};
 use crate::fit::parameter::Status;
+use crate::fit::suitability::{self, Doubt, is_odd};
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::force_sensor::SensorTest;
@@ -50,6 +52,7 @@ struct Identified {
     place: Place,
     account: Account,
     applied: Option<Applied>,
+    doubts: Vec<Doubt>,
 }
 
 fn run(matches: &ArgMatches) -> Outcome<Ending> {
@@ -59,23 +62,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
     {
         return only_apply(file, &arguments);
     }
-    let tests = arguments
-        .files
-        .iter()
-        .map(|name| read(name))
-        .collect::<Outcome<Vec<_>>>()?;
-    let account = identify(&tests)?;
-    let applied = arguments
-        .apply
-        .as_deref()
-        .map(|record| applied(record, &account.model))
-        .transpose()?;
-    let found = Identified {
-        place: Place::of(&tests[0].path),
-        tests,
-        account,
-        applied,
-    };
+    let found = examine(&arguments)?;
     if !arguments.dry_run {
         write(&found)?;
     }
@@ -86,12 +73,62 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
     for remark in found.remarks() {
         tell(&format!("note: {remark}"));
     }
-    Ok(
-        match found.account.fitted.known[..10].iter().all(|known| *known) {
-            true => Ending::Done,
-            false => Ending::Attention,
-        },
-    )
+    Ok(found.ending())
+}
+
+fn examine(arguments: &Arguments) -> Outcome<Identified> {
+    let tests = arguments.files.iter().map(|name| read(name));
+    let tests = tests.collect::<Outcome<Vec<_>>>()?;
+    let mut doubts = Vec::new();
+    for test in &tests {
+        doubts.extend(passed(test)?);
+    }
+    let account = identify(&tests)?;
+    let record = arguments.apply.as_deref();
+    let applied = record.map(|record| applied(record, &account.model));
+    Ok(Identified {
+        place: Place::of(&tests[0].path),
+        tests,
+        applied: applied.transpose()?,
+        account,
+        doubts,
+    })
+}
+
+/// Identifies every force sensor of a campaign by itself, and writes what that found.
+///
+/// # Errors
+/// A file that cannot be read, results that cannot be written.
+pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
+    let one = |file: PathBuf| {
+        let test = SensorTest::read(&file)?;
+        if let Err(why) = passed(&test) {
+            let input = (test.path.clone(), test.sha256.clone());
+            return Ok(Chapter::withheld(test.stem(), input, &why));
+        }
+        let found = examine(&from_words::<Arguments>(&[file]))?;
+        write(&found)?;
+        Ok(Chapter {
+            title: found.stem(),
+            ending: found.ending(),
+            inputs: found
+                .tests
+                .iter()
+                .map(|t| (t.path.clone(), t.sha256.clone()))
+                .collect(),
+            page: page::page(&found),
+        })
+    };
+    let parts = place.files_of("force-sensor")?.into_iter().map(one);
+    let parts = parts.collect::<Outcome<Vec<_>>>()?;
+    Ok(Chapter::together("The force sensor", parts))
+}
+
+/// What is odd about a test that can carry a number.
+fn passed(test: &SensorTest) -> Outcome<Vec<Doubt>> {
+    let doubts = suitability::force_sensor::doubts(test);
+    suitability::refuse(&test.path, &doubts)?;
+    Ok(doubts)
 }
 
 fn read(name: &Path) -> Outcome<SensorTest> {
@@ -126,6 +163,13 @@ fn only_apply(file: &Path, arguments: &Arguments) -> Outcome<Ending> {
 }
 
 impl Identified {
+    fn ending(&self) -> Ending {
+        match self.account.fitted.known[..10].iter().all(|known| *known) {
+            true if !is_odd(&self.doubts) => Ending::Done,
+            _ => Ending::Attention,
+        }
+    }
+
     fn stem(&self) -> String {
         self.tests[0].stem()
     }
@@ -145,7 +189,7 @@ impl Identified {
     }
 
     fn remarks(&self) -> Vec<String> {
-        let mut said = Vec::new();
+        let mut said: Vec<String> = self.doubts.iter().map(Doubt::sentence).collect();
         let open = |range: std::ops::Range<usize>| {
             let lost = self.account.parameters[range]
                 .iter()
@@ -168,16 +212,7 @@ impl Identified {
 }
 
 fn write(found: &Identified) -> Outcome<()> {
-    let named = |test: &SensorTest| {
-        let name = test
-            .path
-            .file_name()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .to_string();
-        format!("{name} {}", test.sha256)
-    };
-    let inputs = found.tests.iter().map(named).collect();
+    let inputs = found.tests.iter().map(SensorTest::provenance).collect();
     let stored = StoredSensor::of(&found.account, inputs, found.synthetic()).text()?;
     folder::write_as(&found.place.reports(), &found.report(), &page::page(found))?;
     let record = found

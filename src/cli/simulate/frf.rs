@@ -50,7 +50,7 @@ impl Frf {
         let frequency = self.frequencies()?;
         let (loaded, q) = self.robot.load()?;
         check::dynamics(&loaded.robot)
-            .map_err(|problem| problem.in_file(Path::new(&loaded.path)))?;
+            .map_err(|problem| problem.in_text(Path::new(&loaded.path)))?;
         let chain = elastic_chain(&loaded, self.without_tilt)?;
         let linear = linearise(&chain, &mut Work::new(&chain), &chain.spread(&q))?;
         let modal = modal(&linear)?;

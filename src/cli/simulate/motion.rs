@@ -57,7 +57,7 @@ impl Motion {
     pub fn run(&self) -> Outcome<Ending> {
         let (loaded, start) = self.robot.load()?;
         check::dynamics(&loaded.robot)
-            .map_err(|problem| problem.in_file(Path::new(&loaded.path)))?;
+            .map_err(|problem| problem.in_text(Path::new(&loaded.path)))?;
         let chain = elastic_chain(&loaded, self.without_tilt)?;
         let force = self.force.as_deref().map(Record::read).transpose()?;
         let path = self.path.as_deref().map(Record::read).transpose()?;

@@ -35,7 +35,7 @@ impl Pose {
     pub fn run(&self) -> Outcome<Ending> {
         let (loaded, q) = self.robot.load()?;
         check::dynamics(&loaded.robot)
-            .map_err(|problem| problem.in_file(Path::new(&loaded.path)))?;
+            .map_err(|problem| problem.in_text(Path::new(&loaded.path)))?;
         let answer = compute(&loaded.robot, &q);
         match self.robot.json {
             true => print_result("simulate pose", &[loaded.input()], answer.json())?,

@@ -18,7 +18,7 @@ impl Record {
     /// # Errors
     /// Whatever the general reader refuses; no time, an empty cell, time that does not rise.
     pub fn read(path: &Path) -> Outcome<Self> {
-        Self::of(Table::read(path)?).map_err(|problem| problem.in_file(path))
+        Self::of(Table::read(path)?).map_err(|problem| problem.in_text(path))
     }
 
     fn of(table: Table) -> Outcome<Self> {

@@ -110,7 +110,7 @@ pub fn elastic_chain(loaded: &Loaded, without_tilt: bool) -> Outcome<Chain> {
     } else {
         loaded.robot.clone()
     };
-    let place = |problem: Problem| problem.in_file(Path::new(&loaded.path));
+    let place = |problem: Problem| problem.in_text(Path::new(&loaded.path));
     check::bodies(&robot).map_err(place)?;
     if !robot.is_elastic() {
         return Err(place(Problem::new(

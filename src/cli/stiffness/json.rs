@@ -2,7 +2,6 @@
 
 use super::Result;
 use super::tables::{finite, straight_difference};
-use crate::cli::diagnose::doubts_json;
 use crate::fit::stiffness::Account;
 use crate::measurement::load_cycle::Axis;
 use crate::report::json;
@@ -56,7 +55,7 @@ fn result_json(result: &Result) -> Value {
             "rows_replaced": account.data.wild.len(),
         },
         "warnings": account.warnings,
-        "doubts": doubts_json(&account.doubts),
+        "doubts": account.doubts,
     })
 }
 

@@ -5,6 +5,8 @@ mod json;
 mod page;
 mod tables;
 
+pub use cubes::chapter as cubes_chapter;
+
 use super::chapter::Chapter;
 use super::output::{print, tell};
 use super::progress::Progress;

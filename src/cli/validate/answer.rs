@@ -1,7 +1,6 @@
 //! The JSON of `ident validate`.
 
 use super::Validated;
-use crate::cli::diagnose::doubts_json;
 use crate::fit::separability::Group;
 use crate::fit::validation::Comparison;
 use crate::measurement::workspace_test::DIRECTIONS;
@@ -58,7 +57,7 @@ pub fn json(validated: &Validated, dry: bool) -> String {
     put("rows", json!(validated.test.rows));
     put("rows_left_out", json!(validated.test.left_out));
     put("warnings", json!(found.warnings));
-    put("doubts", doubts_json(&found.doubts));
+    put("doubts", json!(found.doubts));
     let model = match dry {
         true => Value::Null,
         false => json!(validated.robot_path().display().to_string()),

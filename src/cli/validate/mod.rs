@@ -6,7 +6,7 @@ mod page;
 mod tables;
 
 use super::chapter::Chapter;
-use super::output::{print, tell};
+use super::output::{print, tell, warn};
 use super::{Ending, Verb, arguments, from_words, parsed};
 use crate::experiments::workspace::fits;
 use crate::fit::axis_tests::{self, AxisTest};
@@ -148,20 +148,9 @@ pub fn collect(place: &Place, base: &Loaded, synthetic: bool) -> Outcome<()> {
 /// # Errors
 /// A fit that cannot be read.
 pub fn known_tests(place: &Place, robot: &Robot) -> Outcome<Vec<AxisTest>> {
-    let found = axis_tests::read(&place.fits(), &place.measurements())?;
-    let warn = |remark: &String| tell(&format!("warning: {remark}"));
-    found.remarks.iter().for_each(warn);
-    let tests = axis_tests::named_as(found.tests, robot);
-    for test in &tests {
-        let drive = test.site.trim_end_matches("-tilt");
-        if robot.joints.iter().all(|joint| joint.name != drive) {
-            tell(&format!(
-                "warning: the test of {} is not used: the robot `{}` has no such joint",
-                test.site, robot.name
-            ));
-        }
-    }
-    Ok(tests)
+    let found = axis_tests::of_robot(place, robot)?;
+    warn(&found.remarks);
+    Ok(found.tests)
 }
 
 /// The measurement and the start of its hash.

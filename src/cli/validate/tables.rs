@@ -39,7 +39,10 @@ fn judgement(found: &Validation) -> (Tone, String) {
         .filter_map(|c| c.error_m(c.simulated));
     let worst = mm.fold(0.0_f64, |m, e| m.max(e.abs())) * 1e3;
     let sentence = format!(
-        "The simulated stiffness differs from the measured one by {mean:.1} % on average and {max:.1} % at most ({worst:.2} mm at 750 N); {inside} of {} simulated values lie inside the measured 95 % intervals.",
+        "The simulated stiffness differs from the measured one by {} % on average and {} % at most ({} mm at 750 N); {inside} of {} simulated values lie inside the measured 95 % intervals.",
+        fixed(mean, 1),
+        fixed(max, 1),
+        fixed(worst, 2),
         agree.len()
     );
     (tone, sentence)
@@ -54,14 +57,16 @@ fn tilt(found: &Validation) -> Option<String> {
     });
     let [x, y, z] = ratios;
     Some(format!(
-        "Without tilt axes the simulation is {mean:.0} % off on average: too stiff by factors of {x}, {y} and {z} in x, y and z."
+        "Without tilt axes the simulation is {} % off on average: too stiff by factors of {x}, {y} and {z} in x, y and z.",
+        fixed(mean, 0)
     ))
 }
 
 fn after(found: &Validation) -> Option<String> {
     let (mean, _) = found.errors(|c| c.refitted)?;
     Some(format!(
-        "With the re-identified stiffnesses {mean:.1} % are left on average."
+        "With the re-identified stiffnesses {} % are left on average.",
+        fixed(mean, 1)
     ))
 }
 

@@ -4,7 +4,6 @@ use super::{Case, EFFECTS, physics};
 use crate::causes::places::soften;
 use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, White};
 use crate::findings::table;
-use crate::fit::parameter::Z95;
 
 /// Relative standard deviation of a stiffness whose interval the robot does not state.
 const USUAL: f64 = 0.02;
@@ -102,13 +101,10 @@ impl Case {
                     spread: rel,
                 })
         };
-        let known = self.robot.springs().map(|(site, spring)| {
-            let stated = spring
-                .ci95
-                .stiffness
-                .map(|[low, high]| (high - low) / (2.0 * Z95 * spring.stiffness));
-            (site, stated.unwrap_or(USUAL))
-        });
+        let known = self
+            .robot
+            .springs()
+            .map(|(site, spring)| (site, spring.relative_std().unwrap_or(USUAL)));
         known.filter_map(nuisance).collect()
     }
 

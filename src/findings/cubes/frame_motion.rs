@@ -12,19 +12,25 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     mechanism: "frame",
     places: |case| vec![Place::new("frame", members(case))],
     parameters: |_, blamed| {
-        let size = blamed.amounts[..3]
-            .iter()
-            .map(|x| x * x)
-            .sum::<f64>()
-            .sqrt();
-        vec![("shift", size, "m"), ("test", blamed.shape[0], "1")]
+        let square = |own: &[f64]| own.iter().map(|x| x * x).sum::<f64>();
+        match blamed.shape[..] {
+            [_, tests] => vec![("shift_rms", (square(&blamed.amounts) / tests).sqrt(), "m")],
+            _ => vec![
+                ("shift", square(&blamed.amounts[..3]).sqrt(), "m"),
+                ("test", blamed.shape[0], "1"),
+            ],
+        }
     },
     would_tell: "measure a cube on the foundation too",
 };
 
 fn members(case: &Case) -> Vec<Member> {
     let mut members = Vec::new();
-    for test in case.tests() {
+    let tests = case.tests();
+    if tests.len() > 2 {
+        members.push(restless(case, &tests));
+    }
+    for test in tests {
         let shift = |k: usize| column(case, test, |c, _| f64::from(u8::from(c == k)));
         let turn = |k: usize| {
             let axis: V3 = std::array::from_fn(|j| f64::from(u8::from(j == k)));
@@ -48,6 +54,19 @@ fn members(case: &Case) -> Vec<Member> {
         }
     }
     members
+}
+
+/// Another shift in every test.
+fn restless(case: &Case, tests: &[i64]) -> Member {
+    let one = |test: &i64, k: usize| column(case, *test, |c, _| f64::from(u8::from(c == k)));
+    let columns = tests.iter().flat_map(|t| (0..3).map(move |k| one(t, k)));
+    let columns: Vec<Vec<f64>> = columns.collect();
+    Member {
+        columns: columns.into_iter().filter(|c| c.contains(&1.0)).collect(),
+        size: Size::Free,
+        positive: None,
+        shape: vec![0.0, tests.len() as f64],
+    }
 }
 
 /// Rows of one test from component and place of the cube (less that of the first).

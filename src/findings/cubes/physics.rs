@@ -10,6 +10,8 @@ use crate::inference::gaussian::Size;
 
 /// Share of an ordinary strength at which a cause is tried: small, so that what it adds is linear.
 const TRIED: f64 = 0.02;
+/// Share of a form below which others are blamed: a bend at the very end of a link is the bearing there.
+const LEAST: f64 = 0.1;
 /// Noise deviations rms below which a cause of ordinary strength does not show.
 const UNSEEN: f64 = 1e-3;
 
@@ -69,12 +71,10 @@ fn members(case: &Case, cause: &dyn Cause, site: &str) -> Vec<Member> {
             shape: vec![index as f64],
         })
     };
-    cause
-        .forms()
-        .into_iter()
-        .enumerate()
-        .filter_map(form)
-        .collect()
+    let likely: Vec<bool> = cause.shares().iter().map(|s| *s >= LEAST).collect();
+    let forms = cause.forms().into_iter().enumerate();
+    let forms = forms.filter(|(i, _)| likely.get(*i).copied().unwrap_or(true));
+    forms.filter_map(form).collect()
 }
 
 fn column(case: &Case, cause: &dyn Cause, site: &str, scale: &[f64], k: usize) -> Vec<f64> {

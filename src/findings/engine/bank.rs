@@ -3,14 +3,24 @@
 //! With y ~ N(Φz, I + N P Nᵀ) the inner product is aᵀb − (Ua)·(Ub), U = L⁻¹Nᵀ, LLᵀ = NᵀN + P⁻¹
 //! (Woodbury 1950): every product of columns is taken so, and nuisances are never seen again.
 
-use super::statement::{Member, Statement, Suspect};
+use super::statement::{Member, Nuisance, Statement, Suspect};
 use crate::inference::gaussian::{Posterior, Products, Reading, Size, limited, update};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use statrs::distribution::{ContinuousCDF, Normal};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// What is merely uncertain may be off by so many of its standard deviations; beyond, something is wrong.
-pub(super) const ALLOWED: f64 = 2.5;
+/// What is merely uncertain, and alone, may be off by so many of its standard deviations; beyond, something
+/// is wrong.
+const ALLOWED: f64 = 2.5;
+
+/// How far each of many nuisances may be off, in standard deviations: a sound file has one of them beyond as
+/// seldom as a single one is beyond [`ALLOWED`] (Bonferroni).
+pub(super) fn allowed(nuisances: &[Nuisance]) -> f64 {
+    let normal = Normal::standard();
+    let count = nuisances.iter().filter(|n| n.spread.is_finite()).count();
+    -normal.inverse_cdf(normal.cdf(-ALLOWED) / count.max(1) as f64)
+}
 
 /// A set of members (indices into the bank), ascending by suspect.
 pub type Members = Vec<usize>;
@@ -52,6 +62,8 @@ pub struct Fit {
     pub members: Members,
     /// What the data say of their amounts, in units of the bank.
     pub posterior: Posterior,
+    /// Nats that the limits of the nuisances cost, in the evidence already.
+    pub beyond: f64,
 }
 
 /// Columns that are integrated out.
@@ -62,8 +74,8 @@ struct Nuisances {
     inner: DMatrix<f64>,
     /// By which the columns were divided.
     lengths: Vec<f64>,
-    /// Standard deviations before the data, in units of the scaled columns.
-    spreads: Vec<f64>,
+    /// How far each may be off, in units of the scaled columns; infinite without prior.
+    most: Vec<f64>,
     /// How many are without prior.
     flat: usize,
 }
@@ -87,11 +99,12 @@ impl Nuisances {
         };
         let mut inner = matrix.tr_mul(&matrix);
         let mut flat = 0;
-        let mut spreads = Vec::new();
+        let allowed = allowed(&statement.nuisances);
+        let mut most = Vec::new();
         for (k, nuisance) in statement.nuisances.iter().enumerate() {
             let spread = nuisance.spread * lengths[k];
             flat += usize::from(spread.is_infinite());
-            spreads.push(spread);
+            most.push(allowed * spread);
             inner[(k, k)] += (spread * spread).recip().max(1e-12);
         }
         Self {
@@ -99,7 +112,7 @@ impl Nuisances {
             inner,
             columns: matrix,
             lengths,
-            spreads,
+            most,
             flat,
         }
     }
@@ -164,12 +177,64 @@ impl<'a> Bank<'a> {
     /// The fit of a set. `None` where an amount has the wrong sign, or nothing is finite.
     pub fn fit(&self, members: &[usize]) -> Option<Fit> {
         let blocks = self.blocks(members);
-        let posterior = update(&self.products(members), &self.reading, &blocks)?;
+        let mut posterior = update(&self.products(members), &self.reading, &blocks)?;
+        let beyond = self.hold(members, &mut posterior);
         let fit = Fit {
             members: members.to_vec(),
             posterior,
+            beyond,
         };
         (fit.posterior.ln_evidence.is_finite() && self.signs_hold(&fit)).then_some(fit)
+    }
+
+    /// Where the fit takes a nuisance further than is allowed to it, amounts and nuisances are solved again
+    /// within the limits, and the evidence is that of what is left then: an uncertain number must not pay for
+    /// what a cause explains.
+    fn hold(&self, members: &[usize], posterior: &mut Posterior) -> f64 {
+        let ranges = members.iter().map(|m| self.entries[*m].columns.clone());
+        let own: Vec<usize> = ranges.flatten().collect();
+        let held = &self.nuisances;
+        let seen = &self.whitened.1 - self.marginal.select_columns(&own) * &posterior.mean;
+        let solved = held
+            .root
+            .as_ref()
+            .and_then(|r| r.l_dirty().tr_solve_lower_triangular(&seen));
+        let beyond = |x: DVector<f64>| x.iter().zip(&held.most).any(|(x, most)| x.abs() > *most);
+        if !solved.is_some_and(beyond) {
+            return 0.0;
+        }
+        let columns = self.columns.select_columns(&own);
+        let (k, p) = (held.most.len(), own.len());
+        let mut hessian = DMatrix::zeros(k + p, k + p);
+        let cross = held.columns.tr_mul(&columns);
+        hessian.view_mut((0, 0), (k, k)).copy_from(&held.inner);
+        hessian.view_mut((0, k), (k, p)).copy_from(&cross);
+        hessian
+            .view_mut((k, 0), (p, k))
+            .copy_from(&cross.transpose());
+        hessian
+            .view_mut((k, k), (p, p))
+            .copy_from(&columns.tr_mul(&columns));
+        let sizes = self.blocks(members).into_iter().zip(&posterior.sizes);
+        let sizes = sizes.flat_map(|((count, _), size)| std::iter::repeat_n(*size, count));
+        sizes
+            .enumerate()
+            .for_each(|(i, size)| hessian[(k + i, k + i)] += (size * size).recip());
+        let y = &self.whitened.0;
+        let mut right = DVector::zeros(k + p);
+        right.rows_mut(0, k).copy_from(&held.columns.tr_mul(y));
+        right.rows_mut(k, p).copy_from(&columns.tr_mul(y));
+        let free = std::iter::repeat_n(f64::INFINITY, p);
+        let most: Vec<f64> = held.most.iter().copied().chain(free).collect();
+        let solved = limited(&hessian, &right, &most);
+        let left = y.norm_squared() - 2.0 * right.dot(&solved) + solved.dot(&(&hessian * &solved));
+        let left = left.max(posterior.left);
+        let cost = self.reading.ln_evidence(posterior.left) - self.reading.ln_evidence(left);
+        posterior.ln_evidence -= cost;
+        posterior.mean = solved.rows(k, p).into_owned();
+        posterior.noise_variance = self.reading.noise_variance(left);
+        posterior.left = left;
+        cost
     }
 
     fn blocks(&self, members: &[usize]) -> Vec<(usize, Size)> {
@@ -268,8 +333,7 @@ impl<'a> Bank<'a> {
     /// what is allowed to it.
     pub(super) fn nuisances_in(&self, whitened: &DVector<f64>) -> Vec<f64> {
         let right = self.nuisances.columns.tr_mul(whitened);
-        let most: Vec<f64> = self.nuisances.spreads.iter().map(|s| ALLOWED * s).collect();
-        let solved = limited(&self.nuisances.inner, &right, &most);
+        let solved = limited(&self.nuisances.inner, &right, &self.nuisances.most);
         let each = solved.iter().zip(&self.nuisances.lengths);
         each.map(|(x, length)| x / length).collect()
     }

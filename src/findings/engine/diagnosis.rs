@@ -2,7 +2,7 @@
 
 use super::bank::{Bank, Fit};
 use super::judgement::Judgement;
-use super::materiality::{is_material, raw_parts};
+use super::materiality::{explained_rms, is_material, raw_parts};
 use super::posterior::Posterior;
 use super::rest::{Rest, Span};
 use super::search::{Scored, search};
@@ -11,7 +11,7 @@ use super::unseen::gain;
 use super::verdict::{Named, name, verdict};
 use crate::findings::answer::{Answer, Candidate, Discrepancy, Structure};
 use crate::findings::gain::Gain;
-use crate::inference::stats::rms;
+use crate::ground::stats::rms;
 use nalgebra::DVector;
 
 /// A finished diagnosis.
@@ -33,22 +33,27 @@ pub struct Found {
 }
 
 /// Rounds in which a kind that is not linear is stated anew about what was found.
-const ROUNDS: usize = 4;
-/// Change of an amount, in its standard deviations, at which a round has arrived.
-const ARRIVED: f64 = 0.05;
-/// Sets below the best by more than this are not tried for materiality, nats.
+const ROUNDS: usize = 3;
+/// Change of what every cause adds, as a share of it, at which a round has arrived.
+const ARRIVED: f64 = 0.03;
+/// A round that leaves so much more than the one before went astray.
+const WORSE: f64 = 1.15;
+/// Sets below the best that matters by more than this are not tried, nats.
 const HOPELESS: f64 = 60.0;
 
 /// Diagnoses.
 pub fn diagnose(experiment: &dyn Experiment, judgement: &Judgement) -> Found {
-    let first = experiment.state(&[]);
+    let first = stated(experiment, &[]);
     let mut found = about(experiment, &first, judgement);
-    if experiment.is_linear() {
+    if experiment.is_linear() || found.blamed.is_empty() {
         return found;
     }
     for _ in 0..ROUNDS {
-        let statement = experiment.state(&found.blamed);
+        let statement = stated(experiment, &found.blamed);
         let next = about(experiment, &statement, judgement);
+        if rms(&next.left) > WORSE * rms(&found.left) {
+            break;
+        }
         let arrived = is_same(&found.blamed, &next.blamed);
         let missed = std::mem::take(&mut found.missed);
         let discrepancy = found.answer.discrepancy;
@@ -61,16 +66,20 @@ pub fn diagnose(experiment: &dyn Experiment, judgement: &Judgement) -> Found {
     found
 }
 
+/// The statement without suspects that change nothing here: they have no column to be compared by.
+fn stated(experiment: &dyn Experiment, blamed: &[Blamed]) -> Statement {
+    let mut statement = experiment.state(blamed);
+    for suspect in &mut statement.suspects {
+        suspect.members.retain(|m| !m.columns.is_empty());
+    }
+    statement.suspects.retain(|s| !s.members.is_empty());
+    statement
+}
+
 fn is_same(a: &[Blamed], b: &[Blamed]) -> bool {
     let near = |(x, y): (&Blamed, &Blamed)| {
-        let close = |k: usize| {
-            let deviation = y.covariance[(k, k)].sqrt();
-            (x.amounts[k] - y.amounts[k]).abs() <= ARRIVED * deviation
-        };
-        x.effect == y.effect
-            && x.site == y.site
-            && x.shape == y.shape
-            && (0..x.amounts.len()).all(close)
+        let moved: Vec<f64> = x.part.iter().zip(&y.part).map(|(a, b)| a - b).collect();
+        x.effect == y.effect && x.site == y.site && rms(&moved) <= ARRIVED * rms(&y.part)
     };
     a.len() == b.len() && a.iter().zip(b).all(near)
 }
@@ -82,10 +91,11 @@ fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgeme
         .iter()
         .map(|s| evidence_of(&bank, s, judgement))
         .collect();
+    let story = compared.first().cloned();
     let posterior = Posterior::of(material(statement, &bank, compared, judgement), judgement);
     let span = Span::of(statement);
     let mut set = choose(&posterior, judgement);
-    let mut gains = drop_unreal(statement, &bank, &posterior, &mut set);
+    let mut gains = drop_unreal(statement, &bank, &posterior, &mut set, judgement);
     if loses_to_structure(&bank, &posterior, &set, span.as_ref()) {
         (set, gains) = (nothing(&posterior), Vec::new());
     }
@@ -95,6 +105,10 @@ fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgeme
     let rest = span.map_or(Rest::default(), |s| {
         s.rest(&bank, &set.fit, whole, judgement)
     });
+    let rest = match story.filter(|_| set.suspects.is_empty()) {
+        Some(story) => unnamed(statement, &bank, (&story, whole), rest, judgement),
+        None => rest,
+    };
     let blamed = blamed(&bank, &set.fit);
     let named = name(
         experiment,
@@ -124,6 +138,27 @@ fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgeme
     }
 }
 
+/// What is left where nothing is named. A story that fits far better than none, but of which no cause passes
+/// by itself, is no reason to call the simulation right.
+fn unnamed(
+    statement: &Statement,
+    bank: &Bank,
+    (story, whole): (&Scored, f64),
+    rest: Rest,
+    judgement: &Judgement,
+) -> Rest {
+    let share =
+        explained_rms(statement, bank, &story.fit, judgement) / whole.max(f64::MIN_POSITIVE);
+    match story.score > judgement.left_nats && share > judgement.left_share {
+        true => Rest {
+            nats: rest.nats.max(story.score),
+            share: rest.share.max(share),
+            is_left: true,
+        },
+        false => rest,
+    }
+}
+
 fn evidence_of(
     bank: &Bank,
     set: &Scored,
@@ -138,19 +173,23 @@ fn evidence_of(
     (places, set.score + odds)
 }
 
-/// Sets whose every cause matters; the empty one always does.
+/// Sets whose every cause matters; the empty one always does. What is hopeless is measured by the best set
+/// that matters: one with a further cause too small to be named may lead by what laws miss of large ones.
 fn material(
     statement: &Statement,
     bank: &Bank,
     sets: Vec<Scored>,
     judgement: &Judgement,
 ) -> Vec<Scored> {
-    let best = sets.first().map_or(0.0, |s| s.score);
-    let holds = |s: &Scored| {
-        s.suspects.is_empty()
-            || (s.score > best - HOPELESS && is_material(statement, bank, &s.fit, judgement))
+    let mut best = f64::NEG_INFINITY;
+    let mut holds = |s: &Scored| {
+        let matters = s.score > best - HOPELESS && is_material(statement, bank, &s.fit, judgement);
+        if matters {
+            best = best.max(s.score);
+        }
+        matters || s.suspects.is_empty()
     };
-    sets.into_iter().filter(holds).collect()
+    sets.into_iter().filter(|s| holds(s)).collect()
 }
 
 fn nothing(posterior: &Posterior) -> Scored {
@@ -207,6 +246,7 @@ fn drop_unreal(
     bank: &Bank,
     posterior: &Posterior,
     set: &mut Scored,
+    judgement: &Judgement,
 ) -> Vec<Gain> {
     loop {
         let gains: Vec<Gain> = set
@@ -215,7 +255,14 @@ fn drop_unreal(
             .iter()
             .map(|m| gain(statement, bank, &set.fit, *m))
             .collect();
-        let unreal = gains.iter().enumerate().filter(|(_, g)| !g.is_real());
+        let least = match gains.len() {
+            1 => 0.0,
+            _ => judgement.companion_gain,
+        };
+        let unreal = gains
+            .iter()
+            .enumerate()
+            .filter(|(_, g)| !g.is_real() || g.reduction_percent < least);
         let worst = unreal.min_by(|a, b| a.1.reduction_percent.total_cmp(&b.1.reduction_percent));
         let Some((at, _)) = worst else {
             return gains;
@@ -250,7 +297,8 @@ fn loses_to_structure(
     };
     let empty = nothing(posterior).fit;
     let price = set.fit.posterior.ln_evidence - empty.posterior.ln_evidence - set.score;
-    span.best(bank, &set.fit) - price < span.best(bank, &empty)
+    let with = span.best(bank, &set.fit) - set.fit.beyond;
+    with - price < span.best(bank, &empty) - empty.beyond
 }
 
 fn in_noise(statement: &Statement, raw: &[f64]) -> Vec<f64> {
@@ -279,28 +327,33 @@ fn residual(statement: &Statement, bank: &Bank, fit: &Fit) -> Vec<f64> {
 fn blamed(bank: &Bank, fit: &Fit) -> Vec<Blamed> {
     let mut at = 0;
     let variance = fit.posterior.noise_variance;
-    let each = fit.members.iter().map(|member| {
-        let (entry, suspect, own) = (
-            &bank.entries[*member],
-            bank.suspect(*member),
-            bank.member(*member),
-        );
-        let (first, count) = (at, own.columns.len());
-        at += count;
-        let covariance = fit
-            .posterior
-            .covariance
-            .view((first, first), (count, count));
-        Blamed {
-            effect: suspect.effect,
-            site: suspect.site.clone(),
-            shape: own.shape.clone(),
-            amounts: (0..count)
-                .map(|k| fit.posterior.mean[first + k] * entry.scale)
-                .collect(),
-            covariance: covariance * (variance * entry.scale * entry.scale),
-        }
-    });
+    let each = fit
+        .members
+        .iter()
+        .zip(raw_parts(bank, fit))
+        .map(|(member, part)| {
+            let (entry, suspect, own) = (
+                &bank.entries[*member],
+                bank.suspect(*member),
+                bank.member(*member),
+            );
+            let (first, count) = (at, own.columns.len());
+            at += count;
+            let covariance = fit
+                .posterior
+                .covariance
+                .view((first, first), (count, count));
+            Blamed {
+                effect: suspect.effect,
+                site: suspect.site.clone(),
+                shape: own.shape.clone(),
+                amounts: (0..count)
+                    .map(|k| fit.posterior.mean[first + k] * entry.scale)
+                    .collect(),
+                covariance: covariance * (variance * entry.scale * entry.scale),
+                part,
+            }
+        });
     each.collect()
 }
 

@@ -4,7 +4,7 @@
 use super::bank::{Bank, Fit};
 use super::judgement::Judgement;
 use super::statement::Statement;
-use crate::inference::stats::{quantile, rms};
+use crate::ground::stats::{quantile, rms};
 use nalgebra::{DMatrix, DVector};
 
 /// Whether all causes of a set matter.
@@ -14,10 +14,7 @@ pub fn is_material(statement: &Statement, bank: &Bank, fit: &Fit, judgement: &Ju
     }
     let noise = fit.posterior.noise_variance.sqrt();
     let parts = parts(statement, bank, fit);
-    let total: Vec<f64> = (0..statement.reading.len())
-        .map(|i| parts.iter().map(|p| p[i]).sum())
-        .collect();
-    let total = rms(&free_of(statement, &[], &total));
+    let total = rms(&free_of(statement, &[], &sum(statement, &parts)));
     (0..parts.len()).all(|at| {
         let own = own_part(statement, bank, fit, (at, &parts[at]));
         let peaks: Vec<f64> = own.iter().map(|v| v.abs()).collect();
@@ -28,6 +25,32 @@ pub fn is_material(statement: &Statement, bank: &Bank, fit: &Fit, judgement: &Ju
         quantile(&peaks, 0.99) >= judgement.peak * noise
             && (parts.len() == 1 || rms(&own) >= share * total)
     })
+}
+
+/// Rms of all that a set explains beyond the nuisances, in noise deviations of a reading; 0 where its peak
+/// is too small to be seen.
+pub(super) fn explained_rms(
+    statement: &Statement,
+    bank: &Bank,
+    fit: &Fit,
+    judgement: &Judgement,
+) -> f64 {
+    let total = free_of(
+        statement,
+        &[],
+        &sum(statement, &parts(statement, bank, fit)),
+    );
+    let peaks: Vec<f64> = total.iter().map(|v| v.abs()).collect();
+    let noise = fit.posterior.noise_variance.sqrt();
+    match quantile(&peaks, 0.98) > judgement.left_peak * noise {
+        true => rms(&total),
+        false => 0.0,
+    }
+}
+
+fn sum(statement: &Statement, parts: &[Vec<f64>]) -> Vec<f64> {
+    let rows = 0..statement.reading.len();
+    rows.map(|i| parts.iter().map(|p| p[i]).sum()).collect()
 }
 
 fn has_kin(bank: &Bank, fit: &Fit, at: usize) -> bool {

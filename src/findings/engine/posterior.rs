@@ -2,7 +2,7 @@
 
 use super::judgement::Judgement;
 use super::search::Scored;
-use crate::inference::stats::log_sum_exp;
+use crate::ground::stats::log_sum_exp;
 
 /// Sets with their probabilities, best first.
 #[derive(Debug, Clone)]

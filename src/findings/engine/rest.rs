@@ -4,8 +4,8 @@
 use super::bank::{Bank, Fit};
 use super::judgement::Judgement;
 use super::statement::Statement;
+use crate::ground::stats::{quantile, rms};
 use crate::inference::gaussian::{Products, evidence};
-use crate::inference::stats::{quantile, rms};
 use nalgebra::{DMatrix, DVector};
 
 /// What is left beside a set.
@@ -78,22 +78,30 @@ impl Span {
         self.greatest(bank, fit, &TIMES.map(|times| GRANTED * times))
     }
 
+    /// What amounts of the columns, the set's before them, make of the readings.
+    fn structure(&self, amounts: &DVector<f64>) -> Vec<f64> {
+        let count = self.rows.ncols();
+        let own = amounts.rows(amounts.len() - count, count);
+        (&self.rows * own).as_slice().to_vec()
+    }
+
     /// What is left beside a set.
     pub fn rest(&self, bank: &Bank, fit: &Fit, whole: f64, judgement: &Judgement) -> Rest {
-        let noise = fit.posterior.noise_variance.sqrt();
-        let granted = GRANTED.hypot(judgement.formula_error * explained(bank, fit) / noise);
         let beside = self.beside(bank, fit);
+        // beside structure of any size: without it, what is left would pass for noise and be small beside it
+        let noise = beside.noise();
+        let granted = GRANTED.hypot(judgement.formula_error * explained(bank, fit) / noise);
         let Some((base, _)) = beside.evidence(granted) else {
             return Rest::default();
         };
         let each = TIMES.iter().filter_map(|t| beside.evidence(granted * t));
         let best = each.max_by(|a, b| a.0.total_cmp(&b.0));
-        let best = best.map(|(evidence, amounts)| (evidence, &self.rows * amounts));
+        let best = best.map(|(evidence, amounts)| (evidence, self.structure(&amounts)));
         let Some((evidence, left)) = best else {
             return Rest::default();
         };
         let peaks: Vec<f64> = left.iter().map(|v| v.abs() / noise).collect();
-        let share = rms(left.as_slice()) / whole.max(f64::MIN_POSITIVE);
+        let share = rms(&left) / whole.max(f64::MIN_POSITIVE);
         let nats = (evidence - base).max(0.0);
         let is_left = nats > judgement.left_nats
             && quantile(&peaks, 0.98) > judgement.left_peak
@@ -116,14 +124,21 @@ struct Beside<'a> {
 }
 
 impl Beside<'_> {
-    /// ln E with structure of this size, and its amounts.
+    /// ln E with structure of this size, and all amounts, those of the structure last.
     fn evidence(&self, size: f64) -> Option<(f64, DVector<f64>)> {
-        let count = self.columns.ncols();
         let mut blocks = self.blocks.clone();
-        blocks.push((count, size));
-        let before = blocks.iter().map(|b| b.0).sum::<usize>() - count;
+        blocks.push((self.columns.ncols(), size));
         let (mean, ln_evidence) = evidence(&self.products, &self.bank.reading, &blocks)?;
-        Some((ln_evidence, mean.rows(before, count).into_owned()))
+        Some((ln_evidence, mean))
+    }
+
+    /// Deviation of the noise, of that stated, where structure of any size may stand beside the set.
+    fn noise(&self) -> f64 {
+        let each = TIMES.iter().filter_map(|t| self.evidence(GRANTED * t));
+        let best = each.max_by(|a, b| a.0.total_cmp(&b.0));
+        let taken = best.map_or(0.0, |(_, mean)| self.products.right.dot(&mean));
+        let reading = &self.bank.reading;
+        reading.noise_variance(reading.square - taken).sqrt()
     }
 }
 

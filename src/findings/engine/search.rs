@@ -85,7 +85,7 @@ impl Book<'_> {
         let own = |m: &usize| {
             let (suspect, member) = (bank.suspect(*m), bank.member(*m));
             let free = match member.size {
-                Size::Free => (member.columns.len() - 1) as f64,
+                Size::Free => member.columns.len().saturating_sub(1) as f64,
                 Size::Given(_) => 0.0,
             };
             j.name - suspect.share + (suspect.members.len() as f64).ln() + j.amount * free

@@ -153,6 +153,8 @@ pub struct Blamed {
     pub amounts: Vec<f64>,
     /// Their covariance.
     pub covariance: DMatrix<f64>,
+    /// What it adds to the readings, per row.
+    pub part: Vec<f64>,
 }
 
 /// What is left, in the words and axes of the kind.

@@ -1,14 +1,15 @@
 //! What a cause gains on rows that were not fitted.
 
-use super::bank::{ALLOWED, Bank, Fit};
+use super::bank::{Bank, Fit, allowed};
 use super::statement::Statement;
 use crate::findings::gain::Gain;
+use crate::ground::stats::{Z95, mean, t95};
 use crate::inference::gaussian::{Size, limited};
-use crate::inference::stats::{Z95, mean, t95};
 use nalgebra::{DMatrix, DVector};
 
 /// The gain of one member of a set: on the first split that shows it, coarse before fine; where none does,
-/// that of the coarsest.
+/// that of the coarsest. What happens once, in as many readings as it has amounts, shows in no other reading:
+/// its gain is that on the readings themselves, each amount paid for.
 pub fn gain(statement: &Statement, bank: &Bank, fit: &Fit, member: usize) -> Gain {
     let rest: Vec<usize> = fit
         .members
@@ -18,6 +19,14 @@ pub fn gain(statement: &Statement, bank: &Bank, fit: &Fit, member: usize) -> Gai
         .collect();
     let with = Design::of(statement, bank, &fit.members, fit);
     let without = Design::of(statement, bank, &rest, fit);
+    if happens_once(bank, member) {
+        let n = statement.reading.len() as f64;
+        let errors = [&without, &with].map(|d| d.paid(statement));
+        let found = Gain::of(errors[0], errors[1], n.max(1.0).sqrt().recip());
+        if found.is_real() {
+            return found;
+        }
+    }
     let mut first = None;
     for split in &statement.splits {
         let errors = [&without, &with].map(|d| d.held_out(statement, split));
@@ -28,6 +37,14 @@ pub fn gain(statement: &Statement, bank: &Bank, fit: &Fit, member: usize) -> Gai
         first.get_or_insert(found);
     }
     first.unwrap_or(Gain::of(1.0, 1.0, f64::INFINITY))
+}
+
+/// Whether a member acts on no more rows than it has amounts.
+fn happens_once(bank: &Bank, member: usize) -> bool {
+    let columns = &bank.member(member).columns;
+    let acts = |row: &usize| columns.iter().any(|c| c[*row] != 0.0);
+    let rows = columns.first().map_or(0, Vec::len);
+    (0..rows).filter(acts).count() <= columns.len()
 }
 
 /// Rows in noise deviations, how stiffly every amount is held by its prior, and how far it may go: what is
@@ -48,12 +65,13 @@ impl Design {
         let mut columns = Vec::new();
         let mut precision = Vec::new();
         let mut most = Vec::new();
+        let allowed = allowed(&statement.nuisances);
         for nuisance in &statement.nuisances {
             let column = white(&nuisance.column, 1.0);
             let least = 1e-12 * column.norm_squared().max(f64::MIN_POSITIVE);
             precision.push((nuisance.spread * nuisance.spread).recip().max(least));
             columns.push(column);
-            most.push(ALLOWED * nuisance.spread);
+            most.push(allowed * nuisance.spread);
         }
         for member in members {
             let own = bank.member(*member);
@@ -80,6 +98,22 @@ impl Design {
             precision,
             most,
         }
+    }
+
+    /// Root mean square of what the fit leaves, in the unit of the readings, over the rows that its amounts
+    /// leave free.
+    fn paid(&self, statement: &Statement) -> f64 {
+        let spread = statement.noise.spread();
+        let each = statement.reading.iter().zip(spread);
+        let y = DVector::from_iterator(spread.len(), each.map(|(r, s)| r / s));
+        let mut gram = self.matrix.tr_mul(&self.matrix);
+        for (i, p) in self.precision.iter().enumerate() {
+            gram[(i, i)] += p;
+        }
+        let left = &y - &self.matrix * limited(&gram, &self.matrix.tr_mul(&y), &self.most);
+        let squares: f64 = left.iter().zip(spread).map(|(l, s)| (l * s).powi(2)).sum();
+        let free = spread.len() as f64 - self.matrix.ncols() as f64;
+        (squares / free.max(1.0)).sqrt()
     }
 
     /// Error of every row in the unit of the readings, each fold predicted from the others.

@@ -1,5 +1,5 @@
-//! A force along one axis shows on another: six pairs of forces. Of what forces do to moments a single tool
-//! shows no more than a shift of its centre.
+//! A force along one axis shows on another channel: six pairs of forces, nine of a force and a moment. All of
+//! a force's moments together are a shift of the centre, a single one is not.
 
 use super::Case;
 use crate::findings::engine::Member;
@@ -12,7 +12,11 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     places: |case| vec![Place::new("sensor", members(case))],
     parameters: |_, blamed| {
         vec![
-            ("share", blamed.amounts[0], "1"),
+            (
+                "share",
+                blamed.amounts[0],
+                if blamed.shape[1] < 3.0 { "1" } else { "m" },
+            ),
             ("from_axis", blamed.shape[0], "1"),
             ("to_axis", blamed.shape[1], "1"),
         ]
@@ -22,7 +26,7 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 
 fn members(case: &Case) -> Vec<Member> {
     let pairs = (0..3).flat_map(|from| {
-        (0..3)
+        (0..6)
             .filter(move |to| *to != from)
             .map(move |to| (from, to))
     });

@@ -5,7 +5,8 @@ use super::joint::{JointFinding, Nominal, diagnose_joint};
 use super::parameters::{parameters, remarks};
 use crate::findings::answer::{Answer, Cause, Discrepancy, Structure, Verdict};
 use crate::findings::load_cycle::structure::binned;
-use crate::fit::parameter::Identified;
+use crate::fit::parameter::{Identified, Status};
+use crate::fit::suitability::joint_motion::doubts;
 use crate::measurement::joint_motion::{JointMotion, JointRecord};
 use crate::robot::Robot;
 use rayon::prelude::*;
@@ -32,11 +33,24 @@ pub fn diagnose(file: &JointMotion, robot: Option<&Robot>) -> MotionDiagnosis {
         .par_iter()
         .map(|joint| diagnose_joint(joint, nominal(joint, robot)))
         .collect();
-    MotionDiagnosis {
-        answer: answer(&joints),
-        parameters: joints.iter().flat_map(parameters).collect(),
-        remarks: remarks(&joints),
-        joints,
+    let doubts = doubts(file, |joint| nominal(joint, robot).stiffness);
+    let answer = answer(&joints).doubted(doubts);
+    let found = joints.iter().flat_map(parameters);
+    match answer.is_withheld() {
+        false => MotionDiagnosis {
+            answer,
+            parameters: found.collect(),
+            remarks: remarks(&joints),
+            joints,
+        },
+        true => MotionDiagnosis {
+            answer,
+            parameters: found
+                .map(|p| p.without_value(Status::NotIdentifiable))
+                .collect(),
+            remarks: Vec::new(),
+            joints,
+        },
     }
 }
 

@@ -3,9 +3,21 @@
 use super::channels::Channels;
 use super::columns::{Atom, Kind, base};
 use super::noise::{Noise, orthonormal, without};
-use crate::findings::load_cycle::ambiguity::{PRIOR, temper};
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeMap;
+
+/// Prior probability that any one cause is present.
+const PRIOR: f64 = 0.08;
+/// A law that misses the truth by this share of its own size still counts as right: nature does not
+/// follow our formulas exactly (coarsened likelihood, Miller and Dunson 2019).
+const FORMULA_ERROR: f64 = 0.07;
+/// Nats that such a misfit is worth at most.
+const TOLERATED_NATS: f64 = 5.0;
+
+/// How much of the evidence counts when the whole misfit is worth `nats`.
+fn temper(nats: f64) -> f64 {
+    1.0 / (1.0 + FORMULA_ERROR * FORMULA_ERROR * nats.max(0.0) / TOLERATED_NATS)
+}
 
 /// Normal equations of all candidates, after the base is projected out.
 pub struct Evidence {

@@ -3,6 +3,7 @@
 use super::{Diagnosed, Measured, Source, examined};
 use crate::findings::cubes::Case;
 use crate::findings::engine::Found;
+use crate::fit::suitability::{self, Doubt};
 use crate::ground::problem::Outcome;
 use crate::measurement::cubes::CubeTest;
 use crate::robot::load;
@@ -30,6 +31,10 @@ impl Measured for Case {
 
     fn about(&self) -> String {
         format!("measuring cubes of {}", self.test.facts.robot)
+    }
+
+    fn doubts(&self) -> Vec<Doubt> {
+        suitability::cubes::doubts(&self.test, &self.robot)
     }
 
     fn before_and_after(&self, found: &Found) -> Vec<Chart> {

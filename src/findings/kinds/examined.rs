@@ -3,6 +3,7 @@
 use super::{Diagnosed, Source};
 use crate::findings::Answer;
 use crate::findings::engine::{Experiment, Found, Judgement, diagnose};
+use crate::fit::suitability::Doubt;
 use crate::ground::problem::Outcome;
 use crate::sheet::chart::Chart;
 use serde_json::{Map, Value};
@@ -32,6 +33,8 @@ pub trait Measured: Experiment + Send {
     fn more(&self, _found: &Found) -> Map<String, Value> {
         Map::new()
     }
+    /// What is odd about the data: what is fatal there withholds every cause.
+    fn doubts(&self) -> Vec<Doubt>;
     /// The numbers that decide, where this kind has a reason of its own.
     fn judgement(&self) -> Judgement {
         Judgement::default()
@@ -47,7 +50,8 @@ struct Examined<M> {
 /// Diagnoses an experiment.
 pub fn examined<M: Measured + 'static>(measured: M) -> Box<dyn Diagnosed> {
     let judgement = measured.judgement();
-    let found = diagnose(&measured, &judgement);
+    let mut found = diagnose(&measured, &judgement);
+    found.answer = found.answer.doubted(measured.doubts());
     Box::new(Examined {
         measured,
         found,

@@ -3,6 +3,7 @@
 use super::{Diagnosed, Measured, Source, examined};
 use crate::findings::engine::Found;
 use crate::findings::force_sensor::Case;
+use crate::fit::suitability::{self, Doubt};
 use crate::ground::problem::Outcome;
 use crate::measurement::force_sensor::SensorTest;
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
@@ -30,6 +31,10 @@ impl Measured for Case {
             Some(robot) => format!("force sensor of {robot}"),
             None => "force sensor".into(),
         }
+    }
+
+    fn doubts(&self) -> Vec<Doubt> {
+        suitability::force_sensor::doubts(&self.test)
     }
 
     fn before_and_after(&self, found: &Found) -> Vec<Chart> {

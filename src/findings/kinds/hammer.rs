@@ -32,7 +32,7 @@ pub fn diagnosed(path: &Path) -> Outcome<Box<dyn Diagnosed>> {
         return Err(problem.in_column("robot").in_file(path));
     };
     let robot = load(&name, Some(path))?.robot;
-    let found = diagnose(&record, &robot).map_err(|problem| problem.in_file(path))?;
+    let found = diagnose(&record, &robot).map_err(|problem| problem.in_text(path))?;
     Ok(Box::new(HammerDiagnosis {
         path: path.to_path_buf(),
         record,

@@ -3,6 +3,7 @@
 use super::{Diagnosed, Measured, Source, examined};
 use crate::findings::engine::Found;
 use crate::findings::milling_force::{Case, CutSamples};
+use crate::fit::suitability::{self, Doubt};
 use crate::ground::problem::Outcome;
 use crate::measurement::milling_force::MillingForce;
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
@@ -38,6 +39,10 @@ impl Measured for Case {
             1 => "the forces of a cut".into(),
             n => format!("the forces of {n} cuts"),
         }
+    }
+
+    fn doubts(&self) -> Vec<Doubt> {
+        suitability::milling_force::doubts(self.file())
     }
 
     fn before_and_after(&self, found: &Found) -> Vec<Chart> {

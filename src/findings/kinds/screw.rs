@@ -4,6 +4,7 @@ use super::{Diagnosed, Measured, Source, examined};
 use crate::findings::engine::Found;
 use crate::findings::screw::Case;
 use crate::fit::screw::positions::in_mm;
+use crate::fit::suitability::{self, Doubt};
 use crate::ground::problem::Outcome;
 use crate::measurement::screw::ScrewTest;
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
@@ -28,6 +29,10 @@ impl Measured for Case {
 
     fn about(&self) -> String {
         format!("linear axis {}", self.test.stem())
+    }
+
+    fn doubts(&self) -> Vec<Doubt> {
+        suitability::screw::doubts(&self.test)
     }
 
     fn before_and_after(&self, found: &Found) -> Vec<Chart> {

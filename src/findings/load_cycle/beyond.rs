@@ -2,7 +2,7 @@
 //! or gone.
 
 use super::case::Case;
-use super::naming::{Named, summary};
+use super::naming::{Named, site, summary};
 use super::present::{Present, less_spring, rms, without};
 use super::refine::Refined;
 use super::unseen::{Split, gain, held_out};
@@ -60,7 +60,7 @@ impl Case<'_> {
         let own = less_spring(present.beyond_spring(scene, Some(cause)), &scene.load);
         let moved = rms(found.iter().zip(&own).map(|(a, b)| a - b));
         let size = rms(found.iter().copied()).max(rms(own.iter().copied()));
-        let after = held_out(model, p, &self.data, &self.screen.colour, Split::Cycles);
+        let after = held_out(model, p, &self.data, &self.colour, Split::Cycles);
         let errors = after.iter().zip(&found).zip(&own);
         let before: Vec<f64> = errors.map(|((e, new), old)| e + new - old).collect();
         let gain = gain(&before, &after, &self.data);
@@ -68,16 +68,16 @@ impl Case<'_> {
             return Said::Same;
         }
         let gone = place.is_none();
-        let probability = self.posterior.inclusion(cause);
+        let probability = self.inclusion(cause);
         Said::Changed(Cause {
             effect: cause,
-            site: self.site(chosen, cause),
+            site: site(self.file, cause),
             probability: if gone { 1.0 - probability } else { probability },
             summary: match gone {
                 true => "The present model has it, these data do not.",
                 false => summary(cause),
             },
-            alternatives: self.alternatives(chosen, cause),
+            alternatives: self.alternatives(cause),
             parameters: self.values(present, chosen, cause),
             gain,
         })
@@ -86,15 +86,9 @@ impl Case<'_> {
     /// The cause of the chosen set that stands for this one: itself, or one it cannot be told from.
     fn in_place(&self, chosen: &Refined, cause: &'static str) -> Option<&'static str> {
         let own = chosen.causes.iter().copied().find(|c| *c == cause);
-        own.or_else(|| {
-            let rivals = |c: &&'static str| {
-                let others = self
-                    .posterior
-                    .stand_ins(&chosen.causes, c, super::naming::AMBIGUOUS);
-                others.iter().any(|other| other.0 == cause)
-            };
-            chosen.causes.iter().copied().find(|c| rivals(c))
-        })
+        let groups = self.found.answer.groups.iter();
+        let mut groups = groups.filter(|g| g.effects.contains(&cause));
+        own.or_else(|| groups.next().and_then(|g| g.effects.first().copied()))
     }
 
     /// Amplitude found and amplitude before.
@@ -127,7 +121,7 @@ impl Case<'_> {
     fn limit(&self, present: &Present, chosen: &Refined, cause: &str, before: f64) -> Option<f64> {
         let mut curve = present.beyond_spring(&self.data.scene, Some(cause));
         self.data.cosine.transform(&mut curve);
-        self.screen.colour.whiten(&mut curve);
+        self.colour.whiten(&mut curve);
         let own = DVector::from_vec(curve);
         let (columns, residual) = (&chosen.optimum.jacobian, &chosen.optimum.residual);
         let factor = columns.tr_mul(columns).cholesky()?;

@@ -1,126 +1,121 @@
-//! Everything that is known about a file before causes are named, and which causes it takes.
+//! A record with what the engine found in it, and the named laws fitted to it.
 
-use super::ambiguity::Posterior;
-use super::comparison::Comparison;
 use super::diagnosis::Settings;
+use super::families::View;
 use super::lattice;
+use super::naming::site;
+use super::noise::Coloured;
+use super::not_noise::is_no_noise;
 use super::present::Present;
 use super::refine::{Refined, refine_from};
-use super::tints::Tints;
-use super::unseen::{Split, gain, held_out};
-use crate::effects::{Composite, shapes};
+use super::statement::Record;
+use crate::effects::{Composite, Effect, contract::MOST, contract::Role};
+use crate::findings::engine::{Found, Judgement, diagnose};
 use crate::findings::gain::Gain;
-use crate::fit::candidates::Candidates;
 use crate::fit::observation::Observation;
-use crate::fit::screen::{Screen, screen};
+use crate::fit::starts::starts;
 use crate::measurement::load_cycle::LoadCycle;
-
-/// Probability of a set against the same set less one cause, below which that cause is not named.
-const NEEDED: f64 = 0.9;
+use crate::signal::colour::Colour;
 
 /// Steps of a lattice above this many times the noise at high frequency are coarse: their rounding,
 /// step/√12, is then half of it or more.
 const COARSE: f64 = 1.73;
 /// Share of a coarse step that an effect must move the readings to be seen.
 const HALF_STEP: f64 = 0.3;
+/// Iterations of a law's fit, and points that it starts from.
+const FIT: (usize, usize) = (14, 3);
 
-/// A second screen counts if it makes the readings quieter by this many nats each.
-const QUIETER: f64 = 0.03;
-
-/// Everything that is known about a file before causes are named.
+/// A record and what is known of it before causes are named.
 pub(super) struct Case<'a> {
     pub(super) file: &'a LoadCycle,
     pub(super) data: Observation,
-    pub(super) screen: Screen,
-    pub(super) refined: Vec<Refined>,
-    pub(super) posterior: Posterior,
-    pub(super) base: f64,
+    /// What the engine found.
+    pub(super) found: Found,
+    /// Noise as the fits of laws take it.
+    pub(super) colour: Colour,
+    /// The spring alone.
     pub(super) plain: Refined,
     /// The present simulation, where it is more than a straight spring.
     pub(super) present: Option<Present>,
     /// Step of a coarse lattice of readings.
     pub(super) step: Option<f64>,
+    /// Whether what is left does what no noise does.
+    pub(super) restless: bool,
+    library: Vec<&'static dyn Effect>,
 }
 
-pub(super) fn compare<'a>(file: &'a LoadCycle, settings: &Settings) -> Case<'a> {
-    let mut data = Observation::of(file, settings.rows);
-    let mut candidates = Candidates::new(&shapes(&settings.library), &data);
-    let mut comparison = Comparison::new(screen(&data, &candidates), &candidates, &data);
-    let wild = data.repair_about(&comparison.residual(&data));
-    if wild {
-        candidates.read_again(&data);
-    }
-    // what the coarse span missed of the best sets was taken for noise: look again without it
-    let curves = comparison.curves();
-    let second = comparison.screen.widened(&curves, &candidates);
-    if wild || comparison.screen.noisier_than(&second) > QUIETER {
-        comparison = Comparison::new(second, &candidates, &data);
-    }
-    let floor = comparison.screen.colour.floor();
-    let step = lattice::step(&file.deflection).filter(|s| *s > COARSE * floor);
-    let best = comparison.posterior.sets.first().and_then(|set| set.2);
-    let mut case = Case {
-        file,
-        step,
-        screen: comparison
-            .screen
-            .recoloured(comparison.suited(), &candidates.reading),
-        data,
-        refined: comparison.refined,
-        posterior: comparison.posterior,
-        base: 0.0,
-        present: settings.present.clone(),
-        plain: comparison.plain,
-    };
-    case.plain = case.again(&case.plain);
-    case.base = case.plain.optimum.chi2;
-    if let Some(i) = best {
-        let nats = case.refined[i].nats;
-        case.refined[i] = Refined {
-            nats,
-            ..case.again(&case.refined[i])
-        };
-    }
-    case
-}
-
-impl Case<'_> {
-    /// The most probable set, less the causes that gain nothing on unseen data.
-    pub(super) fn choose(&self) -> Refined {
-        let best = self.posterior.sets.first().and_then(|s| s.2);
-        let mut set = match best {
-            Some(index) => self.refined[index].clone(),
-            None => return self.plain.clone(),
-        };
-        while !set.causes.is_empty() {
-            let real = |cause: &&&'static str| {
-                self.is_needed(&set, cause) && self.is_real(&self.gain_of(&set, cause))
-            };
-            let unreal = set.causes.iter().find(|cause| !real(cause)).copied();
-            match unreal {
-                None => return set,
-                Some(cause) => set = self.reduced(&set, cause),
-            }
+impl<'a> Case<'a> {
+    /// Judges a file.
+    pub(super) fn of(file: &'a LoadCycle, settings: &Settings) -> Self {
+        let data = Observation::of(file, settings.rows);
+        let (found, noise) = judged(file, &data, settings);
+        let factor = found.answer.discrepancy.noise_rms / crate::ground::stats::rms(&noise.spread);
+        let colour = noise.colour(factor);
+        let start = [data.scene.load_scale / data.scene.deflection_scale];
+        let plain = refine_from(Composite::new(&[]), &start, &data, &colour, FIT.0);
+        let restless = is_no_noise(&found.left, &noise, &View::of(&data));
+        let step = lattice::step(&file.deflection).filter(|s| *s > COARSE * colour.floor());
+        Self {
+            file,
+            data,
+            found,
+            colour,
+            plain,
+            present: settings.present.clone(),
+            step,
+            restless,
+            library: settings.library.clone(),
         }
-        self.plain.clone()
     }
 
-    /// The chosen set under the colour of noise that suits it, which the rest of the case then takes
-    /// too: the colour at hand suits the most probable set, and that may have lost causes since.
-    pub(super) fn suited(&mut self, chosen: Refined) -> Refined {
-        let (own, all) = (&self.screen.colour, &self.screen.tints);
-        let colour = Tints::new(own, all, &self.plain.optimum)
-            .best(&chosen.optimum)
-            .clone();
-        if colour == self.screen.colour {
-            return chosen;
+    /// The causes that the engine chose, one name for each group.
+    pub(super) fn chosen(&self) -> Vec<&'static str> {
+        self.found.blamed.iter().map(|b| b.effect).collect()
+    }
+
+    /// The laws of some causes, fitted together: of every cause the law that suits best.
+    pub(super) fn laws(&self, causes: &[&'static str]) -> Refined {
+        let mut sets: Vec<Vec<&'static dyn Effect>> = vec![Vec::new()];
+        for cause in causes {
+            let laws: Vec<&'static dyn Effect> = self.laws_of(cause);
+            sets = sets
+                .iter()
+                .flat_map(|set| {
+                    laws.iter().map(|law| {
+                        let mut longer = set.clone();
+                        longer.push(*law);
+                        longer
+                    })
+                })
+                .collect();
         }
-        let mut reading = self.data.reading.clone();
-        self.data.cosine.transform(&mut reading);
-        self.screen = self.screen.recoloured(colour, &reading);
-        self.plain = self.again(&self.plain);
-        self.base = self.plain.optimum.chi2;
-        self.again(&chosen)
+        let fits = sets.iter().map(|set| self.fitted(set));
+        let best = fits.min_by(|a, b| a.optimum.chi2.total_cmp(&b.optimum.chi2));
+        best.unwrap_or_else(|| self.plain.clone())
+    }
+
+    fn laws_of(&self, cause: &str) -> Vec<&'static dyn Effect> {
+        let own = self.library.iter().copied();
+        own.filter(|e| e.card().cause == cause && e.role() == Role::Shape)
+            .collect()
+    }
+
+    /// The fit of a set of laws from several starts; the last ones go where there are too many.
+    fn fitted(&self, laws: &[&'static dyn Effect]) -> Refined {
+        let mut kept = laws.to_vec();
+        while Composite::new(&kept).len() > MOST {
+            kept.pop();
+        }
+        if kept.is_empty() {
+            return self.plain.clone();
+        }
+        let model = Composite::new(&kept);
+        let from = starts(&model, &self.data, FIT.1);
+        let fits = from
+            .iter()
+            .map(|p| refine_from(model.clone(), p, &self.data, &self.colour, FIT.0));
+        let best = fits.min_by(|a, b| a.optimum.chi2.total_cmp(&b.optimum.chi2));
+        best.unwrap_or_else(|| self.plain.clone())
     }
 
     /// A gain that chance and a coarse lattice of readings do not explain.
@@ -131,81 +126,19 @@ impl Case<'_> {
         gain.is_real() && self.step.is_none_or(|step| lifted > HALF_STEP * step)
     }
 
-    /// Gain of one cause, the set without it against the set: on unseen cycles, or, for what happened
-    /// once, on unseen pieces of cycles.
-    pub(super) fn gain_of(&self, set: &Refined, cause: &str) -> Gain {
-        let without = self.without(set, cause);
-        let on = |split: Split| {
-            let before = held_out(
-                &without.0,
-                &without.1,
-                &self.data,
-                &self.screen.colour,
-                split,
-            );
-            let after = held_out(
-                &set.model,
-                &set.optimum.p,
-                &self.data,
-                &self.screen.colour,
-                split,
-            );
-            gain(&before, &after, &self.data).reachable(self.screen.colour.rms)
-        };
-        let cycles = on(Split::Cycles);
-        if self.is_real(&cycles) {
-            return cycles;
-        }
-        let pieces = on(Split::Pieces);
-        if self.is_real(&pieces) {
-            pieces
-        } else {
-            cycles
-        }
+    /// Probability of a cause among the sets that were compared.
+    pub(super) fn inclusion(&self, cause: &str) -> f64 {
+        let own = format!("{cause} ");
+        let holding = self.found.answer.candidates.iter();
+        let holding = holding.filter(|c| c.0.iter().any(|name| name.starts_with(&own)));
+        holding.map(|c| c.1).sum::<f64>().min(1.0)
     }
+}
 
-    /// Whether the set is clearly more probable than the same set without this cause.
-    fn is_needed(&self, set: &Refined, cause: &'static str) -> bool {
-        let rest: Vec<&'static str> = set.causes.iter().copied().filter(|c| *c != cause).collect();
-        let (with, without) = (self.posterior.of(&set.causes), self.posterior.of(&rest));
-        with > NEEDED * (with + without)
-    }
-
-    /// A set refined once more, with the colour of the noise that suits the best set.
-    fn again(&self, set: &Refined) -> Refined {
-        let (model, p) = (set.model.clone(), &set.optimum.p);
-        refine_from(model, p, &self.data, &self.screen.colour, self.base, 12)
-    }
-
-    /// The set less one cause, refined.
-    fn reduced(&self, set: &Refined, cause: &str) -> Refined {
-        let (model, p) = self.without(set, cause);
-        refine_from(model, &p, &self.data, &self.screen.colour, self.base, 12)
-    }
-
-    /// The set less one cause: refined if it was compared, else as it stands.
-    fn without(&self, set: &Refined, cause: &str) -> (Composite, Vec<f64>) {
-        let rest: Vec<&'static str> = set.causes.iter().copied().filter(|c| *c != cause).collect();
-        let index = self
-            .posterior
-            .sets
-            .iter()
-            .find(|s| s.0 == rest)
-            .and_then(|s| s.2);
-        if let Some(known) = index.map(|i| &self.refined[i]) {
-            return (known.model.clone(), known.optimum.p.clone());
-        }
-        let mut p = Vec::new();
-        let mut effects = Vec::new();
-        let mut at = 0;
-        for effect in set.model.effects() {
-            let count = effect.card().parameters.len();
-            if effect.card().cause != cause {
-                effects.push(*effect);
-                p.extend(&set.optimum.p[at..at + count]);
-            }
-            at += count;
-        }
-        (Composite::new(&effects), p)
-    }
+fn judged(file: &LoadCycle, data: &Observation, settings: &Settings) -> (Found, Coloured) {
+    let unit = file.port.deflection_unit();
+    let place = |cause: &'static str| site(file, cause);
+    let record = Record::new(data, (unit, None), &settings.library, &place);
+    let found = diagnose(&record, &Judgement::default());
+    (found, record.noise)
 }

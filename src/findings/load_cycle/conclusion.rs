@@ -1,87 +1,61 @@
 //! From named causes to the verdict: what is left, and how far the present simulation is off.
 
-use super::adequacy::{self, Adequacy, REPEATS};
+use super::adequacy::Adequacy;
 use super::case::Case;
 use super::diagnosis::Diagnosis;
 use super::naming::Named;
 use super::refine::Refined;
 use super::structure;
 use crate::effects::Composite;
-use crate::findings::answer::{Answer, Candidate, Verdict};
-use crate::fit::least_squares::Problem;
-
-/// Structure counts as left when a test is below the first p-value and the unexplained share is above
-/// the second number: what is seen beyond all doubt need be less to matter.
-const LEFT: [(f64, f64); 2] = [(5e-5, 0.1), (1e-20, 0.05)];
-/// Causes that leave so much of what they should explain need less proof that they are wrong.
-const LITTLE_EXPLAINED: (f64, f64) = (5e-4, 0.25);
-/// With more than this share unexplained the causes found are not the story.
-const NOT_THE_STORY: f64 = 0.13;
+use crate::findings::answer::{Answer, Verdict};
+use crate::ground::stats::rms;
 
 impl Case<'_> {
-    fn residual(&self, set: &Refined) -> Vec<f64> {
-        let ignored = vec![false; self.data.rows()];
-        let problem = Problem {
-            model: &set.model,
-            data: &self.data,
-            colour: &self.screen.colour,
-            ignored: &ignored,
-        };
-        problem.residual(&set.optimum.p)
-    }
-
-    pub(super) fn conclude(self, chosen: Refined, mut named: Named, scaled: bool) -> Diagnosis {
-        let adequacy = adequacy::judge(
-            &self.residual(&chosen),
-            chosen.dimension + 1,
-            self.base,
-            &self.screen,
-            &self.data,
-        );
-        let left = is_left(&adequacy, &chosen) && !self.within_step(&chosen);
+    /// The diagnosis. `shapes`: what changes the curve; `others`: scales and lattices.
+    pub(super) fn conclude(
+        self,
+        chosen: Refined,
+        (shapes, others): (Named, Named),
+        scaled: bool,
+    ) -> Diagnosis {
+        let judged = self.found.answer.verdict;
+        let engine = matches!(judged, Verdict::UnknownCause | Verdict::PartlyExplained);
+        let left = (engine || self.restless) && !self.within_step();
+        let story = !(left && judged == Verdict::UnknownCause);
+        let mut named = if story { shapes } else { Named::default() };
+        named.extend(others);
         named.causes.sort_by(|a, b| {
             b.gain
                 .reduction_percent
                 .total_cmp(&a.gain.reduction_percent)
         });
-        let verdict = verdict(&named, left, &adequacy);
-        if verdict == Verdict::UnknownCause {
-            // what the library could make of it is not the story: name nothing
-            named = Named::default();
-        }
         let (model, p) = self.extended(&chosen, &named);
         let extended = model.predict(&p, &self.data.scene);
         let simulated = self.simulated(scaled);
-        let difference = |f: &[f64]| {
+        let misses = |f: &[f64]| -> Vec<f64> {
             self.data
                 .reading
                 .iter()
                 .zip(f)
                 .map(|(y, f)| y - f)
-                .collect::<Vec<f64>>()
+                .collect()
         };
-        let noise = self.screen.colour.rms.min(rms(&difference(&extended)));
-        let discrepancy = structure::discrepancy(&difference(&simulated), &self.data, noise);
-        let before = discrepancy.rms * discrepancy.rms;
-        let unexplained = structure::structure(
-            &difference(&extended),
-            &self.data,
-            before,
-            noise,
-            adequacy.test,
-        );
+        let missed = misses(&simulated);
+        let noise = self.found.answer.discrepancy.noise_rms;
+        let discrepancy = structure::discrepancy(&missed, &self.data, noise);
         let answer = Answer {
-            verdict,
+            verdict: verdict(&named, left),
             discrepancy,
             causes: named.causes,
             groups: named.groups,
-            unexplained,
-            p_value: adequacy.p_value,
-            candidates: self.table(),
-            unit: self.file.port.deflection_unit(),
-            noise: self.screen.colour.describe(),
             unstated: self.present.is_none() && self.file.facts.nominal_stiffness.is_none(),
             doubts: Vec::new(),
+            ..self.found.answer.clone()
+        };
+        let adequacy = Adequacy {
+            p_value: answer.p_value,
+            unexplained: answer.unexplained.share_of_variance,
+            test: "generic structure",
         };
         Diagnosis {
             answer,
@@ -96,18 +70,9 @@ impl Case<'_> {
     }
 
     /// Whether all that is left is smaller than a coarse lattice makes it.
-    fn within_step(&self, chosen: &Refined) -> bool {
-        let fitted = chosen.model.predict(&chosen.optimum.p, &self.data.scene);
-        let square = |(y, f): (&f64, &f64)| (y - f) * (y - f);
-        let left = self
-            .data
-            .reading
-            .iter()
-            .zip(&fitted)
-            .map(square)
-            .sum::<f64>()
-            / fitted.len().max(1) as f64;
-        self.step.is_some_and(|step| left.sqrt() < 0.5 * step)
+    fn within_step(&self) -> bool {
+        self.step
+            .is_some_and(|step| rms(&self.found.left) < 0.5 * step)
     }
 
     /// The chosen model, with what the present one has and these data do not deny.
@@ -133,38 +98,12 @@ impl Case<'_> {
         };
         scene.load.iter().map(|m| m / stiffness).collect()
     }
-
-    fn table(&self) -> Vec<Candidate> {
-        let nats = |index: &Option<usize>| index.map_or(0.0, |i| self.refined[i].nats);
-        self.posterior
-            .sets
-            .iter()
-            .take(10)
-            .map(|(c, p, i)| (c.iter().map(|c| c.to_string()).collect(), *p, nats(i)))
-            .collect()
-    }
 }
 
-fn rms(values: &[f64]) -> f64 {
-    (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
-}
-
-fn is_left(adequacy: &Adequacy, chosen: &Refined) -> bool {
-    let beyond = |(p, share): (f64, f64)| adequacy.p_value < p && adequacy.unexplained > share;
-    LEFT.into_iter().any(beyond) || (!chosen.causes.is_empty() && beyond(LITTLE_EXPLAINED))
-}
-
-/// Whether the causes found are not the story: too much is left, or it repeats with the load as they
-/// do, so that their law is not the joint's.
-fn is_another_story(adequacy: &Adequacy) -> bool {
-    adequacy.unexplained > NOT_THE_STORY || REPEATS.contains(&adequacy.test)
-}
-
-fn verdict(named: &Named, left: bool, adequacy: &Adequacy) -> Verdict {
+fn verdict(named: &Named, left: bool) -> Verdict {
     match (named.causes.is_empty() && named.groups.is_empty(), left) {
         (true, true) => Verdict::UnknownCause,
         (true, false) => Verdict::Sufficient,
-        (false, true) if is_another_story(adequacy) => Verdict::UnknownCause,
         (false, true) => Verdict::PartlyExplained,
         (false, false) if named.causes.is_empty() => Verdict::CannotTell,
         (false, false) => Verdict::Explained,

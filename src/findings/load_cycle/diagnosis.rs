@@ -1,7 +1,7 @@
 //! The diagnosis of one load-cycle file: from the screen to the verdict.
 
 use super::adequacy::Adequacy;
-use super::case::compare;
+use super::case::Case;
 use super::imposed::diagnose_imposed;
 use super::present::Present;
 use crate::effects::{Composite, EFFECTS, Effect};
@@ -54,7 +54,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             library: EFFECTS.to_vec(),
-            rows: 2000,
+            rows: 1000,
             present: None,
         }
     }
@@ -72,15 +72,14 @@ fn undoubted(file: &LoadCycle, settings: &Settings) -> Diagnosis {
     if is_imposed(file) {
         return diagnose_imposed(file);
     }
-    let mut case = compare(file, settings);
-    let chosen = case.choose();
-    let chosen = case.suited(chosen);
-    let mut named = case.name(&chosen);
+    let case = Case::of(file, settings);
+    let chosen = case.laws(&case.chosen());
+    let mut shapes = case.name(&chosen);
     let scales = case.scales(&chosen);
     if let Some(present) = &case.present {
-        named = case.beyond(present, &chosen, named);
+        shapes = case.beyond(present, &chosen, shapes);
     }
-    named.extend(case.name_scales(&scales, &chosen));
-    named.extend(case.name_lattice());
-    case.conclude(chosen, named, !scales.is_empty())
+    let mut others = case.name_scales(&scales, &chosen);
+    others.extend(case.name_lattice());
+    case.conclude(chosen, (shapes, others), !scales.is_empty())
 }

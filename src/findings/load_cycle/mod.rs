@@ -1,28 +1,29 @@
 //! Load cycles of one axis.
 //!
-//! The way of a load cycle: screen (noise, saturated span) → candidates (every effect's family of
-//! curves) → search (sets of causes by evidence) → refine (shapes free) → compare (posterior,
-//! ambiguity) → adequacy (is anything left?) → gain (cycles that were not fitted) → verdict.
+//! The way of a load cycle: reduce (at most 1000 rows) → families of shapes (`families`) → noise and sets
+//! of causes in turn (`statement`, `noise`, and the common engine) → the named laws fitted (`case`,
+//! `refine`) → scales and lattice → what is left → verdict (`conclusion`).
 
 pub mod adequacy;
-pub mod ambiguity;
 mod beyond;
 mod case;
-mod comparison;
 mod conclusion;
 pub mod diagnosis;
+pub mod families;
 pub mod imposed;
 pub mod lattice;
 pub mod look_alikes;
 mod naming;
 mod naming_scales;
 pub mod next;
+pub mod noise;
+mod not_noise;
 pub mod present;
 pub mod refine;
 pub mod scales;
-pub mod search;
+mod span;
+mod statement;
 pub mod structure;
-pub mod tints;
 pub mod unseen;
 
 pub use diagnosis::{Diagnosis, Settings, diagnose};

@@ -1,15 +1,16 @@
-//! Causes by their names: what is certain as a cause, what has stand-ins as a group.
+//! Causes by their names: the engine's answer with the parameters of the named laws, and the experiment
+//! that would tell what it cannot.
 
 use super::case::Case;
 use super::refine::Refined;
 use super::{lattice, next};
 use crate::effects::{Composite, EFFECTS, Family};
 use crate::findings::answer::{Cause, Group};
-use crate::findings::gain::Gain;
 use crate::fit::solution::unit_of;
+use crate::measurement::load_cycle::LoadCycle;
 
-/// A stand-in with at least this share of the winner's probability cannot be ruled out.
-pub(super) const AMBIGUOUS: f64 = 0.03;
+/// Rivals whose experiment is computed.
+const RIVALS: usize = 2;
 
 /// Causes and groups as they are named.
 #[derive(Default)]
@@ -26,104 +27,53 @@ impl Named {
 }
 
 impl Case<'_> {
+    /// What the engine named, less what a coarse lattice hides.
     pub(super) fn name(&self, chosen: &Refined) -> Named {
-        let mut named = Named::default();
-        for cause in &chosen.causes {
-            let stand_ins = self.posterior.stand_ins(&chosen.causes, cause, AMBIGUOUS);
-            let gain = self.gain_of(chosen, cause);
-            if stand_ins.is_empty() {
-                named.causes.push(Cause {
-                    effect: cause,
-                    site: self.site(chosen, cause),
-                    probability: self.posterior.inclusion(cause),
-                    summary: summary(cause),
-                    alternatives: self.alternatives(chosen, cause),
-                    parameters: self.parameters(chosen, cause),
-                    gain,
-                });
-            } else {
-                named
-                    .groups
-                    .push(self.group(chosen, cause, &stand_ins, gain));
-            }
+        let answer = &self.found.answer;
+        let with_values = |cause: &Cause| Cause {
+            parameters: self.parameters(chosen, cause.effect),
+            ..cause.clone()
+        };
+        let told = |group: &Group| Group {
+            would_tell: self.would_tell(chosen, &group.effects),
+            ..group.clone()
+        };
+        let causes = answer.causes.iter().filter(|c| self.is_seen(&c.gain));
+        let groups = answer.groups.iter().filter(|g| self.is_seen(&g.gain));
+        Named {
+            causes: causes.map(with_values).collect(),
+            groups: groups.map(told).collect(),
         }
-        named
     }
 
-    /// Runners-up with their sites.
-    pub(super) fn alternatives(
-        &self,
-        chosen: &Refined,
-        cause: &'static str,
-    ) -> Vec<(&'static str, String, f64)> {
-        let others = self.posterior.stand_ins(&chosen.causes, cause, 1e-4);
-        let placed = |(other, p): (&'static str, f64)| (other, self.site(chosen, other), p);
-        others.into_iter().map(placed).collect()
+    fn is_seen(&self, gain: &crate::findings::gain::Gain) -> bool {
+        self.step.is_none() || self.is_real(gain)
     }
 
-    fn group(
-        &self,
-        chosen: &Refined,
-        cause: &'static str,
-        stand_ins: &[(&'static str, f64)],
-        gain: Gain,
-    ) -> Group {
-        let mut effects = vec![cause];
-        effects.extend(stand_ins.iter().map(|s| s.0));
-        let rivals: Vec<(&Composite, &[f64])> = stand_ins
+    /// The schedule under which the laws of a group would differ most, each fitted to these data.
+    fn would_tell(&self, chosen: &Refined, effects: &[&'static str]) -> String {
+        let swapped = |other: &&'static str| {
+            let own = chosen.causes.iter().copied();
+            let kept = own.filter(|c| *c != effects[0]);
+            self.laws(&kept.chain([*other]).collect::<Vec<_>>())
+        };
+        let others: Vec<Refined> = effects[1..].iter().take(RIVALS).map(swapped).collect();
+        let rivals: Vec<(&Composite, &[f64])> = others
             .iter()
-            .filter_map(|(other, _)| {
-                let mut set: Vec<_> = chosen
-                    .causes
-                    .iter()
-                    .copied()
-                    .filter(|c| *c != cause)
-                    .chain([*other])
-                    .collect();
-                set.sort_unstable();
-                let index = self.posterior.sets.iter().find(|s| s.0 == set)?.2?;
-                Some((
-                    &self.refined[index].model,
-                    &self.refined[index].optimum.p[..],
-                ))
-            })
+            .map(|r| (&r.model, &r.optimum.p[..]))
             .collect();
-        let noise = self.screen.colour.rms;
-        let proposal = next::propose(
-            (&chosen.model, &chosen.optimum.p),
-            &rivals,
-            &self.data,
-            noise,
-        );
-        let sites = effects.iter().map(|e| self.site(chosen, e)).collect();
-        let would_tell = format!(
+        let winner = (&chosen.model, &chosen.optimum.p[..]);
+        let proposal = next::propose(winner, &rivals, &self.data, self.colour.rms);
+        format!(
             "{} (separates them by {:.0} nats)",
             proposal.about, proposal.separation
-        );
-        Group {
-            effects,
-            sites,
-            would_tell,
-            gain,
-        }
+        )
     }
 
-    /// Measurement effects sit at the sensor, physics at the joint.
-    pub(super) fn site(&self, chosen: &Refined, cause: &str) -> String {
-        let known = chosen
-            .model
-            .effects()
-            .iter()
-            .copied()
-            .chain(EFFECTS.iter().copied());
-        let family = known
-            .filter(|e| e.card().cause == cause)
-            .map(|e| e.card().family)
-            .next();
-        match family {
-            Some(Family::Measurement) => "sensor".into(),
-            _ => self.file.site(),
-        }
+    /// Runners-up of a cause.
+    pub(super) fn alternatives(&self, cause: &str) -> Vec<(&'static str, String, f64)> {
+        let own = self.found.answer.causes.iter().find(|c| c.effect == cause);
+        own.map_or_else(Vec::new, |c| c.alternatives.clone())
     }
 
     pub(super) fn parameters(
@@ -148,8 +98,8 @@ impl Case<'_> {
 
     pub(super) fn name_lattice(&self) -> Named {
         let causes = self.step.map(|step| {
-            let rms = self.screen.colour.rms.max(step / 12.0_f64.sqrt());
-            let gain = lattice::gain(step, rms, self.screen.colour.relative_error());
+            let rms = self.colour.rms.max(step / 12.0_f64.sqrt());
+            let gain = lattice::gain(step, rms, self.colour.relative_error());
             Cause {
                 effect: "quantization",
                 site: "sensor".into(),
@@ -164,6 +114,18 @@ impl Case<'_> {
             causes: causes.into_iter().collect(),
             groups: Vec::new(),
         }
+    }
+}
+
+/// Measurement effects sit at the sensor, physics at the joint.
+pub(super) fn site(file: &LoadCycle, cause: &str) -> String {
+    let family = EFFECTS
+        .iter()
+        .find(|e| e.card().cause == cause)
+        .map(|e| e.card().family);
+    match family {
+        Some(Family::Measurement) => "sensor".into(),
+        _ => file.site(),
     }
 }
 

@@ -1,8 +1,7 @@
 //! Scale errors by their names: lever, inclined laser or stiffness.
 
-use super::ambiguity::FORMULA_ERROR;
 use super::case::Case;
-use super::naming::{AMBIGUOUS, Named, summary};
+use super::naming::{Named, summary};
 use super::refine::Refined;
 use super::scales::{self, ScaleFinding};
 use super::unseen::{Split, gain, held_out};
@@ -10,26 +9,18 @@ use crate::experiments::load_cycle::{settle, settled_cycle};
 use crate::findings::answer::{Cause, Group};
 use crate::findings::gain::Gain;
 
-impl Case<'_> {
-    pub(super) fn scales(&self, chosen: &Refined) -> Vec<ScaleFinding> {
-        let mut excess = self.excess(chosen);
-        for set in self.as_plausible_as(chosen) {
-            // what another explanation of the shape explains is no error of scale
-            excess = match (excess, self.excess(set)) {
-                (Some(a), Some(b)) if a * b <= 0.0 => Some(0.0),
-                (Some(a), Some(b)) if b.abs() < a.abs() => Some(b),
-                (first, _) => first,
-            };
-        }
-        scales::judge(self.file, excess, self.relative_error(chosen)).findings
-    }
+/// A law that misses the truth by this share of its own size still counts as right.
+const FORMULA_ERROR: f64 = 0.07;
 
-    /// The sets that cannot be ruled out beside the chosen one.
-    fn as_plausible_as(&self, chosen: &Refined) -> impl Iterator<Item = &Refined> {
-        let least = AMBIGUOUS * self.posterior.of(&chosen.causes);
-        let sets = self.posterior.sets.iter();
-        let sets = sets.filter(move |set| !chosen.causes.is_empty() && set.1 >= least);
-        sets.filter_map(|set| set.2.map(|index| &self.refined[index]))
+impl Case<'_> {
+    /// Scale errors: the chosen model's own spring and the plain slope must both be off, to one side.
+    pub(super) fn scales(&self, chosen: &Refined) -> Vec<ScaleFinding> {
+        let excess = match (self.excess(chosen), self.excess(&self.plain)) {
+            (Some(a), Some(b)) if a * b <= 0.0 => Some(0.0),
+            (Some(a), Some(b)) if b.abs() < a.abs() => Some(b),
+            (first, _) => first,
+        };
+        scales::judge(self.file, excess, self.relative_error(chosen)).findings
     }
 
     /// How far a set's stiffness is from the nominal one.
@@ -120,7 +111,7 @@ impl Case<'_> {
             &chosen.model,
             &chosen.optimum.p,
             &self.data,
-            &self.screen.colour,
+            &self.colour,
             Split::Cycles,
         );
         let wrong = excess / (1.0 + excess);

@@ -1,12 +1,23 @@
 //! How far a single cause would have to go: its amounts beside what is merely uncertain, by weighted least
-//! squares. Causes that are not linear are taken as the way from nothing to there (a secant).
+//! squares. Causes that are not linear are taken as the way from nothing to where they fit best together with
+//! what is uncertain (a secant): the angle of the tooth and the coefficients move along.
 
 use super::Case;
-use crate::findings::engine::Nuisance;
+use crate::ground::spatial::{M3, V3, add, rotate, scale};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+/// A place of the vector that is uncertain although nothing is wrong.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Loose {
+    /// The place.
+    pub place: usize,
+    /// Its standard deviation before the data; infinite: nothing is known.
+    pub spread: f64,
+}
 
 /// The reading and the nuisances in noise deviations.
 pub struct Aim {
+    loose: Vec<Loose>,
     nuisances: DMatrix<f64>,
     root: Option<Cholesky<f64, Dyn>>,
     reading: DVector<f64>,
@@ -14,39 +25,54 @@ pub struct Aim {
 }
 
 /// Rounds in which a secant is improved.
-const ROUNDS: usize = 4;
+const ROUNDS: usize = 5;
+/// What is uncertain goes no further than so many of its standard deviations.
+const FARTHEST: f64 = 3.0;
+/// An angle of the tooth goes no further, rad.
+const TURN: f64 = 1.0;
+
+/// No sensor is farther off, and what counts as none.
+const MOST_MAP: f64 = 0.8;
+const LEAST_MAP: f64 = 0.02;
 
 impl Aim {
     /// Of a case.
-    pub fn new(case: &Case, nuisances: &[Nuisance]) -> Self {
-        let spread = case.column(|_, _, k| case.noise()[k]);
-        let columns: Vec<DVector<f64>> = nuisances
+    pub fn new(case: &Case, loose: Vec<Loose>) -> Self {
+        let spread = case.spread();
+        let places = case.places();
+        let columns: Vec<DVector<f64>> = loose
             .iter()
-            .map(|n| white(&n.column, &spread))
+            .map(|l| white(&case.along(&places.unit(l.place)), &spread))
             .collect();
-        let nuisance = match columns.is_empty() {
+        let nuisances = match columns.is_empty() {
             true => DMatrix::zeros(spread.len(), 0),
             false => DMatrix::from_columns(&columns),
         };
-        let mut inner = nuisance.tr_mul(&nuisance);
-        for (k, n) in nuisances.iter().enumerate() {
-            inner[(k, k)] += (n.spread * n.spread).recip() + 1e-10 * inner[(k, k)];
+        let mut inner = nuisances.tr_mul(&nuisances);
+        for (k, l) in loose.iter().enumerate() {
+            inner[(k, k)] += (l.spread * l.spread).recip() + 1e-10 * inner[(k, k)];
         }
         Self {
             root: inner.cholesky(),
-            nuisances: nuisance,
+            nuisances,
             reading: white(&case.reading(), &spread),
             spread,
+            loose,
+        }
+    }
+
+    /// Most probable nuisances for a whitened column.
+    fn seen(&self, column: &DVector<f64>) -> DVector<f64> {
+        let seen = self.nuisances.tr_mul(column);
+        match &self.root {
+            Some(root) => root.solve(&seen),
+            None => DVector::zeros(seen.len()),
         }
     }
 
     /// What the nuisances leave of a whitened column.
     fn free(&self, column: &DVector<f64>) -> DVector<f64> {
-        let seen = self.nuisances.tr_mul(column);
-        match &self.root {
-            Some(root) => column - &self.nuisances * root.solve(&seen),
-            None => column.clone(),
-        }
+        column - &self.nuisances * self.seen(column)
     }
 
     /// Amounts of some columns together; zeros where they show nothing.
@@ -74,20 +100,128 @@ impl Aim {
         }
     }
 
-    /// The column of a direction of the vector as the way to where it fits best, at most `most` far.
-    pub fn secant(&self, case: &Case, direction: &[f64], most: f64) -> Vec<f64> {
-        let mut column = case.along(direction);
-        if column.iter().all(|x| *x == 0.0) {
-            return column;
+    /// The column of a direction of the vector as the way to where it fits best, at most `most` far. It begins
+    /// at the slope, or at the best of some amounts: where the force jumps, no slope says where to go.
+    pub fn secant(&self, case: &Case, direction: &[f64], most: f64, starts: &[f64]) -> Vec<f64> {
+        let slope = case.along(direction);
+        let nothing = vec![0.0; slope.len()];
+        let tried = starts
+            .iter()
+            .map(|start| self.reached(case, direction, *start, &nothing));
+        let better = |a: (f64, Vec<f64>), b: (f64, Vec<f64>)| if b.0 > a.0 { b } else { a };
+        let best = starts
+            .iter()
+            .zip(tried)
+            .map(|(start, column)| (self.worth(&column, *start), column));
+        let mut best = best.fold((0.0, slope), better);
+        if best.1.iter().all(|x| *x == 0.0) {
+            return best.1;
         }
+        let mut column = best.1.clone();
         for _ in 0..ROUNDS {
             let amount = self.amounts(std::slice::from_ref(&column))[0].clamp(-most, most);
             if amount.abs() < 1e-3 * most {
                 break;
             }
-            column = case.way(direction, amount);
+            column = self.reached(case, direction, amount, &column);
+            best = better(best, (self.worth(&column, amount), column.clone()));
         }
-        column
+        best.1
+    }
+
+    /// By how much an amount of a column lowers the misfit, nats.
+    fn worth(&self, column: &[f64], amount: f64) -> f64 {
+        let own = white(column, &self.spread);
+        let free = self.free(&own);
+        amount * free.dot(&self.reading) - 0.5 * amount * amount * free.dot(&own)
+    }
+
+    /// What an amount along a direction adds where what is uncertain stands as fits best beside it, less what
+    /// that adds by itself, over the amount. `column`: the same, as known so far.
+    pub fn reached(&self, case: &Case, direction: &[f64], amount: f64, column: &[f64]) -> Vec<f64> {
+        let mut whole = self.beside(case, amount, column, |uncertain| {
+            let each = uncertain.iter().zip(direction);
+            case.step(&each.map(|(u, d)| u + d * amount).collect::<Vec<_>>())
+        });
+        whole.iter_mut().for_each(|x| *x /= amount);
+        whole
+    }
+
+    /// What one unit of a map of forces adds, what is uncertain standing as fits best beside it.
+    pub fn mapped(&self, case: &Case, map: &M3) -> Vec<f64> {
+        let forces: Vec<V3> = case
+            .forces()
+            .chunks(3)
+            .map(|f| [f[0], f[1], f[2]])
+            .collect();
+        let flat = |f: V3| f.into_iter();
+        let mut column: Vec<f64> = forces.iter().flat_map(|f| flat(rotate(map, *f))).collect();
+        let mut best = (0.0, column.clone());
+        for _ in 0..ROUNDS {
+            let amount = self.amounts(std::slice::from_ref(&column))[0].clamp(-MOST_MAP, MOST_MAP);
+            let worth = self.worth(&column, amount);
+            if worth > best.0 {
+                best = (worth, column.clone());
+            }
+            if amount.abs() < LEAST_MAP {
+                break;
+            }
+            column = self.beside(case, amount, &column, |to| {
+                let step = case.step(to);
+                let each = forces.iter().zip(step.chunks(3));
+                let whole = |(f, s): (&V3, &[f64])| {
+                    let step = [s[0], s[1], s[2]];
+                    add(step, scale(amount, rotate(map, add(*f, step))))
+                };
+                each.flat_map(|pair| flat(whole(pair))).collect()
+            });
+            column.iter_mut().for_each(|x| *x /= amount);
+        }
+        best.1
+    }
+
+    /// What something adds where what is uncertain stands as fits best beside an amount of `column`, less what
+    /// that adds by itself. `whole`: what both add together, over the vector of what is uncertain.
+    pub fn beside(
+        &self,
+        case: &Case,
+        amount: f64,
+        column: &[f64],
+        whole: impl Fn(&[f64]) -> Vec<f64>,
+    ) -> Vec<f64> {
+        let left = &self.reading - white(column, &self.spread) * amount;
+        let uncertain = self.seen(&left);
+        let mut to = vec![0.0; case.places().len()];
+        let mut alone = DVector::zeros(self.loose.len());
+        for (k, loose) in self.loose.iter().enumerate() {
+            let most = match loose.spread.is_finite() {
+                true => FARTHEST * loose.spread,
+                false => self.widest(loose, case),
+            };
+            alone[k] = uncertain[k].clamp(-most, most);
+            to[loose.place] += alone[k];
+        }
+        let alone = &self.nuisances * alone;
+        let each = whole(&to).into_iter().zip(alone.iter()).zip(&self.spread);
+        each.map(|((s, a), spread)| s - a * spread).collect()
+    }
+
+    /// What is uncertain beside an amount of a column, as a vector of all places.
+    pub fn uncertain(&self, case: &Case, amount: f64, column: &[f64]) -> Vec<f64> {
+        let left = &self.reading - white(column, &self.spread) * amount;
+        let mut to = vec![0.0; case.places().len()];
+        let seen = self.seen(&left);
+        let each = self.loose.iter().zip(seen.iter());
+        each.for_each(|(l, u)| to[l.place] += u);
+        to
+    }
+
+    /// How far something goes of which nothing is known: an angle, or a coefficient of its own size.
+    fn widest(&self, loose: &Loose, case: &Case) -> f64 {
+        match case.nominal().get(loose.place) {
+            Some(value) => value.abs(),
+            None => TURN,
+        }
     }
 }
 

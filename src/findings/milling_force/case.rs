@@ -5,22 +5,25 @@ use super::lines::{Line, lines};
 use super::setting::{Places, Present, Slopes};
 use super::start::fitted;
 use crate::cutting::LINEAR_EDGE;
-use crate::experiments::milling_force::{PHASE, RUNOUT, SPEED};
+use crate::experiments::milling_force::{BANDWIDTH, PHASE, RUNOUT, SPEED, WIDTH};
 use crate::fit::cut_force::{Account, CutFit};
-use crate::ground::spatial::V3;
-use crate::inference::stats::median;
+use crate::ground::spatial::{M3, V3, rotate};
+use crate::ground::stats::median;
 use crate::measurement::milling_force::{Facts, MillingForce};
 use rayon::prelude::*;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// Samples of all cuts that are compared at most: more cost time and tell little.
-const MOST_SAMPLES: usize = 4000;
+const MOST_SAMPLES: usize = 2800;
 /// Pieces of a record that is longer than its share.
 const PIECES: usize = 8;
 /// Share of the force's own rms that the law of a sharp edge misses anyway: digits of the chip's surface.
 const LAW: f64 = 2e-3;
 /// Readings that a stated noise is worth, and an estimated one.
 const WORTH: [f64; 2] = [60.0, 30.0];
+
+/// A sensor that shows what there is.
+const IDENTITY: M3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// The samples of a cut that are compared.
 #[derive(Debug, Clone)]
@@ -48,9 +51,13 @@ struct Data {
 
 /// A file with the simulation that it is compared with: rows are samples by axes x, y, z.
 pub struct Case {
-    data: Data,
+    data: Arc<Data>,
     /// By how much the simulation differs from what is stated; see [`Places`].
     pub(super) offset: Vec<f64>,
+    /// What the sensor makes of a force.
+    seen: M3,
+    /// What causes that are known add to the readings, N; none: nothing.
+    explained: Vec<f64>,
     slopes: Vec<Slopes>,
     aim: OnceLock<Aim>,
 }
@@ -79,9 +86,15 @@ impl Case {
             stated,
             nominal,
         };
+        Self::at(Arc::new(data), offset, IDENTITY, Vec::new())
+    }
+
+    fn at(data: Arc<Data>, offset: Vec<f64>, seen: M3, explained: Vec<f64>) -> Self {
         let mut case = Self {
             data,
             offset,
+            seen,
+            explained,
             slopes: Vec::new(),
             aim: OnceLock::new(),
         };
@@ -89,10 +102,39 @@ impl Case {
         case
     }
 
+    /// The same file where the process differs by `by` more, the sensor makes `seen` of a force, and
+    /// `explained` is known beside it.
+    pub(super) fn moved(&self, by: &[f64], seen: M3, explained: Vec<f64>) -> Self {
+        let each = self.offset.iter().zip(by);
+        let offset = each.map(|(o, b)| o + b).collect();
+        Self::at(self.data.clone(), offset, seen, explained)
+    }
+
+    /// What the sensor makes of a force.
+    pub(super) fn seen(&self) -> M3 {
+        self.seen
+    }
+
+    /// Force as the sensor shows it.
+    fn shown(&self, force: &V3) -> V3 {
+        rotate(&self.seen, *force)
+    }
+
+    /// Every row of the simulation, N.
+    pub(super) fn forces(&self) -> Vec<f64> {
+        self.column(|c, i, k| self.simulated(c, i)[k])
+    }
+
     fn simulate(&mut self) {
         let (places, cuts) = (self.places(), self.cuts());
         let one = |i: usize| cuts[i].present.slopes(places, i, &self.offset);
-        let all: Vec<Slopes> = (0..cuts.len()).into_par_iter().map(one).collect();
+        let mut all: Vec<Slopes> = (0..cuts.len()).into_par_iter().map(one).collect();
+        if self.seen != IDENTITY {
+            for own in &mut all {
+                let each = own.slopes.iter_mut().flatten().chain(&mut own.force);
+                each.for_each(|f| *f = rotate(&self.seen, *f));
+            }
+        }
         self.slopes = all;
     }
 
@@ -124,6 +166,11 @@ impl Case {
     /// Noise of x, y and z, N.
     pub(super) fn noise(&self) -> &[f64] {
         &self.data.noise
+    }
+
+    /// Spread of every row, N.
+    pub(super) fn spread(&self) -> Vec<f64> {
+        self.column(|_, _, k| self.noise()[k])
     }
 
     /// Rows that the noise is worth.
@@ -163,17 +210,6 @@ impl Case {
         self.slopes[cut].force[sample]
     }
 
-    /// Slope over the angle of tooth 1 of one cut.
-    pub(super) fn phase(&self, own: usize) -> Vec<f64> {
-        self.column(|c, i, k| {
-            if c == own {
-                self.slopes[c].phase[i][k]
-            } else {
-                0.0
-            }
-        })
-    }
-
     /// What a step along a direction of the vector adds.
     pub(super) fn along(&self, direction: &[f64]) -> Vec<f64> {
         let places = self.places();
@@ -192,33 +228,39 @@ impl Case {
 
     /// What a cause must be compared with beside what is merely uncertain.
     pub(super) fn aim(&self) -> &Aim {
-        self.aim.get_or_init(|| Aim::new(self, &self.nuisances()))
+        self.aim.get_or_init(|| Aim::new(self, self.loose()))
     }
 
-    /// What an amount along a direction of the vector adds, over that amount.
-    pub(super) fn way(&self, direction: &[f64], amount: f64) -> Vec<f64> {
+    /// What a step of the vector adds, all of it.
+    pub(super) fn step(&self, to: &[f64]) -> Vec<f64> {
         let (places, cuts) = (self.places(), self.cuts());
-        let each = self.offset.iter().zip(direction);
-        let there: Vec<f64> = each.map(|(o, d)| o + d * amount).collect();
-        let acts = |c: usize| places.of_cut(c).any(|place| direction[place] != 0.0);
+        let there: Vec<f64> = self.offset.iter().zip(to).map(|(o, d)| o + d).collect();
+        let acts = |c: usize| places.of_cut(c).any(|place| to[place] != 0.0);
         let one = |c: usize| {
             acts(c).then(|| {
                 let (scene, p) = cuts[c].present.moved(places, c, &there);
-                scene.predict(&p).force
+                let force = scene.predict(&p).force;
+                force.iter().map(|f| self.shown(f)).collect()
             })
         };
         let moved: Vec<Option<Vec<V3>>> = (0..cuts.len()).into_par_iter().map(one).collect();
         self.column(|c, i, k| match &moved[c] {
-            Some(force) => (force[i][k] - self.simulated(c, i)[k]) / amount,
+            Some(force) => force[i][k] - self.simulated(c, i)[k],
             None => 0.0,
         })
     }
 
-    /// Measured less simulated where the vector is zero, as the slopes here have it.
+    /// Measured less simulated and less what is known, with the speeds of the records as what is stated.
     pub(super) fn reading(&self) -> Vec<f64> {
-        let back = self.along(&self.offset);
+        let places = self.places();
+        let mut speeds = vec![0.0; places.len()];
+        (0..places.cuts).for_each(|c| speeds[places.speed(c)] = self.cuts()[c].present.speed);
+        let back = self.along(&speeds);
         let left = self.column(|c, i, k| self.cuts()[c].measured[i][k] - self.simulated(c, i)[k]);
-        left.iter().zip(back).map(|(l, b)| l + b).collect()
+        let mut reading: Vec<f64> = left.iter().zip(back).map(|(l, b)| l + b).collect();
+        let each = reading.iter_mut().zip(&self.explained);
+        each.for_each(|(r, e)| *r -= e);
+        reading
     }
 
     /// Time of every sample over the whole file, 0 to 1.
@@ -271,14 +313,17 @@ fn samples(
         for k in 0..2 {
             p[RUNOUT + k] *= file.facts.runout_m.unwrap_or(0.0) / size;
         }
-        p[crate::experiments::milling_force::WIDTH] = scene.cut.width_m;
+        p[WIDTH] = scene.cut.width_m;
         if let Some(hz) = data.bandwidth_hz {
-            p[crate::experiments::milling_force::BANDWIDTH] = hz.ln();
+            p[BANDWIDTH] = hz.ln();
         }
         debug_assert!(p[PHASE].is_finite());
         let record = &file.records[i];
-        let cut = CutSamples {
-            measured: used.iter().map(|at| data.force[*at]).collect(),
+        let mut cut = CutSamples {
+            measured: used
+                .iter()
+                .map(|at| record.force[data.settling + at])
+                .collect(),
             time: used
                 .iter()
                 .map(|at| record.time[data.settling + at])
@@ -290,10 +335,60 @@ fn samples(
             },
             first,
         };
-        first += used.len();
+        cut.only(&steady(&cut));
+        first += cut.time.len();
         cut
     };
     account.cuts.iter().enumerate().map(&mut one).collect()
+}
+
+/// How well the angle of a jump is known, rad, and the width of the cut, m.
+const BESIDE: [f64; 2] = [4e-3, 5e-5];
+/// Share of the range of a force from which such a shift changes it by a jump.
+const JUMP: f64 = 0.1;
+
+/// Samples that do not stand beside a jump of the simulated force (straight teeth that enter or leave at
+/// once, and nothing that spreads it): those say only that the jump is thereabouts.
+fn steady(cut: &CutSamples) -> Vec<bool> {
+    let present = &cut.present;
+    let at = |place: usize, by: f64| {
+        let mut p = present.p;
+        p[place] += by;
+        present.scene.predict(&p).force
+    };
+    let here = present.scene.predict(&present.p).force;
+    let least = [0, 1, 2].map(|k| {
+        let own = here.iter().map(|f| f[k]);
+        let (low, high) = own.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
+        JUMP * (high - low)
+    });
+    let [turn, width] = BESIDE;
+    let beside = [
+        (PHASE, turn),
+        (PHASE, -turn),
+        (WIDTH, width),
+        (WIDTH, -width),
+    ]
+    .map(|(place, by)| at(place, by));
+    let holds = |i: usize| {
+        let still = |b: &Vec<V3>| (0..3).all(|k| (b[i][k] - here[i][k]).abs() <= least[k]);
+        beside.iter().all(still)
+    };
+    (0..here.len()).map(holds).collect()
+}
+
+impl CutSamples {
+    fn only(&mut self, kept: &[bool]) {
+        let mut each = kept.iter();
+        self.measured.retain(|_| *each.next().unwrap_or(&true));
+        let mut each = kept.iter();
+        self.time.retain(|_| *each.next().unwrap_or(&true));
+        let mut each = kept.iter();
+        self.present
+            .scene
+            .time
+            .retain(|_| *each.next().unwrap_or(&true));
+    }
 }
 
 /// Samples of a record: all, or pieces all along it.
@@ -321,7 +416,7 @@ fn noise(facts: &Facts, account: &Account) -> Vec<f64> {
         let own = median(&differences.collect::<Vec<_>>()) / (0.6745 * 6.0_f64.sqrt());
         let forces = account.cuts.iter().flat_map(|c| &c.data.force);
         let squares: Vec<f64> = forces.map(|f| f[0].hypot(f[1]).hypot(f[2])).collect();
-        let size = LAW * crate::inference::stats::rms(&squares);
+        let size = LAW * crate::ground::stats::rms(&squares);
         facts.sensor_noise_n.unwrap_or(own).max(1e-9).hypot(size)
     };
     (0..3).map(axis).collect()

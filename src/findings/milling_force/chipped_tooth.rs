@@ -16,7 +16,7 @@ pub(super) const EFFECT: Effect<Case> = Effect {
         let one = |tooth: usize| {
             let mut direction = vec![0.0; case.places().len()];
             direction[case.places().shorter(tooth)] = 1e-6;
-            far(case, &direction, MOST).positive()
+            far(case, &direction, MOST, &[]).positive()
         };
         vec![Place::new("tool", (0..teeth).map(one).collect())]
     },

@@ -42,12 +42,15 @@ fn places(case: &Case, first: usize) -> Vec<Place> {
         .iter()
         .fold(1.0, |a: f64, b| a.max(b.abs()));
     let single = |j: usize| direction(&|i| if i == j { size } else { 0.0 });
-    let mut members = vec![member(case, &[direction(&|j| nominal[j])])];
-    members.extend(own.clone().map(|j| member(case, &[single(j)])));
+    let mut members = vec![far(case, &direction(&|j| nominal[j]), MOST, &[])];
+    members.extend(own.clone().map(|j| far(case, &single(j), MOST, &[])));
     members.push(member(case, &own.clone().map(single).collect::<Vec<_>>()));
     members.retain(|m| m.columns.iter().flatten().any(|x| *x != 0.0));
     vec![Place::new("material", members)]
 }
+
+/// No coefficient is farther off, in its own size.
+const MOST: f64 = 3.0;
 
 /// A cause of the process along directions of the vector.
 pub(super) fn member(case: &Case, directions: &[Vec<f64>]) -> Member {
@@ -61,13 +64,14 @@ pub(super) fn member(case: &Case, directions: &[Vec<f64>]) -> Member {
     }
 }
 
-/// A cause of the process along one direction that is not linear: the way to where it fits best.
-pub(super) fn far(case: &Case, direction: &[f64], most: f64) -> Member {
+/// A cause of the process along one direction that is not linear: the way to where it fits best, at most
+/// `most` far, tried from `starts` too.
+pub(super) fn far(case: &Case, direction: &[f64], most: f64, starts: &[f64]) -> Member {
     let shape: Vec<f64> = [PROCESS]
         .into_iter()
         .chain(direction.iter().copied())
         .collect();
-    Member::free(case.aim().secant(case, direction, most)).shaped(&shape)
+    Member::free(case.aim().secant(case, direction, most, starts)).shaped(&shape)
 }
 
 /// What a cause makes of the vector.

@@ -2,8 +2,9 @@
 
 use super::Case;
 use super::setting::SENSOR;
-use crate::findings::engine::Member;
+use crate::findings::engine::{Blamed, Member};
 use crate::findings::table::{Effect, Place};
+use crate::ground::spatial::M3;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "cross_talk",
@@ -20,6 +21,24 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     would_tell: "put a known force on the sensor along all axes",
 };
 
+/// What a cross-talk adds to forces.
+pub(super) fn map(blamed: &Blamed) -> Option<M3> {
+    if blamed.effect != EFFECT.name {
+        return None;
+    }
+    let (from, to, share) = (
+        blamed.shape[1] as usize,
+        blamed.shape[2] as usize,
+        blamed.amounts[0],
+    );
+    let mut map = [[0.0; 3]; 3];
+    map[to][from] = share;
+    if blamed.shape.len() > 3 {
+        map[from][to] = -share;
+    }
+    Some(map)
+}
+
 /// Every pair, and x on y with y on x reversed: a turn about z.
 fn members(case: &Case) -> Vec<Member> {
     let pairs = (0..3).flat_map(|from| {
@@ -27,18 +46,16 @@ fn members(case: &Case) -> Vec<Member> {
             .filter(move |to| *to != from)
             .map(move |to| (from, to))
     });
-    let member = |(from, to): (usize, usize)| {
-        let column = case.column(|c, i, k| match k == to {
-            true => case.simulated(c, i)[from],
-            false => 0.0,
-        });
-        Member::free(column).shaped(&[SENSOR, from as f64, to as f64])
+    let of = |from: usize, to: usize, back: f64| {
+        let mut map = [[0.0; 3]; 3];
+        map[to][from] = 1.0;
+        map[from][to] = back;
+        case.aim().mapped(case, &map)
     };
-    let turned = case.column(|c, i, k| {
-        let f = case.simulated(c, i);
-        [-f[1], f[0], 0.0][k]
-    });
-    let turn = Member::free(turned).shaped(&[SENSOR, 0.0, 1.0, -1.0]);
+    let member = |(from, to): (usize, usize)| {
+        Member::free(of(from, to, 0.0)).shaped(&[SENSOR, from as f64, to as f64])
+    };
+    let turn = Member::free(of(0, 1, -1.0)).shaped(&[SENSOR, 0.0, 1.0, -1.0]);
     let mut all: Vec<Member> = pairs.map(member).chain([turn]).collect();
     all.retain(|m| m.columns[0].iter().any(|x| *x != 0.0));
     all

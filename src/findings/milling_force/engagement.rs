@@ -16,7 +16,9 @@ pub(super) const WIDTH: Effect<Case> = Effect {
         let is_slot = |c: usize| case.cuts()[c].present.scene.cut.side == Side::Slot;
         let cuts: Vec<usize> = (0..case.cuts().len()).filter(|c| !is_slot(*c)).collect();
         let stated = |c: usize| case.cuts()[c].present.scene.cut.width_m;
-        place(case, &cuts, Places::width, &stated)
+        let jumps = !case.cuts().iter().all(|c| c.present.scene.low_pass);
+        let starts: &[f64] = if jumps { &STARTS } else { &[] };
+        place(case, &cuts, Places::width, &stated, starts)
     },
     parameters: |case, blamed| told(case, blamed, Places::width, "width_error"),
     would_tell: "measure the stock before and after the cut",
@@ -29,27 +31,36 @@ pub(super) const DEPTH: Effect<Case> = Effect {
     places: |case| {
         let cuts: Vec<usize> = (0..case.cuts().len()).collect();
         let stated = |c: usize| case.cuts()[c].present.scene.cut.depth_m;
-        place(case, &cuts, Places::depth, &stated)
+        place(case, &cuts, Places::depth, &stated, &[])
     },
     parameters: |case, blamed| told(case, blamed, Places::depth, "depth_error"),
     would_tell: "measure the depth of the slot",
 };
 
+/// Errors of a width from which it is sought where nothing spreads the entry of straight teeth, m.
+const STARTS: [f64; 6] = [-8e-4, -4e-4, -1.5e-4, 1.5e-4, 4e-4, 8e-4];
 /// No cut is farther from what is stated, m.
 const MOST: f64 = 3e-3;
 
 type PlaceOf = fn(&Places, usize) -> usize;
 
-fn place(case: &Case, cuts: &[usize], of: PlaceOf, stated: &dyn Fn(usize) -> f64) -> Vec<Place> {
-    vec![Place::new("tool", members(case, cuts, of, stated))]
-}
-
-/// All by the same, all in proportion to what is stated, each alone.
-pub(super) fn members(
+fn place(
     case: &Case,
     cuts: &[usize],
     of: PlaceOf,
     stated: &dyn Fn(usize) -> f64,
+    starts: &[f64],
+) -> Vec<Place> {
+    vec![Place::new("tool", members(case, cuts, of, stated, starts))]
+}
+
+/// All by the same, all in proportion to what is stated, each alone.
+fn members(
+    case: &Case,
+    cuts: &[usize],
+    of: PlaceOf,
+    stated: &dyn Fn(usize) -> f64,
+    starts: &[f64],
 ) -> Vec<Member> {
     let places = case.places();
     let along = |of_cut: &dyn Fn(usize) -> f64| {
@@ -57,7 +68,8 @@ pub(super) fn members(
         cuts.iter()
             .for_each(|c| direction[of(&places, *c)] = of_cut(*c));
         let largest = direction.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-        far(case, &direction, MOST / largest)
+        let starts = starts.iter().map(|m| m / largest).collect::<Vec<_>>();
+        far(case, &direction, MOST / largest, &starts)
     };
     let single = |own: &usize| along(&|c| if c == *own { 1e-3 } else { 0.0 });
     match cuts {

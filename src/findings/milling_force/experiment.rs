@@ -1,5 +1,6 @@
 //! The statement of a milling-force file for the engine.
 
+use super::aim::Loose;
 use super::{Case, EFFECTS};
 use crate::cutting::wave::Side;
 use crate::experiments::milling_force::RUNOUT;
@@ -24,18 +25,17 @@ impl Experiment for Case {
         "N"
     }
 
-    fn state(&self, _: &[Blamed]) -> Statement {
-        let case = self;
-        Statement {
-            reading: case.reading(),
-            noise: Box::new(White {
-                spread: case.column(|_, _, k| case.noise()[k]),
-                rows: case.worth(),
-            }),
-            nuisances: case.nuisances(),
-            suspects: table::suspects(EFFECTS, case),
-            span: case.span(),
-            splits: case.splits(),
+    fn is_linear(&self) -> bool {
+        false
+    }
+
+    fn state(&self, about: &[Blamed]) -> Statement {
+        match about {
+            [] => Statement {
+                suspects: table::suspects(EFFECTS, self),
+                ..self.statement()
+            },
+            _ => super::anew::about(self, about),
         }
     }
 
@@ -51,7 +51,7 @@ impl Experiment for Case {
         let size = |c: usize| {
             let cut = &self.cuts()[c];
             let own = &missed[3 * cut.first..3 * (cut.first + cut.time.len())];
-            crate::inference::stats::rms(own)
+            crate::ground::stats::rms(own)
         };
         let worst = (0..self.cuts().len()).max_by(|a, b| size(*a).total_cmp(&size(*b)));
         let cut = worst.unwrap_or(0);
@@ -88,34 +88,51 @@ impl Experiment for Case {
 }
 
 impl Case {
+    /// The statement without anybody to blame.
+    pub(super) fn statement(&self) -> Statement {
+        Statement {
+            reading: self.reading(),
+            noise: Box::new(White {
+                spread: self.spread(),
+                rows: self.worth(),
+            }),
+            nuisances: self.nuisances(),
+            suspects: Vec::new(),
+            span: self.span(),
+            splits: self.splits(),
+        }
+    }
+
+    fn nuisances(&self) -> Vec<Nuisance> {
+        let loose = self.loose().into_iter();
+        let column = |l: &Loose| self.along(&self.places().unit(l.place));
+        loose
+            .map(|l| Nuisance {
+                column: column(&l),
+                spread: l.spread,
+            })
+            .collect()
+    }
+
     /// The angle of tooth 1 of every cut, and what is stated only so well.
-    pub(super) fn nuisances(&self) -> Vec<Nuisance> {
+    pub(super) fn loose(&self) -> Vec<Loose> {
         let places = self.places();
-        let along = |place: usize, spread: f64| {
-            let mut direction = vec![0.0; places.len()];
-            direction[place] = 1.0;
-            Nuisance {
-                column: self.along(&direction),
-                spread,
-            }
-        };
-        let mut all: Vec<Nuisance> = (0..6)
-            .map(|j| along(j, self.coefficient_spread(j)))
+        let loose = |place: usize, spread: f64| Loose { place, spread };
+        let mut all: Vec<Loose> = (0..6)
+            .map(|j| loose(j, self.coefficient_spread(j)))
             .collect();
         for (c, cut) in self.cuts().iter().enumerate() {
-            all.push(Nuisance {
-                column: self.phase(c),
-                spread: f64::INFINITY,
-            });
-            all.push(along(places.speed(c), SPEED));
+            all.push(loose(places.phase(c), f64::INFINITY));
+            all.push(loose(places.speed(c), SPEED));
             if cut.present.scene.cut.side != Side::Slot {
-                all.push(along(places.width(c), WIDTH));
+                all.push(loose(places.width(c), WIDTH));
             }
         }
         if let Some(stated) = self.file().facts.runout_m.filter(|_| places.teeth > 1) {
-            all.extend([0, 1].map(|k| along(RUNOUT + k, RUNOUT_SHARE * stated)));
+            all.extend([0, 1].map(|k| loose(RUNOUT + k, RUNOUT_SHARE * stated)));
         }
-        all.retain(|n| n.spread > 0.0 && n.column.iter().any(|x| *x != 0.0));
+        let shows = |l: &Loose| self.along(&places.unit(l.place)).iter().any(|x| *x != 0.0);
+        all.retain(|l| l.spread > 0.0 && shows(l));
         all
     }
 

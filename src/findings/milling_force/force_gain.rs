@@ -3,8 +3,9 @@
 
 use super::Case;
 use super::setting::SENSOR;
-use crate::findings::engine::Member;
+use crate::findings::engine::{Blamed, Member};
 use crate::findings::table::{Effect, Place};
+use crate::ground::spatial::M3;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "force_gain",
@@ -23,10 +24,20 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 /// Sites of the axes.
 pub(super) const SITES: [&str; 3] = ["sensor-x", "sensor-y", "sensor-z"];
 
+/// What a gain adds to forces.
+pub(super) fn map(blamed: &Blamed) -> Option<M3> {
+    if blamed.effect != EFFECT.name {
+        return None;
+    }
+    let (first, count) = (blamed.shape[1] as usize, blamed.shape[2] as usize);
+    let mut map = [[0.0; 3]; 3];
+    (first..first + count).for_each(|k| map[k][k] = blamed.amounts[0]);
+    Some(map)
+}
+
 fn member(case: &Case, axes: &[usize]) -> Member {
-    let gain = |c: usize, i: usize, k: usize| match axes.contains(&k) {
-        true => case.simulated(c, i)[k],
-        false => 0.0,
-    };
-    Member::free(case.column(gain)).shaped(&[SENSOR, axes[0] as f64, axes.len() as f64])
+    let mut map = [[0.0; 3]; 3];
+    axes.iter().for_each(|k| map[*k][*k] = 1.0);
+    let column = case.aim().mapped(case, &map);
+    Member::free(column).shaped(&[SENSOR, axes[0] as f64, axes.len() as f64])
 }

@@ -2,7 +2,7 @@
 
 use super::case::CutSamples;
 use crate::fit::cut_force::{Account, CutFit};
-use crate::inference::stats::median;
+use crate::ground::stats::median;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;

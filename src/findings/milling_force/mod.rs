@@ -1,6 +1,7 @@
 //! What is wrong with a cut, its tool or the dynamometer: wave forms of force less the simulation.
 
 mod aim;
+mod anew;
 mod case;
 mod chatter;
 mod chipped_tooth;
@@ -11,6 +12,7 @@ mod experiment;
 mod force_gain;
 mod lines;
 mod revolution;
+mod ringing;
 mod runout;
 mod sensor_offset;
 mod sensor_resonance;

@@ -60,6 +60,16 @@ impl Revolution {
             .collect()
     }
 
+    /// Line of an order of the spindle and an axis: the force is the sum of its real parts, N.
+    pub fn line(&self, order: usize, axis: usize) -> Complex64 {
+        self.lines[axis][order] * (2.0 / GRID as f64)
+    }
+
+    /// Frequency of the spindle, Hz.
+    pub fn spindle_hz(&self) -> f64 {
+        self.spindle_hz
+    }
+
     fn added(&self, i: usize, hz: f64, damping: f64) -> Complex64 {
         let order = match i < GRID / 2 {
             true => i as f64,
@@ -68,10 +78,14 @@ impl Revolution {
         if i == GRID / 2 {
             return Complex64::new(0.0, 0.0);
         }
-        let u = order * self.spindle_hz / hz;
-        let one = Complex64::new(1.0, 0.0);
-        one / Complex64::new(1.0 - u * u, 2.0 * damping * u) - one
+        magnified(order * self.spindle_hz, [hz, damping]) - 1.0
     }
+}
+
+/// What a resonance (Hz, damping ratio) makes of a line: 1/(1 - u² + 2jDu).
+pub fn magnified(line_hz: f64, [hz, damping]: [f64; 2]) -> Complex64 {
+    let u = line_hz / hz;
+    Complex64::new(1.0 - u * u, 2.0 * damping * u).inv()
 }
 
 /// Between the places of a revolution.

@@ -1,23 +1,18 @@
-//! The dynamometer rings: a resonance of the second order between the force and its reading. Frequencies
-//! are tried on a grid, then ever closer about the one that was found.
+//! The dynamometer rings: a resonance of the second order between the force and its reading. It is found in
+//! the lines of the tooth passing, then brought closer while what is uncertain moves along.
 
 use super::Case;
 use super::revolution::Revolution;
+use super::ringing::{Lines, MOST_DAMPING, Ringing};
 use super::setting::SENSOR;
 use crate::findings::engine::Member;
 use crate::findings::table::{Effect, Place};
-use std::f64::consts::TAU;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "sensor_resonance",
     summary: "The sensor rings: it magnifies forces near its own frequency.",
     mechanism: "resonance",
-    places: |case| {
-        let revolutions: Vec<Revolution> = (0..case.cuts().len())
-            .map(|c| Revolution::new(&case.cuts()[c].present, case.places(), c, &case.offset))
-            .collect();
-        vec![Place::new("sensor", members(case, &revolutions))]
-    },
+    places: |case| vec![Place::new("sensor", members(case))],
     parameters: |_, blamed| {
         let mut told = vec![
             ("frequency", blamed.shape[2], "Hz"),
@@ -32,57 +27,71 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     would_tell: "strike the sensor with a hammer while the spindle stands",
 };
 
-/// Frequencies of the first grid.
-const STEPS: usize = 24;
-/// Damping ratios there.
-const DAMPING: [f64; 2] = [0.02, 0.08];
 /// Shares by which it is brought closer, one after the other.
-const CLOSER: [f64; 5] = [0.06, 0.03, 0.015, 0.006, 0.003];
+const CLOSER: [f64; 3] = [0.006, 0.003, 0.0015];
 /// Steps of the frequency, in these shares.
-const STEPS_ABOUT: [f64; 5] = [-2.0, -1.0, 0.0, 1.0, 2.0];
+const STEPS_ABOUT: [f64; 3] = [-1.0, 0.0, 1.0];
 /// Steps of the damping ratio, in these shares.
-const SOFTER: [f64; 3] = [-10.0, 0.0, 12.0];
+const SOFTER: [f64; 3] = [-12.0, 0.0, 12.0];
+/// Rounds in which what is uncertain moves along.
+const ROUNDS: usize = 3;
+/// Axes that are looked at further.
+const TRIED: usize = 2;
 /// All axes.
 const ALL: usize = 3;
 
-/// The best of the grid for every axis and for all, brought closer.
-fn members(case: &Case, revolutions: &[Revolution]) -> Vec<Member> {
-    let grid = grid(case);
-    let best = |axis: usize, tried: &[[f64; 2]]| {
-        let each = tried
-            .iter()
-            .map(|at| (*at, fitness(case, revolutions, axis, *at)));
-        each.reduce(|a, b| if b.1 > a.1 { b } else { a })
-    };
-    let mut members = Vec::new();
-    for axis in 0..=ALL {
-        let Some(mut found) = best(axis, &grid) else {
-            continue;
-        };
-        for width in CLOSER {
-            let about = STEPS_ABOUT.iter().flat_map(|f| {
-                SOFTER.map(|d| {
-                    [
-                        found.0[0] * (1.0 + width * f),
-                        found.0[1] * (1.0 + d * width).max(0.2),
-                    ]
-                })
-            });
-            let about: Vec<[f64; 2]> = about.map(|[hz, d]| [hz, d.clamp(0.002, 0.7)]).collect();
-            found = best(axis, &about)
-                .filter(|b| b.1 > found.1)
-                .unwrap_or(found);
-        }
-        let shape = [SENSOR, axis as f64, found.0[0], found.0[1]];
-        let column = column(case, revolutions, axis, found.0);
-        if column.iter().any(|x| *x != 0.0) {
-            members.push(Member::free(column).positive().shaped(&shape));
-        }
-    }
-    members
+/// The best of every axis and of all, brought closer.
+fn members(case: &Case) -> Vec<Member> {
+    let lines = Lines::of(case, &revolutions(case, &vec![0.0; case.places().len()]));
+    let mut all: Vec<(usize, Ringing)> = (0..=ALL).map(|axis| (axis, lines.best(axis))).collect();
+    all.sort_by(|a, b| a.1.misfit.total_cmp(&b.1.misfit));
+    all.iter()
+        .take(TRIED)
+        .map(|(axis, ringing)| member(case, &lines, *axis, ringing))
+        .filter(|m| m.columns[0].iter().any(|x| *x != 0.0))
+        .collect()
 }
 
-fn column(case: &Case, revolutions: &[Revolution], axis: usize, at: [f64; 2]) -> Vec<f64> {
+fn revolutions(case: &Case, to: &[f64]) -> Vec<Revolution> {
+    let there: Vec<f64> = case.offset.iter().zip(to).map(|(o, d)| o + d).collect();
+    let one = |c: usize| Revolution::new(&case.cuts()[c].present, case.places(), c, &there);
+    (0..case.cuts().len()).map(one).collect()
+}
+
+fn member(case: &Case, lines: &Lines, axis: usize, ringing: &Ringing) -> Member {
+    let (aim, places) = (case.aim(), case.places());
+    let mut to = vec![0.0; places.len()];
+    for (c, turn) in ringing.turns.iter().enumerate() {
+        to[places.phase(c)] = *turn;
+    }
+    let mut at = ringing.at;
+    let highest = lines.highest_hz();
+    let mut column = less(&whole(case, axis, at, &to), &case.along(&to));
+    for _ in 0..ROUNDS {
+        let amount = aim.amounts(std::slice::from_ref(&column))[0].clamp(0.2, 1.5);
+        to = aim.uncertain(case, amount, &column);
+        let (own, here) = (
+            revolutions(case, &to),
+            less(&case.step(&to), &case.along(&to)),
+        );
+        at = closer(case, axis, at, &own, &here);
+        at[0] = at[0].min(highest);
+        column = sum(&rung(case, axis, at, &own), &here);
+    }
+    Member::free(column)
+        .positive()
+        .shaped(&[SENSOR, axis as f64, at[0], at[1]])
+}
+
+/// What a step of what is uncertain and the ringing there add together.
+fn whole(case: &Case, axis: usize, at: [f64; 2], to: &[f64]) -> Vec<f64> {
+    sum(
+        &rung(case, axis, at, &revolutions(case, to)),
+        &case.step(to),
+    )
+}
+
+fn rung(case: &Case, axis: usize, at: [f64; 2], revolutions: &[Revolution]) -> Vec<f64> {
     let rung: Vec<_> = revolutions.iter().map(|r| r.rung(at)).collect();
     case.column(|c, i, k| match axis == ALL || axis == k {
         true => rung[c][i][k],
@@ -90,34 +99,30 @@ fn column(case: &Case, revolutions: &[Revolution], axis: usize, at: [f64; 2]) ->
     })
 }
 
-/// How much a resonance explains, where it magnifies.
-fn fitness(case: &Case, revolutions: &[Revolution], axis: usize, at: [f64; 2]) -> f64 {
-    let column = column(case, revolutions, axis, at);
-    match case.aim().amounts(std::slice::from_ref(&column))[0] > 0.0 {
-        true => case.aim().gain(&column),
-        false => 0.0,
+/// A resonance a little better than this one.
+fn closer(case: &Case, axis: usize, at: [f64; 2], own: &[Revolution], here: &[f64]) -> [f64; 2] {
+    let fitness = |at: [f64; 2]| case.aim().gain(&sum(&rung(case, axis, at, own), here));
+    let mut best = (at, fitness(at));
+    for width in CLOSER {
+        let ([hz, damping], _) = best;
+        for f in STEPS_ABOUT {
+            for d in SOFTER {
+                let damping = (damping * (1.0 + d * width)).clamp(0.002, MOST_DAMPING);
+                let tried = [hz * (1.0 + width * f), damping];
+                let own = fitness(tried);
+                if own > best.1 {
+                    best = (tried, own);
+                }
+            }
+        }
     }
+    best.0
 }
 
-fn grid(case: &Case) -> Vec<[f64; 2]> {
-    let [low, high] = range(case);
-    let hz = |i: usize| low * (high / low).powf(i as f64 / (STEPS - 1) as f64);
-    (0..STEPS)
-        .flat_map(|i| DAMPING.iter().map(move |d| [hz(i), *d]))
-        .collect()
+fn sum(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a + b).collect()
 }
 
-/// From the slowest spindle to what the samples can show, Hz.
-fn range(case: &Case) -> [f64; 2] {
-    let spindles = case
-        .cuts()
-        .iter()
-        .map(|c| c.present.scene.cut.spindle_rad_s / TAU);
-    let low = spindles.fold(f64::INFINITY, f64::min);
-    let steps = case
-        .cuts()
-        .iter()
-        .flat_map(|c| c.time.windows(2).map(|w| w[1] - w[0]));
-    let shortest = steps.fold(f64::INFINITY, f64::min).max(1e-9);
-    [1.5 * low, (0.5 / shortest).clamp(3.0 * low, 200.0 * low)]
+fn less(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
 }

@@ -1,6 +1,6 @@
 //! What of the process may differ from what is stated, as one vector: coefficients (SI), runout along
 //! tooth 1 and a quarter turn on (m), how much each tooth is shorter (m), then of every cut its width (m),
-//! its depth (m) and its relative spindle speed.
+//! its depth (m), its relative spindle speed and the angle of tooth 1 at its first sample (rad).
 
 use crate::cutting::wave::Side;
 use crate::experiments::milling_force::{CutScene, PHASE, RUNOUT, SPEED, UNKNOWNS, WIDTH};
@@ -14,6 +14,9 @@ pub(super) const SENSOR: f64 = 0.0;
 /// Steps of forward differences: length of a tooth, width, depth, m.
 const STEPS: [f64; 3] = [1e-6, 2e-5, 1e-5];
 
+/// Places that every cut has of its own.
+const OF_CUT: usize = 4;
+
 /// Places in the vector.
 #[derive(Debug, Clone, Copy)]
 pub struct Places {
@@ -26,7 +29,7 @@ pub struct Places {
 impl Places {
     /// Length of the vector.
     pub fn len(&self) -> usize {
-        8 + self.teeth + 3 * self.cuts
+        8 + self.teeth + OF_CUT * self.cuts
     }
 
     /// How much a tooth is shorter.
@@ -36,7 +39,7 @@ impl Places {
 
     /// Width of a cut.
     pub fn width(&self, cut: usize) -> usize {
-        8 + self.teeth + 3 * cut
+        8 + self.teeth + OF_CUT * cut
     }
 
     /// Depth of a cut.
@@ -49,20 +52,30 @@ impl Places {
         self.width(cut) + 2
     }
 
+    /// Angle of tooth 1 of a cut.
+    pub fn phase(&self, cut: usize) -> usize {
+        self.width(cut) + 3
+    }
+
+    /// A step of one unit at a place.
+    pub fn unit(&self, place: usize) -> Vec<f64> {
+        let mut unit = vec![0.0; self.len()];
+        unit[place] = 1.0;
+        unit
+    }
+
     /// Places that act on a cut.
     pub fn of_cut(&self, cut: usize) -> impl Iterator<Item = usize> {
-        (0..8 + self.teeth).chain(self.width(cut)..self.width(cut) + 3)
+        (0..8 + self.teeth).chain(self.width(cut)..self.width(cut) + OF_CUT)
     }
 }
 
-/// One cut at a setting: its forces and their slopes over the vector and over the angle of tooth 1.
+/// One cut at a setting: its forces and their slopes over the vector.
 pub struct Slopes {
     /// Forces at the samples, N.
     pub force: Vec<V3>,
     /// Per place that acts on this cut, in the order of [`Places::of_cut`].
     pub slopes: Vec<Vec<V3>>,
-    /// Over the angle of tooth 1, N/rad.
-    pub phase: Vec<V3>,
 }
 
 /// A cut as it is simulated before anything is blamed.
@@ -77,10 +90,12 @@ pub struct Present {
 }
 
 impl Present {
-    /// The scene where the vector differs by `offset` from what is stated. The speed stays what it is.
+    /// The scene where the vector differs by `offset` from what is stated.
     pub fn moved(&self, places: Places, cut: usize, offset: &[f64]) -> (CutScene, [f64; UNKNOWNS]) {
         let (mut scene, mut p) = (self.scene.clone(), self.p);
-        (0..8.min(RUNOUT + 2)).for_each(|i| p[i] += offset[i]);
+        (0..RUNOUT + 2).for_each(|i| p[i] += offset[i]);
+        p[PHASE] += offset[places.phase(cut)];
+        p[SPEED] += (offset[places.speed(cut)] - self.speed) / (1.0 + self.speed);
         scene.shorter = (0..places.teeth)
             .map(|j| offset[places.shorter(j)])
             .collect();
@@ -118,8 +133,8 @@ impl Present {
                 .map(|v| v.map(|x| x / stated))
                 .collect(),
         );
+        slopes.push(at.slopes[PHASE].clone());
         Slopes {
-            phase: at.slopes[PHASE].clone(),
             force: at.force,
             slopes,
         }

@@ -25,7 +25,49 @@ pub fn fitted(file: &MillingForce) -> (Account, Vec<f64>) {
         facts.spindle_rad_s *= 1.0 + error;
         speeds.push(error);
     }
-    (identify(&[turned]), speeds)
+    let account = identify(std::slice::from_ref(&turned));
+    match level(&mut turned, &account) {
+        true => (identify(&[turned]), speeds),
+        false => (account, speeds),
+    }
+}
+
+/// A trend of what is left that is this many times its standard deviation is the sensor's zero.
+const TREND: f64 = 8.0;
+
+/// Takes the straight trends of what a fit leaves from the records; true if there was any: the zero of a
+/// sensor that wanders would else be taken for the teeth.
+fn level(file: &mut MillingForce, account: &Account) -> bool {
+    let mut any = false;
+    for (record, fit) in file.records.iter_mut().zip(&account.cuts) {
+        let time = &fit.data.scene.time;
+        let first = record.time[fit.data.settling.min(record.time.len() - 1)];
+        for k in 0..3 {
+            let left: Vec<f64> = fit.residual.iter().map(|r| r[k]).collect();
+            let (mean, slope, middle) = line(time, &left);
+            let half = 0.5 * (time.last().unwrap_or(&0.0) - time[0]);
+            let scatter = crate::ground::stats::rms(&left) / (left.len() as f64).sqrt();
+            if mean.abs().max((slope * half).abs()) < TREND * scatter {
+                continue;
+            }
+            any = true;
+            for (t, f) in record.time.iter().zip(&mut record.force) {
+                f[k] -= mean + slope * (t - first - middle);
+            }
+        }
+    }
+    any
+}
+
+/// Mean, slope and middle time of the straight line through numbers.
+fn line(time: &[f64], values: &[f64]) -> (f64, f64, f64) {
+    let count = time.len().max(1) as f64;
+    let middle = time.iter().sum::<f64>() / count;
+    let mean = values.iter().sum::<f64>() / count;
+    let each = time.iter().zip(values);
+    let cross: f64 = each.map(|(t, v)| (t - middle) * (v - mean)).sum();
+    let square: f64 = time.iter().map(|t| (t - middle).powi(2)).sum();
+    (mean, cross / square.max(f64::MIN_POSITIVE), middle)
 }
 
 /// Relative error of a stated speed, from the height of the lines of the tooth passing.

@@ -1,9 +1,11 @@
 //! The set-ups to choose from: poses within the limits of the joints, the same on every machine.
 
 use super::sights::{Reach, Seat, Setting};
+use super::skeleton::Skeleton;
 use crate::ground::random::Random;
 use crate::ground::spatial::norm;
 use crate::ground::units::DEGREE;
+use crate::measurement::rig::Rig;
 use crate::motion::kinematics::forward_kinematics;
 use crate::motion::{Work, rigid};
 use crate::robot::Robot;
@@ -12,6 +14,8 @@ use crate::robot::Robot;
 const POSES: usize = 120;
 /// Poses drawn: some reach into the floor or the robot itself.
 const DRAWN: usize = 2000;
+/// Poses drawn where the tool must stay in a box: most of them miss it.
+const DRAWN_IN_A_BOX: usize = 100_000;
 /// Poses kept for being the most stretched, and for being the most folded.
 const EXTREME: usize = 10;
 /// Angles are round numbers, deg.
@@ -21,15 +25,16 @@ const FLOOR: f64 = 0.2;
 /// The tool stays this far from the first axis, m.
 const COLUMN: f64 = 0.6;
 
-/// Every set-up to choose from; `measured`: poses that were measured already, rad.
-pub fn candidates(robot: &Robot, measured: &[Vec<f64>]) -> Vec<Setting> {
+/// Every set-up to choose from that the laboratory can build; `measured`: poses that were measured already, rad.
+pub fn candidates(robot: &Robot, measured: &[Vec<f64>], rig: &Rig) -> Vec<Setting> {
     let own = measured.iter().filter(|row| row.len() == robot.dof());
-    let poses = own.cloned().chain(poses(robot));
-    let seats = Seat::of(robot);
+    let poses = own.cloned().chain(poses(robot, rig));
+    let mut seats = Seat::of(robot);
+    seats.retain(|seat| rig.sees(&seat.name()));
     let mut settings = Vec::new();
     for angles in poses {
-        for reach in Reach::ALL {
-            for direction in 0..3 {
+        for reach in reaches(robot, &angles, rig) {
+            for direction in (0..3).filter(|direction| rig.pulls(*direction)) {
                 settings.extend(seats.iter().map(|seat| Setting {
                     angles: angles.clone(),
                     reach,
@@ -42,17 +47,39 @@ pub fn candidates(robot: &Robot, measured: &[Vec<f64>]) -> Vec<Setting> {
     settings
 }
 
+/// The tools with which the load acts where the laboratory can bring one.
+fn reaches(robot: &Robot, angles: &[f64], rig: &Rig) -> Vec<Reach> {
+    let tip = |reach: Reach| {
+        let setting = Setting {
+            angles: angles.to_vec(),
+            reach,
+            direction: 0,
+            seat: Seat::Tool,
+        };
+        Skeleton::of(robot, &setting).tip()
+    };
+    let bars = rig.bars.unwrap_or(true);
+    let all = Reach::ALL.into_iter();
+    let all = all.filter(|reach| bars || *reach == Reach::Mounted);
+    all.filter(|reach| rig.is_free() || rig.reaches(tip(*reach)))
+        .collect()
+}
+
 /// Stretched, folded, and anything between, the wrist turned at random.
-fn poses(robot: &Robot) -> Vec<Vec<f64>> {
+fn poses(robot: &Robot, rig: &Rig) -> Vec<Vec<f64>> {
     let chain = rigid(robot);
     let mut work = Work::new(&chain);
     let random = &mut Random::new(6);
     let mut found: Vec<(f64, Vec<f64>)> = Vec::new();
-    for _ in 0..DRAWN {
+    let drawn = if rig.is_free() { DRAWN } else { DRAWN_IN_A_BOX };
+    for _ in 0..drawn {
         let angles = draw(robot, random);
         let tip = forward_kinematics(&chain, &mut work, &angles).point;
-        if tip[2] > FLOOR && tip[0].hypot(tip[1]) > COLUMN {
+        if tip[2] > FLOOR && tip[0].hypot(tip[1]) > COLUMN && rig.reaches(tip) {
             found.push((norm(tip), angles));
+        }
+        if found.len() == DRAWN {
+            break;
         }
     }
     let middle = found.len().min(POSES.saturating_sub(2 * EXTREME));

@@ -7,6 +7,7 @@
 mod belief;
 mod candidates;
 mod choose;
+mod document;
 mod sights;
 mod skeleton;
 mod unknowns;
@@ -14,6 +15,7 @@ mod unknowns;
 pub use belief::Belief;
 pub use candidates::candidates;
 pub use choose::{Chosen, Tells};
+pub use document::SetupDocument;
 pub use sights::{FOOT_LEVER, Noise, Reach, Seat, Setting, Sights};
 pub use skeleton::Skeleton;
 pub use unknowns::Unknowns;
@@ -22,6 +24,7 @@ use crate::experiments::workspace::Response;
 use crate::fit::axis_tests::AxisTest;
 use crate::fit::force_steps::setups;
 use crate::fit::weighing::Weighing;
+use crate::measurement::rig::Rig;
 use crate::measurement::workspace_test::WorkspaceTest;
 use crate::robot::Robot;
 
@@ -50,6 +53,7 @@ pub struct Desk {
     /// How readings scatter.
     pub noise: Noise,
     points: Vec<Vec<f64>>,
+    rig: Rig,
 }
 
 impl Desk {
@@ -64,15 +68,23 @@ impl Desk {
         Self {
             noise: Noise::of(points),
             points: points.map_or_else(Vec::new, |test| test.facts.joint_angles.clone()),
+            rig: Rig::default(),
             unknowns,
             belief,
         }
     }
 
+    /// The same, for a laboratory that can build only this.
+    #[must_use]
+    pub fn within(mut self, rig: Rig) -> Self {
+        self.rig = rig;
+        self
+    }
+
     /// The `count` set-ups that tell most, each chosen knowing those before it. `open`: pairs of
     /// places that a diagnosis could not tell apart; separating them counts more.
     pub fn plan(&self, count: usize, open: &[(String, String)]) -> Plan {
-        let settings = candidates(&self.unknowns.robot, &self.points);
+        let settings = candidates(&self.unknowns.robot, &self.points, &self.rig);
         let sights = Sights::of(&self.unknowns);
         let rows = sights.all(&settings, &self.noise, &self.belief.mean);
         let open = self.belief.pairs(open);

@@ -1,7 +1,7 @@
 //! The statement of a screw test for the engine.
 
-use super::{Case, EFFECTS};
-use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, White};
+use super::{Case, EFFECTS, wear_zone};
+use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, Suspect, White};
 use crate::findings::table;
 use crate::fit::screw::positions::in_mm;
 use crate::sheet::number::fixed;
@@ -11,7 +11,12 @@ impl Experiment for Case {
         "m"
     }
 
-    fn state(&self, _: &[Blamed]) -> Statement {
+    /// The place of a worn zone is not linear.
+    fn is_linear(&self) -> bool {
+        false
+    }
+
+    fn state(&self, about: &[Blamed]) -> Statement {
         let (noise, worth) = self.noise;
         Statement {
             reading: self.deviation.clone(),
@@ -24,7 +29,7 @@ impl Experiment for Case {
                 column: vec![1.0; self.rows()],
                 spread: f64::INFINITY,
             }],
-            suspects: table::suspects(EFFECTS, self),
+            suspects: self.suspects(about),
             span: self.span(),
             splits: self.splits(),
         }
@@ -64,6 +69,18 @@ impl Experiment for Case {
 }
 
 impl Case {
+    /// Everybody, a worn zone that was found with its neighbours in place and width.
+    fn suspects(&self, about: &[Blamed]) -> Vec<Suspect> {
+        let mut suspects = table::suspects(EFFECTS, self);
+        for suspect in &mut suspects {
+            let found = about.iter().find(|b| b.effect == suspect.effect);
+            if let Some(zone) = found.filter(|b| b.effect == wear_zone::EFFECT.name) {
+                suspect.members = wear_zone::about(self, &zone.shape);
+            }
+        }
+        suspects
+    }
+
     /// Any smooth error over the travel, over the way forth and back, and over the order of the readings.
     fn span(&self) -> Vec<Vec<f64>> {
         let u = table::unit_range(&self.at);

@@ -148,7 +148,7 @@ fn noise(test: &ScrewTest, deviation: &[f64]) -> (f64, f64) {
 fn centre<'a>(values: &mut [f64], groups: impl Iterator<Item = &'a Vec<usize>>) {
     for group in groups {
         let own: Vec<f64> = group.iter().map(|i| values[*i]).collect();
-        let middle = crate::signal::pulse::median(&own);
+        let middle = crate::signal::outliers::median(&own);
         group.iter().for_each(|i| values[*i] -= middle);
     }
 }

@@ -29,14 +29,33 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 };
 
 /// Half widths over half of the travel.
-const WIDTHS: [f64; 5] = [0.08, 0.14, 0.22, 0.33, 0.5];
+const WIDTHS: [f64; 6] = [0.05, 0.08, 0.14, 0.22, 0.33, 0.5];
 /// Steepness of the ends: 2 is a bell, 8 nearly a box.
 const POWERS: [f64; 2] = [2.0, 8.0];
+/// Steps about a zone that was found: of its centre, in half widths, of its width and its steepness, factors.
+const SHIFTS: [f64; 7] = [-0.4, -0.15, -0.05, 0.0, 0.05, 0.15, 0.4];
+const STRETCHES: [f64; 5] = [0.75, 0.92, 1.0, 1.09, 1.33];
+const STEEPER: [f64; 3] = [0.8, 1.0, 1.25];
+
+/// Shapes about one that was found: a strong zone leaves more than noise where its place is not met.
+pub(super) fn about(case: &Case, shape: &[f64]) -> Vec<Member> {
+    let [centre, width, power] = [shape[0], shape[1], shape[2]];
+    let mut members = Vec::new();
+    for shift in SHIFTS {
+        for stretch in STRETCHES {
+            let place = centre + shift * width;
+            let steep = STEEPER.map(|s| member(case, place, width * stretch, power * s));
+            members.extend(steep);
+        }
+    }
+    members
+}
 
 fn members(case: &Case) -> Vec<Member> {
     let mut members = Vec::new();
     for width in WIDTHS {
-        let count = (1.6 / width).ceil() as i32;
+        // places half a width apart: a zone between two of them still looks like a zone
+        let count = (3.6 / width).ceil() as i32;
         for k in 0..=count {
             let centre = case.half * (-0.9 + 1.8 * f64::from(k) / f64::from(count));
             members.extend(

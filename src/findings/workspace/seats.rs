@@ -86,7 +86,8 @@ impl Seats {
         };
         let library = seen_by(Sight::Workspace);
         for cause in library.chain(STRANGERS.iter().copied()) {
-            let sites = cause.sites_at(scene.robot, scene.points.len());
+            let mut sites = cause.sites_at(scene.robot, scene.points.len());
+            sites.retain(|site| was_measured(site, shapes));
             let ready = |site: &String| cause.readiness(scene.robot, site);
             let total: f64 = sites.iter().map(ready).sum();
             for site in sites {
@@ -106,12 +107,18 @@ impl Seats {
     ) {
         let (seat, first) = (self.seats.len(), self.columns.len());
         let scales = cause.scale(scene.robot, &site);
-        let modes = modes(cause, scene.robot, &site, scene.points);
+        let measured = measured(shapes);
+        let modes = modes(cause, scene.robot, &site, (scene.points, &measured));
         for (index, amount) in cause.card().amounts.iter().enumerate() {
             let scale = scales[index].abs().max(1e-12);
             let mut pattern = scene.pattern(cause, &site, (index, scale), shapes);
             if let Some(modes) = &modes {
-                pattern.scale_points(|p| modes[(p, index)]);
+                let at = |p: usize| {
+                    measured
+                        .binary_search(&p)
+                        .map_or(0.0, |row| modes[(row, index)])
+                };
+                pattern.scale_points(at);
             }
             self.columns.push(Column {
                 pattern,
@@ -199,6 +206,23 @@ impl Seats {
         }
         total
     }
+}
+
+/// Points that were loaded, ascending.
+fn measured(shapes: &Shapes) -> Vec<usize> {
+    let mut points: Vec<usize> = shapes.setups.iter().map(|s| s.point).collect();
+    points.sort_unstable();
+    points.dedup();
+    points
+}
+
+/// Whether a site is none of the points, or one that was loaded: nobody else can be blamed, and columns
+/// do not grow with points that were left out.
+fn was_measured(site: &str, shapes: &Shapes) -> bool {
+    let number = site
+        .strip_prefix("point")
+        .and_then(|n| n.parse::<usize>().ok());
+    number.is_none_or(|n| shapes.setups.iter().any(|s| s.point + 1 == n))
 }
 
 const AGAIN: f64 = -2.5;

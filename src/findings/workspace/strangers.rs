@@ -201,18 +201,20 @@ impl Cause for Wave {
 /// Within this angle a wave keeps its value, rad.
 const ALIKE: f64 = 0.2;
 
-/// How a cause acts at every point, amount by amount, if not everywhere alike.
+/// How a cause acts at the points `measured` (indices into `points`), amount by amount, if not everywhere
+/// alike.
 pub fn modes(
     cause: &dyn Cause,
     robot: &Robot,
     site: &str,
-    points: &[Vec<f64>],
+    (points, measured): (&[Vec<f64>], &[usize]),
 ) -> Option<DMatrix<f64>> {
     (cause.card().name == WAVE.name).then_some(())?;
     let joint = robot.joints.iter().position(|j| j.name == site)?;
-    let n = points.len();
+    let n = measured.len();
+    let angle = |i: usize| points[measured[i]][joint];
     let kernel = DMatrix::from_fn(n, n, |i, j| {
-        (-0.5 * ((points[i][joint] - points[j][joint]) / ALIKE).powi(2)).exp()
+        (-0.5 * ((angle(i) - angle(j)) / ALIKE).powi(2)).exp()
     });
     let eigen = kernel.symmetric_eigen();
     let mut order: Vec<usize> = (0..n).collect();

@@ -5,7 +5,7 @@ use crate::fit::suitability::{Doubt, Weight};
 use crate::measurement::workspace_test::WorkspaceTest;
 
 /// Points that are diagnosed at most.
-pub const MOST_POINTS: usize = 24;
+pub const MOST_POINTS: usize = 40;
 
 /// The test with at most [`MOST_POINTS`] of its points, evenly spread over the file, and what to say of that.
 pub fn thinned(test: &WorkspaceTest) -> Option<(WorkspaceTest, Doubt)> {
@@ -40,4 +40,48 @@ pub fn thinned(test: &WorkspaceTest) -> Option<(WorkspaceTest, Doubt)> {
         left_out: test.left_out,
     };
     Some((thin, doubt))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::findings::workspace::patterns::Scene;
+    use crate::findings::workspace::seats::Seats;
+    use crate::fit::force_shapes::Shapes;
+    use crate::measurement::table::Table;
+    use std::path::Path;
+
+    fn test_of(points: usize) -> WorkspaceTest {
+        let angle = |p: usize| 40.0 * (p as f64 / points as f64 - 0.5);
+        let rows: String = (0..points)
+            .map(|p| format!("#   [{0}, -85.0, 95.0, 0.0, 75.0, {0}],\n", angle(p)))
+            .collect();
+        let mut text = format!(
+            "# kind = \"workspace\"\n# robot = \"kr210\"\n# joint_angles_deg = [\n{rows}# ]\npoint,direction,cycle,force_N,dx_mm,dy_mm,dz_mm\n"
+        );
+        for (p, d) in (1..=points).flat_map(|p| [(p, "x"), (p, "y"), (p, "z")]) {
+            for force in [0.0, 300.0, 0.0, -300.0] {
+                text += &format!("{p},{d},1,{force},{0},{0},{0}\n", 1e-3 * force);
+            }
+        }
+        let table = Table::from_reader(Path::new("w.csv"), text.as_bytes(), text.len() as u64);
+        WorkspaceTest::from_table(table.unwrap()).unwrap()
+    }
+
+    /// Rows and columns of the evidence: what memory and time go with.
+    fn work(points: usize) -> (usize, usize) {
+        let whole = test_of(points);
+        let thin = thinned(&whole).map_or(whole, |(thin, _)| thin);
+        let robot = crate::robot::load("kr210", None).unwrap().robot;
+        let shapes = Shapes::of(&thin);
+        let seats = Seats::of(&Scene::of(&robot, &thin.facts.joint_angles), &shapes);
+        (shapes.setups.len(), seats.columns.len())
+    }
+
+    #[test]
+    fn the_work_does_not_grow_beyond_the_limit() {
+        let at_the_limit = work(MOST_POINTS);
+        assert_eq!(at_the_limit.0, 3 * MOST_POINTS);
+        assert_eq!(work(12 * MOST_POINTS), at_the_limit);
+    }
 }

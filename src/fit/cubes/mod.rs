@@ -3,6 +3,7 @@
 
 pub mod relative;
 pub mod solved;
+pub mod store;
 pub mod together;
 
 use super::parameter::{Identified, Status, Z95};

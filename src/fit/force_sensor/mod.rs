@@ -7,6 +7,7 @@ pub mod model;
 pub mod next;
 pub mod poses;
 pub mod remainder;
+mod sparse;
 pub mod statics;
 pub mod store;
 

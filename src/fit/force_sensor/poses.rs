@@ -45,7 +45,7 @@ pub fn poses(tests: &[SensorTest]) -> Outcome<Vec<Pose>> {
     );
     Err(tests
         .iter()
-        .fold(problem, |problem, test| problem.in_file(&test.path)))
+        .fold(problem, |problem, test| problem.in_text(&test.path)))
 }
 
 impl Pose {

@@ -1,11 +1,12 @@
 //! What the physical model leaves over the orientation, as a polynomial of the quaternion (source 002, 2.6:
 //! the pull of the hose). Source 002 takes all 15 terms of degree two; with |q| = 1 they have rank 14, and
 //! only the ten of even degree have one value for q and −q, which are one orientation. So only those are
-//! taken: one and the nine entries of R. How strongly they are held to zero, and whether they are taken at
-//! all, is chosen by orientations that were left out.
+//! taken: one and the nine entries of R. Whether all are taken, and how strongly they are held to zero, or only
+//! a few of them, or none, is chosen by orientations that were left out.
 
 use super::fitted::{Fitted, System, rms};
 use super::poses::Pose;
+use super::sparse::Sparse;
 use super::statics::{N, slopes};
 use nalgebra::{DMatrix, DVector};
 
@@ -84,18 +85,37 @@ impl Remainder {
             best.filter(|b| b.1[kind] < WORTH * plain[kind])
                 .map_or(0.0, |b| b.0)
         });
-        if best == [0.0; 2] {
+        if best != [0.0; 2] {
+            found.order = 2;
+            found.held_out = scheme.held_out(best);
+            found.coefficients =
+                scheme.coefficients(&fitted.residual, &vec![true; poses.len()], best);
+        }
+        if let Some(few) = Sparse::of(poses, fitted, &scheme.folds) {
+            for kind in (0..2).filter(|k| few.held_out[*k] < WORTH * plain[*k]) {
+                if few.held_out[kind] <= found.held_out[kind] {
+                    found.take(kind, &few);
+                }
+            }
+        }
+        if found.order == 0 {
             return found;
         }
-        found.order = 2;
-        found.held_out = scheme.held_out(best);
-        found.coefficients = scheme.coefficients(&fitted.residual, &vec![true; poses.len()], best);
         let left = poses.iter().zip(&fitted.residual).map(|(pose, r)| {
             let more = found.at(pose.quaternion);
             std::array::from_fn(|c| r[c] - more[c])
         });
         found.after = rms(&left.collect::<Vec<_>>());
         found
+    }
+
+    /// Takes forces (0) or moments (1) from a remainder of few terms.
+    fn take(&mut self, kind: usize, few: &Sparse) {
+        self.order = 2;
+        self.held_out[kind] = few.held_out[kind];
+        for (own, other) in self.coefficients.iter_mut().zip(&few.coefficients) {
+            own[3 * kind..3 * kind + 3].copy_from_slice(&other[3 * kind..3 * kind + 3]);
+        }
     }
 
     /// Its value: forces, N, and moments, N·m.

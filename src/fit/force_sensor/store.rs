@@ -5,7 +5,7 @@ use super::model::Model;
 use super::remainder::{CONVENTION, TERMS};
 use super::statics::{N, PARAMETERS};
 use crate::fit::parameter::Identified;
-use crate::fit::stored_text::stored_text;
+use crate::fit::stored_text::{stored, stored_text};
 use crate::ground::files::read_bytes;
 use crate::ground::problem::{Outcome, Problem};
 use serde::{Deserialize, Serialize};
@@ -69,20 +69,24 @@ impl StoredSensor {
     /// No such file, or not such a model.
     pub fn read(path: &Path) -> Outcome<Self> {
         let bytes = read_bytes(path)?;
-        let refuse = |what: String| {
-            Problem::new(
-                what,
-                "give a model that `ident sensor` wrote, or a file of kind force-sensor",
-            )
-            .in_file(path)
-        };
-        let text = String::from_utf8(bytes).map_err(|_| refuse("is not UTF-8 text".into()))?;
-        let stored: Self = toml::from_str(&text)
-            .map_err(|e| refuse(format!("is no model of a force sensor ({})", e.message())))?;
-        match stored.kind == KIND {
-            true => Ok(stored),
-            false => Err(refuse(format!("is of kind `{}`", stored.kind))),
+        let remedy = "give a model that `ident sensor` wrote, or a file of kind force-sensor";
+        let model: Self = stored(path, bytes, ("a model of a force sensor", remedy))?;
+        match model.kind == KIND {
+            true => Ok(model),
+            false => {
+                Err(Problem::new(format!("is of kind `{}`", model.kind), remedy).in_text(path))
+            }
         }
+    }
+
+    /// Force per axis that the model leaves in any orientation, standard deviation, N: from how well weight
+    /// and offsets are known.
+    pub fn rest_n(&self) -> f64 {
+        let named = |p: &&Identified| p.name == "weight" || p.name.starts_with("offset_f");
+        let own = self.parameters.iter().filter(named);
+        let squares: f64 = own.filter_map(|p| p.stderr).map(|s| s * s).sum();
+        // the weight and the three offsets, over three axes
+        (squares / 3.0).sqrt()
     }
 
     /// The model that it holds.

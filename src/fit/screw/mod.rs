@@ -3,6 +3,7 @@
 
 pub mod cyclic;
 pub mod groups;
+pub mod in_motion;
 pub mod iso;
 pub mod least_groups;
 pub mod positions;
@@ -48,6 +49,8 @@ pub struct Account {
     pub groups: Vec<Group>,
     /// The least number of groups with the same limit, where it was sought.
     pub least: Option<Vec<Group>>,
+    /// Largest residual that a group may have, µm.
+    pub limit_um: f64,
     /// Travel per turn, m.
     pub pitch: Option<f64>,
     /// What the targets show of an error once per turn.
@@ -73,6 +76,7 @@ pub fn identify(tests: &[ScrewTest], request: &Request) -> Outcome<Account> {
         backlash: backlash(&kept),
         groups: groups::greedy(&mean, limit, request.joint),
         least: least(&mean, limit),
+        limit_um: limit,
         sight: Sight::of(&at, pitch),
         pitch,
         targets,

@@ -2,6 +2,7 @@
 
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::screw::ScrewTest;
+use crate::signal::outliers::median;
 use std::collections::BTreeMap;
 
 /// One target with its deviations (actual less target), m, in the order of the runs.
@@ -120,13 +121,6 @@ fn spread(targets: &[Target]) -> f64 {
     1.4826 * median(&distances)
 }
 
-fn median(values: &[f64]) -> f64 {
-    match values.is_empty() {
-        true => 0.0,
-        false => crate::signal::pulse::median(values),
-    }
-}
-
 /// Targets closer than this are one, m.
 const SAME: f64 = 1e-9;
 
@@ -157,7 +151,7 @@ pub fn targets(tests: &[ScrewTest]) -> Outcome<Vec<Target>> {
         "measure at more targets along the axis",
     );
     Err(match tests.first() {
-        Some(test) => problem.in_file(&test.path),
+        Some(test) => problem.in_text(&test.path),
         None => problem,
     })
 }
@@ -184,7 +178,7 @@ pub fn one_pitch(tests: &[ScrewTest]) -> Outcome<Option<f64>> {
             ),
             "give the files of one screw together, or correct `pitch_mm`",
         )
-        .in_file(&other.path)
+        .in_text(&other.path)
         .in_column("pitch_mm")),
     }
 }

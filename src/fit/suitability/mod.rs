@@ -1,18 +1,28 @@
 //! Whether data can carry a number at all. Every verb passes this gate before it says `identified`,
 //! `explained` or `sufficient`.
 //!
-//! One rule is one file and one line in the table of its kind ([`load_cycle::RULES`],
-//! [`workspace::RULES`], [`hammer::RULES`]): what it looks at, what it finds odd, how grave that is, and
+//! One rule is one file and one line in the table of its kind (`RULES` of each module here): what it looks at, what it finds odd, how grave that is, and
 //! what to do about it. What a rule finds is a [`Doubt`].
 
+pub mod channel;
+pub mod cubes;
+pub mod force_sensor;
 pub mod hammer;
+pub mod joint_motion;
 pub mod load_cycle;
 pub mod magnitude;
+pub mod milling_force;
 pub mod relation;
+pub mod screw;
 pub mod workspace;
 
+use crate::ground::problem::{Outcome, Problem};
+use serde::Serialize;
+use std::path::Path;
+
 /// How grave a doubt is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Weight {
     /// Worth knowing; no number suffers.
     Note,
@@ -45,8 +55,8 @@ pub struct Rule<L> {
     pub look: L,
 }
 
-/// What a rule found.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// What a rule found; printed as it stands (`formats.md`, section 3).
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Doubt {
     /// Name of the rule.
     pub rule: &'static str,
@@ -96,6 +106,17 @@ pub fn is_fatal(doubts: &[Doubt]) -> bool {
 /// Whether anything needs attention.
 pub fn is_odd(doubts: &[Doubt]) -> bool {
     doubts.iter().any(|doubt| doubt.weight >= Weight::Odd)
+}
+
+/// Refuses data that can carry no number, for verbs that have nothing else to tell.
+///
+/// # Errors
+/// The gravest doubt, where it is fatal, with its remedy.
+pub fn refuse(file: &Path, doubts: &[Doubt]) -> Outcome<()> {
+    match doubts.iter().find(|doubt| doubt.weight == Weight::Fatal) {
+        None => Ok(()),
+        Some(doubt) => Err(Problem::new(doubt.what.clone(), doubt.remedy).in_text(file)),
+    }
 }
 
 /// Smallest and largest; an empty range is upside down.

@@ -2,6 +2,7 @@
 //! where their table begins, and what their titles mean. A foreign file is translated into the form that
 //! [`super::table`] reads; the file itself stays as it is.
 
+pub mod binary;
 pub mod encoding;
 pub mod header;
 pub mod sidecar;

@@ -1,7 +1,9 @@
 //! Facts beside a raw file: `STEM.ident.toml` for one file, `campaign.toml` for all files of a folder.
 //! Front matter goes first, then the sidecar, then the folder.
 
+use crate::ground::files::read_bytes;
 use crate::ground::problem::{Outcome, Problem};
+use crate::measurement::known_keys::known_to_no_kind;
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
@@ -18,6 +20,8 @@ pub struct Sidecar {
     pub skip_rows: Option<usize>,
     /// Encoding of the raw file.
     pub encoding: Option<String>,
+    /// Sheet, group or variable of a file that holds several tables.
+    pub table: Option<String>,
 }
 
 /// Where a column is found in the raw file.
@@ -60,7 +64,10 @@ impl Sidecar {
 
     /// Whether the raw file is to be translated whatever it looks like.
     pub fn maps(&self) -> bool {
-        !self.columns.is_empty() || self.skip_rows.is_some() || self.encoding.is_some()
+        !self.columns.is_empty()
+            || self.skip_rows.is_some()
+            || self.encoding.is_some()
+            || self.table.is_some()
     }
 
     fn of(mut table: Table) -> Outcome<Self> {
@@ -81,17 +88,15 @@ impl Sidecar {
             Some(Value::Integer(n)) if (0..=100_000).contains(&n) => Some(n as usize),
             Some(_) => return Err(wrong("skip_rows", "skip_rows = 12")),
         };
-        let encoding = match table.remove("encoding") {
-            None => None,
-            Some(Value::String(name)) => Some(name),
-            Some(_) => return Err(wrong("encoding", "encoding = \"windows-1252\"")),
-        };
+        let encoding = word(&mut table, "encoding", "windows-1252")?;
+        let sheet = word(&mut table, "table", "Messung")?;
         Ok(Self {
             facts: table,
             shared: Table::new(),
             columns,
             skip_rows,
             encoding,
+            table: sheet,
         })
     }
 
@@ -103,6 +108,9 @@ impl Sidecar {
         }
         if let Some(encoding) = &self.encoding {
             table.insert("encoding".into(), Value::String(encoding.clone()));
+        }
+        if let Some(sheet) = &self.table {
+            table.insert("table".into(), Value::String(sheet.clone()));
         }
         table.extend(self.facts.clone());
         let columns = self.columns.iter().map(|(name, source)| {
@@ -131,27 +139,55 @@ fn column((name, value): (String, Value)) -> Outcome<(String, Source)> {
     }
 }
 
+/// Takes a text out of the table.
+fn word(table: &mut Table, key: &str, example: &str) -> Outcome<Option<String>> {
+    match table.remove(key) {
+        None => Ok(None),
+        Some(Value::String(text)) => Ok(Some(text)),
+        Some(_) => Err(wrong(key, &format!("{key} = \"{example}\""))),
+    }
+}
+
 fn wrong(key: &str, example: &str) -> Problem {
     Problem::new("is not understood", format!("write `{example}`"))
         .in_column(key)
         .at_line(1)
 }
 
+/// Keys of a file's own sidecar that are no facts.
+const OF_THE_FILE: &[&str] = &["columns", "skip_rows", "encoding", "table"];
+
 /// The table of a file; `None` where there is no such file.
 fn read(path: &Path) -> Outcome<Option<Table>> {
-    let Ok(text) = std::fs::read_to_string(path) else {
+    if !path.exists() {
         return Ok(None);
-    };
-    let parsed = text.parse::<Table>().map_err(|error| {
-        let start = error.span().map_or(0, |span| span.start.min(text.len()));
-        let line = 1 + text.as_bytes()[..start]
-            .iter()
-            .filter(|b| **b == b'\n')
-            .count();
-        let what = format!("is not TOML: {}", error.message().trim());
-        Problem::new(what, "write each fact as `key = value`")
+    }
+    let refuse = |what: String, line: usize| {
+        Problem::new(what, "write each fact as `key = value`, saved as UTF-8")
             .at_line(line)
             .in_file(path)
-    });
-    parsed.map(Some)
+    };
+    let text =
+        String::from_utf8(read_bytes(path)?).map_err(|_| refuse("is not UTF-8 text".into(), 1))?;
+    let line = |at: usize| {
+        let before = &text.as_bytes()[..at.min(text.len())];
+        1 + before.iter().filter(|b| **b == b'\n').count()
+    };
+    let table = text.parse::<Table>().map_err(|error| {
+        let at = error.span().map_or(1, |span| line(span.start));
+        refuse(format!("is not TOML: {}", error.message().trim()), at)
+    })?;
+    let more = [OF_THE_FOLDER, OF_THE_FILE].concat();
+    for key in table.keys() {
+        if let Some(problem) = known_to_no_kind(key, &more) {
+            let starts = |l: &str| {
+                l.trim_start()
+                    .trim_start_matches('[')
+                    .starts_with(key.as_str())
+            };
+            let at = text.lines().position(starts).unwrap_or(0);
+            return Err(problem.at_line(at + 1).in_file(path));
+        }
+    }
+    Ok(Some(table))
 }

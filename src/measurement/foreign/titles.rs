@@ -226,7 +226,7 @@ pub fn unit(text: &str) -> Option<Unit> {
 /// `None`: no quantity, no unit, or one that does not measure it.
 pub fn name_of(title: &str, below: Option<&str>) -> Option<String> {
     let title = title.trim().trim_matches('"').trim();
-    if split_name(title).is_some() {
+    if split_name(title).is_some() && !is_foreign(title) {
         return Some(title.to_string());
     }
     let (words, inside) = parts(title);
@@ -240,6 +240,14 @@ pub fn name_of(title: &str, below: Option<&str>) -> Option<String> {
         }
         _ => None,
     }
+}
+
+/// Whether a title in the form of a name here has the word of another language or program: `Kraft_N`.
+fn is_foreign(title: &str) -> bool {
+    let (words, _) = parts(title);
+    let words = words.to_lowercase();
+    let means = |q: &&Quantity| q.0 != words && q.2.contains(&words.as_str());
+    words.chars().count() > 1 && QUANTITIES.iter().any(|q| means(&q))
 }
 
 /// Words and unit of a title.
@@ -274,6 +282,9 @@ mod tests {
             ("Force (kN)", None, "force_kN"),
             ("Zeit / s", None, "time_s"),
             ("Force_N", None, "Force_N"),
+            ("Kraft_N", None, "force_N"),
+            ("Zeit_s", None, "time_s"),
+            ("s_mm", None, "s_mm"),
             ("Weg 2", Some("[mm]"), "displacement2_mm"),
             ("Beschleunigung X [m/s²]", None, "ax_m_s2"),
             ("Richtung", None, "direction"),

@@ -1,8 +1,9 @@
 //! A raw file in the form that the reader of tables knows, with what each of its columns became.
 
+use super::binary::Sheet;
 use super::header::{Head, cells, find, number};
 use super::sidecar::{Sidecar, Source};
-use super::{encoding, titles};
+use super::{binary, encoding, titles};
 use crate::ground::problem::{Outcome, Problem};
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
@@ -15,8 +16,10 @@ pub struct Reading {
     pub text: String,
     /// SHA-256 of the raw file.
     pub sha256: String,
-    /// Its encoding.
+    /// Its encoding, or the format of a file that is no text.
     pub encoding: &'static str,
+    /// Sheet, group or variable of a file that holds several.
+    pub sheet: Option<String>,
     /// Lines before its titles.
     pub skipped: usize,
     /// 1-based line of the first row of numbers in the raw file.
@@ -42,27 +45,89 @@ pub fn translated(path: &Path, sidecar: &Sidecar) -> Outcome<Option<Reading>> {
     let Ok(bytes) = std::fs::read(path) else {
         return Ok(None);
     };
-    if bytes.starts_with(b"PK") || bytes.is_empty() {
+    if bytes.is_empty() {
+        return Ok(None);
+    }
+    if let Some(format) = binary::format_of(&bytes) {
+        let sheet = chosen(format.read(&bytes)?, sidecar)?;
+        let lines: Vec<&str> = sheet.text.lines().collect();
+        let head = head(&lines, sidecar).ok_or_else(|| unnamed(&lines))?;
+        let mut reading = reading(&lines, &head, sidecar, (hash(&bytes), format.name))?;
+        reading.sheet = Some(sheet.name);
+        return Ok(Some(reading));
+    }
+    if bytes.starts_with(b"PK") {
         return Ok(None);
     }
     let (text, encoding) = encoding::decoded(&bytes, sidecar.encoding.as_deref())?;
     let lines: Vec<&str> = text.lines().collect();
-    let wanted: Vec<String> = sidecar
-        .columns
-        .iter()
-        .filter_map(|c| titled(&c.1))
-        .collect();
-    match find(&lines, sidecar.skip_rows.unwrap_or(0), &wanted) {
-        Some(head) => {
-            let sha256 = Sha256::digest(&bytes)
-                .iter()
-                .map(|b| format!("{b:02x}"))
-                .collect();
-            reading(&lines, &head, sidecar, (sha256, encoding)).map(Some)
-        }
+    match head(&lines, sidecar) {
+        Some(head) => reading(&lines, &head, sidecar, (hash(&bytes), encoding)).map(Some),
         None if sidecar.maps() => Err(no_table()),
         None => Ok(None),
     }
+}
+
+fn hash(bytes: &[u8]) -> String {
+    Sha256::digest(bytes)
+        .iter()
+        .map(|b| format!("{b:02x}"))
+        .collect()
+}
+
+fn head(lines: &[&str], sidecar: &Sidecar) -> Option<Head> {
+    let wanted = sidecar.columns.iter().filter_map(|c| titled(&c.1));
+    let wanted: Vec<String> = wanted.collect();
+    let mapped = !sidecar.columns.is_empty();
+    let from = sidecar.skip_rows.unwrap_or(0);
+    match mapped && wanted.is_empty() {
+        // columns by their numbers alone: any titles will do
+        true => find(lines, from, &[String::new()]),
+        false => find(lines, from, &wanted),
+    }
+}
+
+/// The table that is meant: the one named, else the only one, else the only one whose titles are understood.
+fn chosen(sheets: Vec<Sheet>, sidecar: &Sidecar) -> Outcome<Sheet> {
+    let names: Vec<String> = sheets.iter().map(|sheet| sheet.name.clone()).collect();
+    let is_meant = |sheet: &Sheet| match &sidecar.table {
+        Some(name) => sheet.name == *name,
+        None => {
+            let lines: Vec<&str> = sheet.text.lines().collect();
+            names.len() == 1 || head(&lines, sidecar).is_some()
+        }
+    };
+    let mut meant = sheets.into_iter().filter(is_meant);
+    match (meant.next(), meant.next()) {
+        (Some(sheet), None) => Ok(sheet),
+        _ => Err(several(&names, sidecar.table.as_deref())),
+    }
+}
+
+fn several(names: &[String], asked: Option<&str>) -> Problem {
+    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    let what = match asked {
+        Some(name) => format!("holds no table `{name}`"),
+        None => "holds more than one table, and the titles do not tell which is meant".into(),
+    };
+    let remedy = format!(
+        "name one with `ident import FILE --table NAME`: {}; and its columns with --column NAME=TITLE",
+        quoted.join(", ")
+    );
+    Problem::new(what, remedy).at_line(1)
+}
+
+/// No title of a table is understood: all of them are asked for at once.
+fn unnamed(lines: &[&str]) -> Problem {
+    let titles = lines.iter().find(|line| !line.trim().is_empty());
+    let titles = titles.map_or(Vec::new(), |line| cells(line, binary::DELIMITER));
+    let titles: Vec<String> = titles.iter().take(40).map(|t| format!("`{t}`")).collect();
+    let remedy = "say what they are: `ident import FILE --column time_s=1 --column force_N=2 ...`";
+    let what = format!(
+        "has columns whose titles tell no quantity and unit: {}",
+        titles.join(", ")
+    );
+    Problem::new(what, remedy).at_line(1)
 }
 
 fn titled(source: &Source) -> Option<String> {
@@ -138,6 +203,7 @@ fn reading(
         text,
         sha256,
         encoding,
+        sheet: None,
         skipped: head.titles_line,
         first_line: head.first_line + 1,
         shift: facts.len() + 1,

@@ -118,13 +118,18 @@ const MM_MIN: f64 = 1e-3 / 60.0;
 const MOST_JOINTS: usize = 64;
 
 impl Job {
+    /// Whether it says everything that milling needs beside a path: tool, material and stock.
+    pub fn is_cut(&self) -> bool {
+        self.cutter.is_some() && self.material.is_some() && self.workpiece.stock.is_some()
+    }
+
     /// Reads a job file, and the material file that it may name.
     ///
     /// # Errors
     /// Whatever is unknown, missing or impossible, with file, line and remedy.
     pub fn read(path: &Path) -> Outcome<Self> {
         let bytes = read_bytes(path)?;
-        Self::of_bytes(path, &bytes).map_err(|problem| problem.in_file(path))
+        Self::of_bytes(path, &bytes).map_err(|problem| problem.in_text(path))
     }
 
     /// Interprets the bytes of a job file that stands at `path`.

@@ -36,7 +36,7 @@ pub struct Facts {
 }
 
 /// The facts of this kind, as they are written.
-pub(super) const FACTS: &[&str] = &[
+pub(in crate::measurement) const FACTS: &[&str] = &[
     "joint",
     "axis",
     "load_lever_m",

@@ -4,7 +4,7 @@ mod channels;
 mod facts;
 mod port;
 
-use facts::FACTS;
+pub(super) use facts::FACTS;
 pub use facts::{Facts, LEVER_REL_STD, lever_spread};
 pub use port::{Axis, Port};
 
@@ -48,7 +48,7 @@ pub struct LoadCycle {
 impl LoadCycle {
     /// Reads a file of kind `load-cycle`.
     pub fn read(path: &Path) -> Outcome<Self> {
-        Self::from_table(Table::read(path)?).map_err(|problem| problem.in_file(path))
+        Self::from_table(Table::read(path)?).map_err(|problem| problem.in_text(path))
     }
 
     /// Interprets a table that was read already.

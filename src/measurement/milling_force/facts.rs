@@ -74,7 +74,7 @@ pub struct Facts {
     pub synthetic: bool,
 }
 
-const KEYS: &[&str] = &[
+pub(in crate::measurement) const KEYS: &[&str] = &[
     "diameter_mm",
     "teeth",
     "helix_deg",

@@ -2,6 +2,7 @@
 
 mod facts;
 
+pub(super) use facts::KEYS;
 pub use facts::{CutFacts, CutSide, Facts, Nominal};
 
 use super::load_cycle::dialect;
@@ -50,7 +51,7 @@ impl MillingForce {
     /// # Errors
     /// What is missing or wrong, with line, column and remedy.
     pub fn read(path: &Path) -> Outcome<Self> {
-        Self::from_table(Table::read(path)?).map_err(|problem| problem.in_file(path))
+        Self::from_table(Table::read(path)?).map_err(|problem| problem.in_text(path))
     }
 
     /// Interprets a table that was read already.

@@ -1,5 +1,6 @@
 //! LinuxCNC's screw compensation file for `COMP_FILE_TYPE = 1`: nominal position and the trims (nominal
-//! less actual) on the way up and down, in machine units (mm).
+//! less actual, added to the command) on the way up and down, in machine units (mm). It is read up to the
+//! first line that is no triplet (`usrmotLoadComp` in src/emc/motion/usrmotintf.cc), so remarks stand last.
 
 use super::{Exporter, PitchTable, Row, numbers, strange};
 use crate::ground::problem::Outcome;
@@ -15,6 +16,10 @@ pub(super) const EXPORTER: Exporter = Exporter {
 
 fn write(table: &PitchTable) -> Outcome<String> {
     let mut text = String::new();
+    for row in &table.rows {
+        let (up, down) = (row.forward_um * 1e-3, row.backward_um * 1e-3);
+        let _ = writeln!(text, "{} {up:.6} {down:.6}", row.target_mm);
+    }
     for remark in table.remarks() {
         let _ = writeln!(text, "# {remark}");
     }
@@ -22,10 +27,6 @@ fn write(table: &PitchTable) -> Outcome<String> {
         text,
         "# [JOINT_n] COMP_FILE = this file, COMP_FILE_TYPE = 1"
     );
-    for row in &table.rows {
-        let (up, down) = (row.forward_um * 1e-3, row.backward_um * 1e-3);
-        let _ = writeln!(text, "{} {up:.6} {down:.6}", row.target_mm);
-    }
     Ok(text)
 }
 

@@ -1,5 +1,8 @@
 //! Siemens SINUMERIK, interpolatory compensation of an axis by itself (CEC): two tables, one for each
-//! direction, whose values in mm are added to the command.
+//! direction, whose values in mm are added to the command. `$AN_CEC_DIRECTION` 1: on the way in positive
+//! direction only, -1: in negative (SINUMERIK Extended Functions, K3, 03/2013, p. 249). That manual says the
+//! sign for the encoder's table only (p. 238; see `siemens_eec`), here that the setpoint is modified: so the
+//! file asks for a trial at one point.
 
 use super::resample::{Even, variable};
 use super::{Exporter, PitchTable, Row, strange};
@@ -16,11 +19,16 @@ pub(super) const EXPORTER: Exporter = Exporter {
 
 fn write(table: &PitchTable) -> Outcome<String> {
     let even = Even::of(table)?;
-    let mut text = String::from("%_N_CEC_INI\n");
+    let mut text = String::from("%_N_NC_CEC_INI\nCHANDATA(1)\n");
     for remark in table.remarks() {
         let _ = writeln!(text, "; {remark}");
     }
-    text.push_str("; axis AX1 corrects itself: replace its name; values in mm\n");
+    text.push_str(
+        "; axis AX1 corrects itself: replace its name; values in mm, added to the setpoint\n",
+    );
+    text.push_str(
+        "; before use: enter one value alone and see that the axis moves by it, sign included\n",
+    );
     for (t, direction) in [(0, 1), (1, -1)] {
         for (i, row) in even.rows.iter().enumerate() {
             let value = if t == 0 {
@@ -58,6 +66,7 @@ fn read(text: &str) -> Outcome<PitchTable> {
             || [
                 ";",
                 "%",
+                "CHANDATA",
                 "M17",
                 "$AN_CEC_INPUT",
                 "$AN_CEC_OUTPUT",

@@ -24,7 +24,7 @@ fn write(table: &PitchTable) -> Outcome<String> {
         .map(|row| row.forward_um - row.backward_um)
         .sum::<f64>()
         / even.rows.len() as f64;
-    let mut text = String::from("%_N_AX_EEC_INI\n");
+    let mut text = String::from("%_N_AX_EEC_INI\nCHANDATA(1)\n");
     for remark in table.remarks() {
         let _ = writeln!(text, "; {remark}");
     }
@@ -57,9 +57,16 @@ fn read(text: &str) -> Outcome<PitchTable> {
     for (i, line) in text.lines().enumerate() {
         let line = line.trim();
         let frame = line.is_empty()
-            || [";", "%", "M17", "$AA_ENC_COMP_MAX", "$AA_ENC_COMP_IS"]
-                .iter()
-                .any(|s| line.starts_with(s));
+            || [
+                ";",
+                "%",
+                "CHANDATA",
+                "M17",
+                "$AA_ENC_COMP_MAX",
+                "$AA_ENC_COMP_IS",
+            ]
+            .iter()
+            .any(|s| line.starts_with(s));
         if frame {
             continue;
         }

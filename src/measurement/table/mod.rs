@@ -86,7 +86,7 @@ impl Table {
 
     /// Reads a table from any source; `path` names it, `bytes` (any good guess) is its length.
     pub fn from_reader(path: &Path, source: impl Read, bytes: u64) -> Outcome<Self> {
-        Self::parse(path, source, bytes).map_err(|problem| problem.in_file(path))
+        Self::parse(path, source, bytes).map_err(|problem| problem.in_text(path))
     }
 
     /// The column with this stem, if present.

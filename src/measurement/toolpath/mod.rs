@@ -12,6 +12,8 @@ mod points;
 mod shape;
 mod source;
 
+pub use krl::{END_FOLD, RAPID_FOLD};
+pub(super) use points::FACTS;
 pub use shape::{Arc, Shape};
 
 use crate::ground::problem::{Outcome, Problem};

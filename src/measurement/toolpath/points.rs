@@ -10,7 +10,7 @@ use crate::measurement::front::Front;
 use crate::measurement::table::Table;
 
 /// Facts of the kind, beside those that every kind has.
-const FACTS: &[&str] = &[
+pub(in crate::measurement) const FACTS: &[&str] = &[
     "job", "inputs", "version", "method", "curve", "degree", "knots",
 ];
 /// How far the length of `i, j, k` may be from one.

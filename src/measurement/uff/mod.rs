@@ -45,7 +45,7 @@ pub struct UniversalFile {
 
 /// Reads a universal file.
 pub fn read(path: &Path) -> Outcome<UniversalFile> {
-    parse(&files::read_bytes(path)?).map_err(|problem| problem.in_file(path))
+    parse(&files::read_bytes(path)?).map_err(|problem| problem.in_text(path))
 }
 
 /// Reads the bytes of a universal file.

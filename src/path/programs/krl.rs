@@ -6,7 +6,7 @@ use super::text::{comment, decimals, degrees, identifier, mm};
 use super::{Program, ProgramFile, ProgramMove};
 use crate::ground::problem::Outcome;
 use crate::ground::spatial::{M3, Pose, V3};
-use crate::measurement::toolpath::{Arc, Shape};
+use crate::measurement::toolpath::{Arc, END_FOLD, RAPID_FOLD, Shape};
 use crate::path::quaternion::angles;
 use std::f64::consts::PI;
 
@@ -25,6 +25,7 @@ pub(super) fn write(program: &Program) -> Outcome<Vec<ProgramFile>> {
         let mut writer = Writer::new(start.to);
         writer.start(&mut main, &start);
         moves.iter().for_each(|next| writer.motion(&mut main, next));
+        writer.fold(&mut main, false);
     } else {
         let mut writer = Writer::new(start.to);
         writer.start(&mut main, &start);
@@ -34,6 +35,7 @@ pub(super) fn write(program: &Program) -> Outcome<Vec<ProgramFile>> {
             let mut text = head(&module);
             writer.forget();
             part.iter().for_each(|next| writer.motion(&mut text, next));
+            writer.fold(&mut text, false);
             files.push(file(&module, "src", text + "END\n"));
         }
     }
@@ -114,6 +116,7 @@ struct Writer {
     here: V3,
     feed: String,
     blend: String,
+    rapid: bool,
 }
 
 impl Writer {
@@ -122,6 +125,7 @@ impl Writer {
             here,
             feed: String::new(),
             blend: String::new(),
+            rapid: false,
         }
     }
 
@@ -129,6 +133,15 @@ impl Writer {
     fn forget(&mut self) {
         self.feed.clear();
         self.blend.clear();
+    }
+
+    /// Rapid motions stand in a fold of that name: KRL has no word for them, and the reader knows it.
+    fn fold(&mut self, text: &mut String, rapid: bool) {
+        if rapid != self.rapid {
+            *text += if rapid { RAPID_FOLD } else { END_FOLD };
+            *text += "\n";
+            self.rapid = rapid;
+        }
     }
 
     fn start(&mut self, text: &mut String, start: &ProgramMove) {
@@ -145,6 +158,7 @@ impl Writer {
     }
 
     fn motion(&mut self, text: &mut String, next: &ProgramMove) {
+        self.fold(text, next.rapid);
         self.speed(text, next);
         let blend = mm(next.blend);
         let blends = blend != "0";

@@ -68,6 +68,8 @@ pub struct Exporter {
     pub name: &'static str,
     /// One line about it.
     pub about: &'static str,
+    /// Whether it states orientations.
+    pub turns: bool,
     write: fn(&Program) -> Outcome<Vec<ProgramFile>>,
 }
 
@@ -76,16 +78,19 @@ pub const EXPORTERS: &[Exporter] = &[
     Exporter {
         name: "krl",
         about: "KUKA: .src with its .dat, in modules that the controller loads",
+        turns: true,
         write: krl::write,
     },
     Exporter {
         name: "rapid",
         about: "ABB: .mod",
+        turns: true,
         write: rapid::write,
     },
     Exporter {
         name: "gcode",
         about: "G-code of a three-axis machine: .nc",
+        turns: false,
         write: gcode::write,
     },
 ];

@@ -56,6 +56,7 @@ macro_rules! with_spring {
             damping_ci95: Option<[f64; 2]>,
             #[serde(rename = "backlash_ci95_rad")]
             backlash_ci95: Option<[f64; 2]>,
+            stiffness_rel_std: Option<f64>,
         }
 
         impl $name {
@@ -72,6 +73,7 @@ macro_rules! with_spring {
                         damping: self.damping_ci95,
                         backlash: self.backlash_ci95,
                     },
+                    stiffness_rel_std: self.stiffness_rel_std,
                 };
                 (spring, self.effects, ($(self.$key,)*))
             }

@@ -1,6 +1,7 @@
 //! The account of a campaign on the terminal.
 
-use super::{Campaign, tables};
+use super::tables;
+use crate::findings::campaign::Campaign;
 use crate::findings::sentence::sentences;
 use crate::report::text;
 

@@ -1,7 +1,7 @@
 //! The error of every experiment of a campaign in one figure.
 
-use crate::cli::diagnose::One;
 use crate::findings::Answer;
+use crate::findings::campaign::DiagnosedFile;
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
 
 /// Beyond this ratio to the noise the small errors would vanish on a linear axis.
@@ -9,9 +9,9 @@ const LINEAR: f64 = 40.0;
 
 /// Error over noise, experiment by experiment, without and with what was named; `None` where no noise
 /// gives a measure.
-pub fn figure(files: &[One], synthetic: bool) -> Option<Chart> {
-    let noisy = |one: &&One| one.found.answer().discrepancy.noise_rms > 0.0;
-    let known: Vec<&One> = files.iter().filter(noisy).collect();
+pub fn figure(files: &[DiagnosedFile], synthetic: bool) -> Option<Chart> {
+    let noisy = |one: &&DiagnosedFile| one.found.answer().discrepancy.noise_rms > 0.0;
+    let known: Vec<&DiagnosedFile> = files.iter().filter(noisy).collect();
     if known.is_empty() {
         return None;
     }

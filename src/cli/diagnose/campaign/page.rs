@@ -1,9 +1,11 @@
 //! The story of a campaign as a page: what is wrong, why, how sure, what naming it gained, what remains,
 //! what to measure next; then every experiment by itself.
 
-use super::{Campaign, errors, tables};
-use crate::cli::diagnose::{One, page};
+use super::{errors, tables};
+use crate::cli::diagnose::{next as proposed, page};
 use crate::findings::Verdict;
+use crate::findings::campaign::Campaign;
+use crate::findings::campaign::DiagnosedFile;
 use crate::findings::sentence::candidates;
 use crate::sheet::page::{Block, Page};
 
@@ -49,7 +51,7 @@ fn why(campaign: &Campaign) -> Vec<Block> {
 }
 
 fn remains(campaign: &Campaign) -> Vec<Block> {
-    let open = |one: &&One| {
+    let open = |one: &&DiagnosedFile| {
         let verdict = one.found.answer().verdict;
         verdict == Verdict::PartlyExplained || verdict == Verdict::UnknownCause
     };
@@ -75,10 +77,10 @@ fn remains(campaign: &Campaign) -> Vec<Block> {
 fn next(campaign: &Campaign) -> Vec<Block> {
     let mut blocks: Vec<Block> = open_questions(campaign).map(Block::text).collect();
     if let Some(proposal) = &campaign.next {
-        blocks.push(Block::text(proposal.sentence()));
-        blocks.extend(proposal.setups());
+        blocks.push(Block::text(proposed::sentence(proposal)));
+        blocks.extend(proposed::setups(proposal));
         let summary = "How well each place is known, before and after these set-ups";
-        blocks.push(Block::details(summary, vec![proposal.spreads()]));
+        blocks.push(Block::details(summary, vec![proposed::spreads(proposal)]));
     }
     blocks
 }

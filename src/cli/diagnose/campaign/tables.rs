@@ -1,9 +1,10 @@
 //! The tables of a campaign.
 
-use super::{Campaign, errors};
+use super::errors;
 use crate::cli::diagnose::page;
 use crate::cli::diagnose::tables::{amounts, reduction};
 use crate::findings::Cause;
+use crate::findings::campaign::Campaign;
 use crate::findings::joint::Joint;
 use crate::findings::sentence::{candidates, place, probability, spoken};
 use crate::sheet::number::{engineering, significant};

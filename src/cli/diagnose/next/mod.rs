@@ -2,28 +2,30 @@
 
 mod figure;
 mod json;
-mod proposal;
-mod start;
+mod page;
 mod tables;
 
-pub use json::setups;
-pub use proposal::Proposal;
+pub use page::{sentence, setups, spreads};
 
-use super::{Arguments, campaign};
+use super::Arguments;
 use crate::cli::Ending;
-use crate::cli::output::{print, print_result};
-use crate::ground::problem::Outcome;
+use crate::cli::output::{print, print_result, tell, warn};
+use crate::cli::run::place;
+use crate::findings::campaign::{Proposal, Start};
+use crate::ground::problem::{Outcome, Problem};
+use crate::measurement::workspace::{Place, resolve};
 use crate::report::{folder, text};
-use start::Start;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Runs the verb with `--next`.
 pub fn run(arguments: &Arguments, count: usize) -> Outcome<Ending> {
-    let proposal = proposal(Start::typed(&arguments.files)?, count)?;
+    let start = typed(&arguments.files)?;
+    warn(&start.warnings);
+    let proposal = Proposal::after_diagnosis(start, count)?;
     let mut report = None;
     if !arguments.dry_run {
         let reports = proposal.start.place.reports();
-        let written = folder::write_as(&reports, "next.html", &proposal.page())?;
+        let written = folder::write_as(&reports, "next.html", &page::page(&proposal))?;
         report = written.last().cloned();
     }
     let report = report.as_deref();
@@ -37,17 +39,36 @@ pub fn run(arguments: &Arguments, count: usize) -> Outcome<Ending> {
     Ok(Ending::Done)
 }
 
-/// Diagnoses the points first: what that leaves open counts more.
-fn proposal(start: Start, count: usize) -> Outcome<Proposal> {
-    let test = start.points.as_ref();
-    let one = test.map(|test| campaign::one(&test.path, &start.place, &start.tests));
-    let one = one.transpose()?;
-    let answer = one.as_ref().map(|one| one.found.answer());
-    Ok(Proposal::new(start, answer, count))
+/// What a plan starts from, by what is typed after `--next N`.
+fn typed(files: &[PathBuf]) -> Outcome<Start> {
+    match files {
+        [] => required(place(None)?),
+        [folder] if folder.is_dir() => required(place(Some(folder))?),
+        [file] => {
+            let (path, said) = resolve(file)?;
+            said.iter().for_each(|s| tell(s));
+            Start::points(Place::of(&path), &path)
+        }
+        several => Err(Problem::new(
+            format!(
+                "--next plans for one robot, and {} files are given",
+                several.len()
+            ),
+            "give one file of kind workspace, or the folder of the campaign",
+        )),
+    }
+}
+
+fn required(place: Place) -> Outcome<Start> {
+    let folder = place.measurements();
+    Start::campaign(place)?.ok_or_else(|| {
+        let remedy = "add `# robot = \"kr210\"` to the front matter of one of them";
+        Problem::new("holds no measurement that names its robot", remedy).in_file(&folder)
+    })
 }
 
 fn account(proposal: &Proposal, report: Option<&Path>) -> String {
-    let mut said = text::indented(&proposal.sentence(), 0);
+    let mut said = text::indented(&sentence(proposal), 0);
     said.push_str(&format!(
         "\n{}",
         text::table(&tables::setups(&proposal.plan))

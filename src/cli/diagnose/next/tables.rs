@@ -8,6 +8,10 @@ use crate::sheet::table::Table;
 
 /// What the plan is worth, in a sentence or two.
 pub fn sentence(plan: &Plan, open: usize) -> String {
+    if plan.chosen.is_empty() {
+        return "No set-up that [rig] of campaign.toml allows would tell anything: widen it."
+            .into();
+    }
     let gain: f64 = plan.chosen.iter().map(|one| one.gain).sum();
     let origin = match plan.noise.measured {
         true => "the readings' own scatter",

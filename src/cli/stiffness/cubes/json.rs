@@ -1,6 +1,7 @@
 //! The JSON of measuring cubes.
 
 use super::Identified;
+use crate::fit::axis_tests::AxisTest;
 use crate::fit::cubes::relative::Relative;
 use crate::fit::cubes::together::Together;
 use crate::report::json::{self, number, numbers};
@@ -40,9 +41,31 @@ pub fn document(found: &Identified, dry: bool) -> String {
         }),
     );
     map.insert("warnings".into(), json!(found.warnings()));
+    map.insert("doubts".into(), json!(found.doubts));
     let path = (!dry).then(|| found.robot_path().display().to_string());
+    map.insert("axis_tests".into(), compared(found));
+    let fit = (!dry).then(|| found.fit_path().display().to_string());
+    map.insert("fit_file".into(), json!(fit));
     map.insert("identified_robot".into(), json!(path));
     json::print(map)
+}
+
+/// What axis tests of the campaign say of the same sites.
+fn compared(found: &Identified) -> Value {
+    let own = |test: &AxisTest| {
+        let own = found
+            .account
+            .parameters
+            .iter()
+            .find(|p| p.site == test.site);
+        let value = own.and_then(|p| p.value);
+        json!({
+            "site": test.site, "cubes": value, "axis_test": number(test.stiffness.0),
+            "axis_test_ci95": numbers(&test.ci95), "unit": "N·m/rad",
+            "difference_percent": value.map(|v| number(100.0 * (v / test.stiffness.0 - 1.0))),
+        })
+    };
+    found.axis_tests.iter().map(own).collect()
 }
 
 fn together(group: &Together) -> Value {

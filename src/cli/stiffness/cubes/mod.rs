@@ -5,17 +5,22 @@ mod page;
 mod tables;
 
 use crate::cli::Ending;
+use crate::cli::chapter::Chapter;
 use crate::cli::output::{print, tell};
-use crate::fit::axis_tests::{self, AxisTest};
+use crate::cli::validate;
+use crate::fit::axis_tests::{AxisTest, named_as, without_cubes};
+use crate::fit::cubes::store::{Input, SCHEMA, StoredCubes};
 use crate::fit::cubes::{Account, identify};
-use crate::fit::identified_robot::{text, with_axis_tests, with_cubes};
+use crate::fit::identified_robot::{text, with_cubes};
 use crate::fit::parameter::Status;
+use crate::fit::suitability::{self, Doubt, is_odd};
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::cubes::CubeTest;
 use crate::measurement::leading::kind_of;
 use crate::measurement::workspace::{Place, resolve};
 use crate::report::{folder, text as terminal};
+use crate::robot::Robot;
 use crate::robot::load::{Loaded, load};
 use std::path::PathBuf;
 
@@ -26,6 +31,7 @@ struct Identified {
     base: Loaded,
     axis_tests: Vec<AxisTest>,
     account: Account,
+    doubts: Vec<Doubt>,
 }
 
 /// The files, if they are of kind cubes.
@@ -68,10 +74,7 @@ pub fn run(files: &[PathBuf], as_json: bool, dry: bool) -> Outcome<Ending> {
     for warning in found.warnings() {
         tell(&format!("warning: {warning}"));
     }
-    Ok(match found.contradiction() {
-        true => Ending::Attention,
-        false => Ending::Done,
-    })
+    Ok(found.ending())
 }
 
 fn examine(files: &[PathBuf]) -> Outcome<Identified> {
@@ -92,20 +95,32 @@ fn examine(files: &[PathBuf]) -> Outcome<Identified> {
         .in_file(&tests[i].path)
         .in_column("robot"));
     }
+    let mut doubts = Vec::new();
+    for test in &tests {
+        doubts.extend(passed(test, &robots[0].robot)?);
+    }
     let account = identify(&tests, &robots[0].robot)?;
     let place = Place::of(&tests[0].path);
     let axis_tests = match place.campaign.is_empty() {
         true => Vec::new(),
-        false => axis_tests::read(&place.fits(), &place.measurements())?.tests,
+        false => without_cubes(&place.fits(), &place.measurements())?.tests,
     };
     let base = robots.into_iter().next().expect("clap requires a file");
     Ok(Identified {
         tests,
         place,
+        axis_tests: named_as(axis_tests, &base.robot),
         base,
-        axis_tests,
         account,
+        doubts,
     })
+}
+
+/// What is odd about a test that can carry a number.
+fn passed(test: &CubeTest, robot: &Robot) -> Outcome<Vec<Doubt>> {
+    let doubts = suitability::cubes::doubts(test, robot);
+    suitability::refuse(&test.path, &doubts)?;
+    Ok(doubts)
 }
 
 impl Identified {
@@ -125,14 +140,46 @@ impl Identified {
         format!("{}-cubes.html", self.stem())
     }
 
-    /// The robot with everything found: the axis tests of the campaign first, where it has any.
+    /// Where the fit goes: later verbs take it up as they take axis tests.
+    fn fit_path(&self) -> PathBuf {
+        self.place.fits().join(format!("{}.toml", self.stem()))
+    }
+
+    fn stored(&self) -> StoredCubes {
+        let input = |test: &CubeTest| Input {
+            file: test
+                .path
+                .file_name()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .to_string(),
+            sha256: test.sha256.clone(),
+        };
+        StoredCubes {
+            schema: SCHEMA.into(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            synthetic: self.synthetic(),
+            robot: self.base.path.clone(),
+            inputs: self.tests.iter().map(input).collect(),
+            parameters: self.account.parameters.clone(),
+        }
+    }
+
+    /// The robot with what the cubes found, outside of a campaign.
     fn robot_text(&self) -> String {
         let test = &self.tests[0];
         let name = test.path.file_name().unwrap_or_default().to_string_lossy();
         let short: String = test.sha256.chars().take(12).collect();
-        let known = with_axis_tests(&self.base.robot, &self.axis_tests);
-        let robot = with_cubes(&known, &self.account.parameters, &format!("{name} {short}"));
+        let found = &self.account.parameters;
+        let robot = with_cubes(&self.base.robot, found, &format!("{name} {short}"));
         text(&robot, &self.base.path, self.synthetic())
+    }
+
+    fn ending(&self) -> Ending {
+        match self.contradiction() || is_odd(&self.doubts) {
+            true => Ending::Attention,
+            false => Ending::Done,
+        }
     }
 
     /// Whether the cubes contradict the model beyond the stated noise.
@@ -141,7 +188,7 @@ impl Identified {
     }
 
     fn warnings(&self) -> Vec<String> {
-        let mut said = Vec::new();
+        let mut said: Vec<String> = self.doubts.iter().map(Doubt::sentence).collect();
         if self.contradiction() {
             said.push(format!(
                 "{}: the cubes miss the model by more than their noise; intervals are widened, `ident diagnose` says why",
@@ -162,8 +209,41 @@ impl Identified {
 }
 
 fn write(found: &Identified) -> Outcome<()> {
+    Place::nameable(&found.tests[0].path)?;
     folder::write_as(&found.place.reports(), &found.report(), &page::page(found))?;
-    files::replace(&found.robot_path(), found.robot_text().as_bytes())
+    files::replace(&found.fit_path(), found.stored().text()?.as_bytes())?;
+    match found.place.campaign.is_empty() {
+        true => files::replace(&found.robot_path(), found.robot_text().as_bytes()),
+        false => validate::collect(&found.place, &found.base, found.synthetic()),
+    }
+}
+
+/// Identifies the robot of a campaign from all its cubes, and writes what that found.
+///
+/// # Errors
+/// A file that cannot be read, results that cannot be written.
+pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
+    let input = |test: &CubeTest| (test.path.clone(), test.sha256.clone());
+    let (mut files, mut parts) = (Vec::new(), Vec::new());
+    for file in place.files_of("cubes")? {
+        let test = CubeTest::read(&file)?;
+        let robot = load(&test.facts.robot, Some(&file)).map_err(|p| p.in_file(&file))?;
+        match passed(&test, &robot.robot) {
+            Ok(_) => files.push(file),
+            Err(why) => parts.push(Chapter::withheld(test.stem(), input(&test), &why)),
+        }
+    }
+    if !files.is_empty() {
+        let found = examine(&files)?;
+        write(&found)?;
+        parts.push(Chapter {
+            title: found.stem(),
+            ending: found.ending(),
+            inputs: found.tests.iter().map(input).collect(),
+            page: page::page(&found),
+        });
+    }
+    Ok(Chapter::together("The measuring cubes", parts))
 }
 
 fn said(found: &Identified, dry: bool) -> String {
@@ -175,7 +255,8 @@ fn said(found: &Identified, dry: bool) -> String {
     if !dry {
         let report = found.place.reports().join(found.report());
         said += &format!(
-            "\nidentified robot {}, report {}\n",
+            "\nfit {}, identified robot {}, report {}\n",
+            found.fit_path().display(),
             found.robot_path().display(),
             report.display()
         );

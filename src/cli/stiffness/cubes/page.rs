@@ -45,15 +45,30 @@ fn ratios(found: &Identified) -> Chart {
             ends.push([low * site.compliance, high * site.compliance]);
         }
     }
-    let panel = Panel::new(
+    let beside = beside(found, &names);
+    let mut panel = Panel::new(
         Axis::new("Site", ""),
         Axis::new("Identified / robot now", ""),
     )
     .over(names)
-    .with(Series::bars("stiffness", &values).between(ends));
+    .with(Series::bars("cubes", &values).between(ends));
+    if beside.iter().any(|v| !v.is_nan()) {
+        panel = panel.with(Series::bars("axis tests", &beside));
+    }
     Chart::new(format!("{}-stiffness", found.stem()), "Identified stiffness over that of the robot now", "A bar at 1: the robot file is right; whiskers are 95 % intervals. Sites that the cubes do not fix are left out.")
         .with(panel)
         .synthetic(found.synthetic())
+}
+
+/// What axis tests say of these sites, over the robot now; NaN where there is none.
+fn beside(found: &Identified, names: &[String]) -> Vec<f64> {
+    let value = |name: &String| {
+        let test = found.axis_tests.iter().find(|test| test.site == *name)?;
+        let sites = &found.account.solved.sites;
+        let now = sites.iter().find(|site| site.name == *name)?.compliance;
+        Some(test.stiffness.0 * now)
+    };
+    names.iter().map(|n| value(n).unwrap_or(f64::NAN)).collect()
 }
 
 /// Rotation of each pair against the moment there.

@@ -1,6 +1,7 @@
 //! The gate for hammer tests.
 
 mod dead;
+mod scale;
 mod short;
 mod twice;
 mod unrelated;
@@ -14,7 +15,13 @@ use crate::measurement::hammer::HammerRecord;
 pub type Rule = super::Rule<fn(&HammerRecord) -> Said>;
 
 /// Every rule, in the order in which its findings are said.
-pub const RULES: &[Rule] = &[short::RULE, dead::RULE, unrelated::RULE, twice::RULE];
+pub const RULES: &[Rule] = &[
+    short::RULE,
+    dead::RULE,
+    scale::RULE,
+    unrelated::RULE,
+    twice::RULE,
+];
 
 /// What is odd about a record, the gravest first.
 pub fn doubts(record: &HammerRecord) -> Vec<Doubt> {
@@ -22,7 +29,7 @@ pub fn doubts(record: &HammerRecord) -> Vec<Doubt> {
 }
 
 /// Rules whose findings say that the file cannot mean what it says: nothing is computed then.
-const MEANINGLESS: &[&str] = &[short::RULE.name, dead::RULE.name];
+const MEANINGLESS: &[&str] = &[short::RULE.name, dead::RULE.name, scale::RULE.name];
 
 /// Refuses a record that cannot mean what it says.
 ///

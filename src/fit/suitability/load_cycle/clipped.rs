@@ -44,22 +44,21 @@ fn look(on: &Course) -> Said {
     found
 }
 
-/// Rows that stand at an extreme, and which.
-fn clipped(channel: &[f64], other: &[f64]) -> Option<(usize, &'static str)> {
+/// Rows that stand at an extreme while the other channel goes on, and at which.
+pub fn clipped(channel: &[f64], other: &[f64]) -> Option<(usize, &'static str)> {
     let (low, high) = range(channel);
-    let scale = extent(other) / (high - low);
+    let span = extent(other);
+    let scale = span / (high - low);
     if !scale.is_finite() || scale <= 0.0 {
         return None;
     }
+    let any = [high, low].map(|end| plateaus(channel, other, end, GOES_ON * span));
+    if any.iter().all(|rows| *rows < PLATEAU) {
+        return None;
+    }
     let step = step(channel, high - low);
-    let at = |end: f64| {
-        plateaus(
-            channel,
-            other,
-            end,
-            (GOES_ON * extent(other)).max(STEPS * step * scale),
-        )
-    };
+    let by = (GOES_ON * span).max(STEPS * step * scale);
+    let at = |end: f64| plateaus(channel, other, end, by);
     let ends = [(at(high), "upper end"), (at(low), "lower end")];
     ends.into_iter()
         .max_by_key(|end| end.0)

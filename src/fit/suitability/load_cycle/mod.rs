@@ -17,6 +17,8 @@ mod unrelated;
 mod wild_load;
 mod wild_response;
 
+pub use clipped::clipped;
+
 use super::relation::Relation;
 use super::{Doubt, Said};
 use crate::fit::imposed::is_imposed;

@@ -12,13 +12,24 @@ pub const RULE: Rule = Rule {
 };
 
 fn look(on: &Course) -> Said {
-    let file = on.file;
-    let turning = on.cycles.turning.len();
-    match turning < 2 && extent(&file.load) > 0.0 && !on.imposed {
+    match on.is_part() && !on.imposed {
         true => vec![(
             Weight::Fatal,
-            "fewer than two turning points: this is no full load cycle".into(),
+            format!(
+                "the load goes to and fro with {} turning points: too few to tell a response from chance",
+                on.cycles.turning.len()
+            ),
         )],
         false => Vec::new(),
+    }
+}
+
+/// Turning points of a load that went to and fro.
+const TURNS: usize = 2;
+
+impl Course<'_> {
+    /// Whether the load changes, and does not go to and fro.
+    pub fn is_part(&self) -> bool {
+        extent(&self.file.load) > 0.0 && self.cycles.turning.len() < TURNS
     }
 }

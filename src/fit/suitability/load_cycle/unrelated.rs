@@ -14,7 +14,7 @@ pub const RULE: Rule = Rule {
 fn look(on: &Course) -> Said {
     let file = on.file;
     let still = extent(&file.load) <= 0.0 || extent(&file.deflection) <= 0.0;
-    if still || on.imposed {
+    if still || on.imposed || on.is_part() {
         return Vec::new();
     }
     match &on.relation {

@@ -48,32 +48,44 @@ fn look(on: &Loaded) -> Said {
     found
 }
 
-/// Share of a set-up's displacement that the steps at its largest force may span.
-const SPANNED: f64 = 0.25;
+/// Share of a set-up's displacement that the steps at one extreme of its force may span ...
+const SPANNED: f64 = 0.05;
+/// ... and how many times what they span at the other forces: a loop is widest in its middle.
+const LOOP: f64 = 3.0;
 
 /// A force that stands at its extreme while the displacement goes on, in most set-ups.
 fn force(on: &Loaded) -> Option<(Weight, String)> {
-    let stands = |setup: &&Setup| {
-        let own = |s: &&Step| s.point == setup.point && s.direction == setup.direction;
-        let steps: Vec<&Step> = on.test.steps.iter().filter(own).collect();
-        let forces: Vec<f64> = steps.iter().map(|s| s.force).collect();
-        let moved = |steps: &[&Step]| -> f64 {
-            let all: Vec<f64> = steps
-                .iter()
-                .map(|s| s.displacement[setup.direction])
-                .collect();
-            extent(&all)
-        };
-        let (_, high) = range(&forces);
-        let top: Vec<&Step> = steps.iter().filter(|s| s.force == high).copied().collect();
-        top.len() >= PLATEAU && moved(&top) > SPANNED * moved(&steps)
-    };
     let some = on.setups.iter().take(ENOUGH);
-    let count = some.clone().filter(stands).count();
+    let count = some.clone().filter(|setup| stands(on, setup)).count();
     (count > 0 && 2 * count > some.len()).then(|| {
         let what = "the force stands at its extreme while the displacement goes on: it is clipped";
         (Weight::Fatal, what.to_string())
     })
+}
+
+fn stands(on: &Loaded, setup: &Setup) -> bool {
+    let own = |s: &&Step| s.point == setup.point && s.direction == setup.direction;
+    let mut steps: Vec<(f64, f64)> = on
+        .test
+        .steps
+        .iter()
+        .filter(own)
+        .map(|s| (s.force, s.displacement[setup.direction]))
+        .filter(|(force, moved)| force.is_finite() && moved.is_finite())
+        .collect();
+    steps.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let moved = |steps: &[(f64, f64)]| extent(&steps.iter().map(|s| s.1).collect::<Vec<_>>());
+    let levels: Vec<&[(f64, f64)]> = steps.chunk_by(|a, b| a.0 == b.0).collect();
+    let [first, inner @ .., last] = &levels[..] else {
+        return false;
+    };
+    let widest = inner.iter().map(|level| moved(level)).fold(0.0, f64::max);
+    let largest = first[0].0.abs().max(last[0].0.abs());
+    let limit = (LOOP * widest).max(SPANNED * moved(&steps));
+    let flat = |end: &[(f64, f64)]| {
+        end.len() >= PLATEAU && end[0].0.abs() > 0.5 * largest && moved(end) > limit
+    };
+    flat(first) || flat(last)
 }
 
 /// Set-ups that tell whether the force is clipped.

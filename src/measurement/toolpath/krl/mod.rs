@@ -19,6 +19,11 @@ use scan::{head_of, inner};
 use std::collections::BTreeMap;
 use value::Value;
 
+/// Opens the fold in which rapid motions stand: KRL has no word for them.
+pub const RAPID_FOLD: &str = ";FOLD RAPID";
+/// Closes a fold.
+pub const END_FOLD: &str = ";ENDFOLD";
+
 pub(super) fn recognises(head: &str) -> bool {
     let mut lines = head.lines().map(|line| line.trim_start().to_uppercase());
     lines.any(|l| {
@@ -56,6 +61,8 @@ struct State {
     lost: bool,
     /// `$ORI_TYPE = #CONSTANT`.
     held: bool,
+    /// Within the fold of rapid motions.
+    rapid: bool,
     executed: usize,
 }
 
@@ -154,7 +161,9 @@ impl State {
     fn take(&mut self, statement: &Statement) -> Outcome<Option<String>> {
         let text = statement.upper.as_str();
         let (word, rest) = head_of(text);
-        if let Some(verb) = Verb::of(word) {
+        if text.starts_with(';') {
+            self.rapid = text == RAPID_FOLD;
+        } else if let Some(verb) = Verb::of(word) {
             self.motion(verb, word, rest, statement.line)?;
         } else if CONTROL.contains(&word) || text.ends_with(':') {
             return Err(control(word));

@@ -236,6 +236,7 @@ impl State {
         self.draft.push(Move {
             shape,
             feed: self.feed.filter(|_| !first),
+            rapid: self.rapid && !first,
             blend,
             ..Move::line(target.to, orientation, line)
         })

@@ -2,6 +2,7 @@
 
 use super::super::source::{Source, lines};
 use super::scan::without_comment;
+use super::{END_FOLD, RAPID_FOLD};
 use crate::ground::problem::{Outcome, Problem};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -55,9 +56,15 @@ impl Routine {
     }
 }
 
-/// The statement of a line, unless it is empty, a comment or a header.
+/// The statement of a line, unless it is empty, a header, or a comment that is no fold of rapid motions.
 fn statement(line: &str, number: usize) -> Option<Statement> {
-    let raw = without_comment(line).trim();
+    let fold = line.trim();
+    let closes = fold.get(..END_FOLD.len());
+    let closes = closes.is_some_and(|head| head.eq_ignore_ascii_case(END_FOLD));
+    let raw = match closes || fold.eq_ignore_ascii_case(RAPID_FOLD) {
+        true => fold,
+        false => without_comment(line).trim(),
+    };
     if raw.is_empty() || raw.starts_with('&') {
         return None;
     }

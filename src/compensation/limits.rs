@@ -1,0 +1,131 @@
+//! How sure it is what will be left, which number limits that, and what would lower it most.
+
+use super::remaining::{Station, interval};
+use crate::ground::problem::Outcome;
+use crate::ground::spatial::{V3, norm};
+use crate::process::setup::{Setup, Support};
+use crate::process::uncertainty::{self, Doubt};
+use crate::process::way::normal_part;
+
+/// What an uncertain number does to what is left.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Limit {
+    /// The number.
+    pub doubt: Doubt,
+    /// Largest change of the deviation by one standard deviation of it, m.
+    pub change_m: f64,
+    /// Upper end of the interval if it were known exactly, m.
+    pub high_without_m: f64,
+}
+
+/// What would be measured next.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Next {
+    /// The measurement, imperative.
+    pub what: String,
+    /// Upper end of the interval after it, m.
+    pub high_after_m: f64,
+}
+
+/// How sure it is what will be left.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Certainty {
+    /// 95 % interval of the largest deviation, m; `None`: nothing states how well it is known.
+    pub ci95: Option<[f64; 2]>,
+    /// What it will not exceed in 999 of 1000 cases, m.
+    pub at_most_m: Option<f64>,
+    /// The uncertain numbers, the most limiting one first.
+    pub limits: Vec<Limit>,
+    /// What lowers the upper end most.
+    pub next: Option<Next>,
+}
+
+/// Most stations of an interval, and of the ranking of numbers.
+const STATIONS: usize = 1500;
+const RANKED: usize = 200;
+
+/// How sure the model is of what its corrected job leaves. `corrected`: the model on the corrected path;
+/// `drawn`: on the programmed one; `left`: what the model leaves there.
+///
+/// # Errors
+/// As the runs.
+pub fn certainty(
+    corrected: &Setup,
+    drawn: &Setup,
+    support: Support,
+    doubts: &[Doubt],
+    left: &[Station],
+) -> Outcome<Certainty> {
+    let cutting: Vec<&Station> = left.iter().filter(|s| s.cutting).collect();
+    if doubts.is_empty() || cutting.is_empty() {
+        return Ok(Certainty::default());
+    }
+    let chosen = thinned(cutting);
+    let times: Vec<f64> = chosen.iter().map(|s| s.time_s).collect();
+    let mut changes = uncertainty::changes(corrected, support, doubts, &times)?;
+    for list in &mut changes {
+        for (change, station) in list.iter_mut().zip(&chosen) {
+            *change = normal_part(*change, drawn.way.feed(station.time_s));
+        }
+    }
+    let left: Vec<V3> = chosen.iter().map(|s| s.left).collect();
+    let likely = interval(&left, &changes);
+    let (limits, next) = ranked(doubts, &left, &changes);
+    Ok(Certainty {
+        ci95: likely.map(|l| l.ci95),
+        at_most_m: likely.map(|l| l.at_most),
+        limits,
+        next,
+    })
+}
+
+/// Every so many stations, the worst of each stretch.
+fn thinned(cutting: Vec<&Station>) -> Vec<&Station> {
+    let every = cutting.len().div_ceil(STATIONS).max(1);
+    let worst = |stretch: &[&Station]| {
+        let own = stretch
+            .iter()
+            .max_by(|a, b| norm(a.left).total_cmp(&norm(b.left)));
+        own.map_or(0, |own| stretch.iter().position(|s| s == own).unwrap_or(0))
+    };
+    cutting.chunks(every).map(|c| c[worst(c)]).collect()
+}
+
+/// Numbers by what knowing them would do, and the measurement that would do most.
+fn ranked(doubts: &[Doubt], left: &[V3], changes: &[Vec<V3>]) -> (Vec<Limit>, Option<Next>) {
+    let reach = |i: usize| norm(left[i]) + 2.0 * root(changes.iter().map(|c| norm(c[i])));
+    let mut order: Vec<usize> = (0..left.len()).collect();
+    order.sort_by(|a, b| reach(*b).total_cmp(&reach(*a)));
+    order.truncate(RANKED);
+    let few = |list: &[V3]| order.iter().map(|i| list[*i]).collect::<Vec<V3>>();
+    let (left, changes) = (
+        few(left),
+        changes.iter().map(|c| few(c)).collect::<Vec<_>>(),
+    );
+    let high = |known: &dyn Fn(usize) -> bool| {
+        let kept = (0..doubts.len()).filter(|k| !known(*k));
+        let kept: Vec<Vec<V3>> = kept.map(|k| changes[k].clone()).collect();
+        let least = left.iter().map(|v| norm(*v)).fold(0.0, f64::max);
+        interval(&left, &kept).map_or(least, |likely| likely.ci95[1])
+    };
+    let limit = |(k, doubt): (usize, &Doubt)| Limit {
+        change_m: changes[k].iter().map(|v| norm(*v)).fold(0.0, f64::max),
+        high_without_m: high(&|i| i == k),
+        doubt: doubt.clone(),
+    };
+    let mut limits: Vec<Limit> = doubts.iter().enumerate().map(limit).collect();
+    limits.sort_by(|a, b| a.high_without_m.total_cmp(&b.high_without_m));
+    let mut ways: Vec<String> = doubts.iter().map(Doubt::measured_by).collect();
+    ways.sort();
+    ways.dedup();
+    let next = ways.into_iter().map(|what| Next {
+        high_after_m: high(&|i| doubts[i].measured_by() == what),
+        what,
+    });
+    let next = next.min_by(|a, b| a.high_after_m.total_cmp(&b.high_after_m));
+    (limits, next)
+}
+
+fn root(values: impl Iterator<Item = f64>) -> f64 {
+    values.map(|v| v * v).sum::<f64>().sqrt()
+}

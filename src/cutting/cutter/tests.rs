@@ -1,0 +1,180 @@
+//! Forces, volumes and chips against closed forms.
+
+use super::{Cutter, Fineness};
+use crate::cutting::dexel::Stock;
+use crate::cutting::{Material, Tool};
+use crate::ground::spatial::{V3, add, norm, scale, sub};
+use std::f64::consts::{FRAC_PI_6, PI};
+
+const MM: f64 = 1e-3;
+const UP: V3 = [0.0, 0.0, 1.0];
+
+fn cutter(tool: &Tool, width: f64, spacing: f64) -> Cutter {
+    // material beside the line y = 0 that the tool follows: y from -width-R.. as the cut needs
+    let al7075 = Material::linear_edge([1319.41, 788.83, 48.75, 19.65, 26.77, 2.05]);
+    let stock = Stock::block(
+        [0.0, -20.0 * MM, -10.0 * MM],
+        [60.0 * MM, width, 0.0],
+        spacing,
+    );
+    let fineness = Fineness {
+        spacing_m: spacing,
+        ..Fineness::usual(tool)
+    };
+    Cutter::new(tool, &al7075, stock.unwrap(), fineness, UP)
+}
+
+fn go(cutter: &mut Cutter, from: V3, to: V3, step: f64) {
+    let way = sub(to, from);
+    let count = (norm(way) / step).ceil() as usize;
+    for i in 0..=count {
+        let at = add(from, scale(i as f64 / count as f64, way));
+        cutter.advance(at, UP).unwrap();
+    }
+}
+
+/// Forces of a slot and a half-down cut, N = 2, a = 2 mm, c = 0.1 mm, by a tool of this radius: the worst
+/// difference from the closed forms (Altintas), as a share of the force.
+fn off_the_closed_form(radius: f64, helix: f64, spacing: f64) -> f64 {
+    let cases = [
+        (2.0 * radius, [-112.9676, 156.9602, 10.3070]),
+        (0.0, [-1.9761, 120.6316, 5.1535]),
+    ];
+    let off = cases.map(|(width, expected): (f64, V3)| {
+        let al7075 = Material::linear_edge([1319.41, 788.83, 48.75, 19.65, 26.77, 2.05]);
+        let tool = Tool::square(radius, 2, helix);
+        let low = [0.0, -2.0 * radius, -5.0 * MM];
+        let stock = Stock::block(low, [4.0 * radius, width, 0.0], spacing);
+        let fineness = Fineness {
+            spacing_m: spacing,
+            ..Fineness::usual(&tool)
+        };
+        let mut cutter = Cutter::new(&tool, &al7075, stock.unwrap(), fineness, UP);
+        let at = |x: f64| [x * radius, 0.0, -2.0 * MM];
+        go(&mut cutter, at(-1.1), at(2.0), 0.0125 * radius);
+        let load = cutter.mean_load([0.1 * MM, 0.0, 0.0]);
+        let each = load.force.iter().zip(expected);
+        each.map(|(f, e)| (f - e).abs()).fold(0.0, f64::max) / norm(expected)
+    });
+    off[0].max(off[1])
+}
+
+#[test]
+fn mean_forces_are_those_of_the_closed_form_where_the_chip_is_small_beside_the_tool() {
+    // the closed forms hold to first order in chip over radius
+    for helix in [0.0, FRAC_PI_6] {
+        for spacing in [2.0 * MM, 1.85 * MM] {
+            let off = off_the_closed_form(40.0 * MM, helix, spacing);
+            assert!(off < 0.005, "{off}");
+        }
+        let off = off_the_closed_form(8.0 * MM, helix, 0.4 * MM);
+        assert!(off < 0.008, "{off}");
+    }
+}
+
+#[test]
+fn removed_volumes_are_those_of_the_closed_form() {
+    let tool = Tool::square(8.0 * MM, 2, 0.0);
+    let mut slot = cutter(&tool, 20.0 * MM, 0.4 * MM);
+    go(
+        &mut slot,
+        [-20.0 * MM, 0.0, -2.0 * MM],
+        [30.0 * MM, 0.0, -2.0 * MM],
+        0.1 * MM,
+    );
+    let end = 0.5 * PI * 64.0;
+    let exact = (30.0 * 16.0 + end) * 2.0;
+    assert!(
+        (slot.removed() * 1e9 / exact - 1.0).abs() < 2e-3,
+        "{} {exact}",
+        slot.removed() * 1e9
+    );
+    // a second pass half beside the first: only the new half
+    let before = slot.removed();
+    go(
+        &mut slot,
+        [30.0 * MM, 0.0, 5.0 * MM],
+        [70.0 * MM, 30.0 * MM, 5.0 * MM],
+        1.0 * MM,
+    );
+    go(
+        &mut slot,
+        [70.0 * MM, -6.3 * MM, 5.0 * MM],
+        [70.0 * MM, -6.3 * MM, -2.0 * MM],
+        0.5 * MM,
+    );
+    go(
+        &mut slot,
+        [70.0 * MM, -6.3 * MM, -2.0 * MM],
+        [-10.0 * MM, -6.3 * MM, -2.0 * MM],
+        0.1 * MM,
+    );
+    // beyond the first slot's end the whole width, before it 6.3 mm
+    let n = 400_000;
+    let area: f64 = (0..n)
+        .map(|i| {
+            let y = -14.3 + 16.0 * (i as f64 + 0.5) / n as f64;
+            let slot = if y > -8.0 && y < 8.0 {
+                30.0 + (64.0 - y * y).max(0.0).sqrt()
+            } else {
+                0.0
+            };
+            (60.0 - slot) * 16.0 / n as f64
+        })
+        .sum();
+    let exact = 2.0 * area;
+    let got = (slot.removed() - before) * 1e9;
+    assert!((got / exact - 1.0).abs() < 2e-3, "{got} {exact}");
+}
+
+#[test]
+fn ramps_and_arcs_have_their_volume() {
+    let tool = Tool::square(5.0 * MM, 2, 0.0);
+    let mut ramp = cutter(&tool, 20.0 * MM, 0.25 * MM);
+    go(
+        &mut ramp,
+        [20.0 * MM, 0.0, 0.0],
+        [50.0 * MM, 0.0, -3.0 * MM],
+        0.1 * MM,
+    );
+    // mean depth of a ramp's slot: its bottom is level under the tool, so the deepest counts
+    let n = 400_000;
+    let depth = |x: f64, y: f64| {
+        let half = (25.0 - y * y).max(0.0).sqrt();
+        let reach = (x + half).min(50.0);
+        if reach < 20.0 || x - half > 50.0 {
+            0.0
+        } else {
+            ((reach - 20.0) / 10.0).max(0.0)
+        }
+    };
+    let (mut sum, rows) = (0.0, 400);
+    for j in 0..rows {
+        let y = -5.0 + 10.0 * (j as f64 + 0.5) / rows as f64;
+        for i in 0..n / rows {
+            let x = 15.0 + 40.0 * (i as f64 + 0.5) / (n / rows) as f64;
+            let half = (25.0 - y * y).max(0.0).sqrt();
+            if x > 20.0 - half && x < 50.0 + half {
+                sum += depth(x, y) * 400.0 / n as f64;
+            }
+        }
+    }
+    let got = ramp.removed() * 1e9;
+    assert!((got / sum - 1.0).abs() < 2e-3, "{got} {sum}");
+    let mut arc = cutter(&tool, 20.0 * MM, 0.25 * MM);
+    let at = |a: f64| {
+        [
+            30.0 * MM + 12.0 * MM * a.sin(),
+            -12.0 * MM * a.cos(),
+            -2.0 * MM,
+        ]
+    };
+    for i in 0..=400 {
+        let before = at(PI * f64::from(i) / 400.0);
+        arc.advance(before, UP).unwrap();
+    }
+    // the plunge at the first place is not swept: half a disc of the front, then the ring
+    let ring = 0.5 * PI * (17.0 * 17.0 - 7.0 * 7.0) * 2.0;
+    let got = arc.removed() * 1e9;
+    assert!((got / ring - 1.0).abs() < 2e-3, "{got} {ring}");
+}

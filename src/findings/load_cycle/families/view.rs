@@ -1,0 +1,164 @@
+//! A record as the families see it: load, time and turning points in natural units.
+
+use crate::fit::observation::Observation;
+use crate::signal::play::play;
+
+/// Load and time of a record without units.
+pub struct View {
+    /// Load over the largest, its own noise smoothed away.
+    pub u: Vec<f64>,
+    /// The load as it was read, over the largest: what the spring answers to.
+    pub spring: Vec<f64>,
+    /// Time over the duration, 0 to 1.
+    pub t: Vec<f64>,
+    /// Duration of a cycle over that of the record.
+    pub period: f64,
+    /// Half cycle of every row: counts turning points.
+    pub half_cycle: Vec<usize>,
+    /// Whether the load takes both signs.
+    pub two_sided: bool,
+    /// Whether the load jumps from level to level (dead weights): delays cannot be seen there.
+    pub stepped: bool,
+    /// Whether the record starts under load: what came before is unknown.
+    pub loaded_start: bool,
+    /// Share of the band of the rows, averaged as they are, that is the lower quarter of the readings' own:
+    /// what oscillates above is folded mains, below something that moves.
+    pub slow: f64,
+}
+
+/// Share of the larger side that the smaller must reach for a load to count as two-sided.
+const OTHER_SIDE: f64 = 0.2;
+/// Share of the rows that must stand still, and of the way that must be made in jumps, for dead weights.
+const STANDS: f64 = 0.5;
+/// A row to row change of the load that is a jump.
+const JUMP: f64 = 0.04;
+/// Load at the first row beyond which the record starts under load.
+const LOADED: f64 = 0.05;
+/// See [`View::slow`].
+const SLOW: f64 = 0.25;
+/// What a column must hold beside the spring to count.
+const BESIDE: f64 = 1e-4;
+
+impl View {
+    /// Of reduced data.
+    pub fn of(data: &Observation) -> Self {
+        let scale = data.scene.load_scale;
+        let spring: Vec<f64> = data.scene.load.iter().map(|m| m / scale).collect();
+        let u = match data.scene.quiet_load {
+            true => spring.clone(),
+            false => smoothed(&spring),
+        };
+        let first = data.scene.time.first().copied().unwrap_or(0.0);
+        let t = data.scene.time.iter();
+        let (low, high) = u
+            .iter()
+            .fold((0.0_f64, 0.0_f64), |(l, h), v| (l.min(*v), h.max(*v)));
+        Self {
+            t: t.map(|t| (t - first) / data.scene.duration).collect(),
+            period: data.scene.period / data.scene.duration,
+            half_cycle: half_cycles(&data.cycles.turning, u.len()),
+            two_sided: high.min(-low) > OTHER_SIDE * high.max(-low),
+            stepped: is_stepped(&u),
+            slow: (SLOW * data.block as f64).min(1.0),
+            loaded_start: u.first().is_some_and(|v| v.abs() > LOADED),
+            spring,
+            u,
+        }
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.u.len()
+    }
+
+    /// A column less what the spring takes of it. `None` where nothing is left.
+    pub fn beyond_spring(&self, column: &[f64]) -> Option<Vec<f64>> {
+        let own: f64 = self.spring.iter().map(|u| u * u).sum();
+        let cross: f64 = self.spring.iter().zip(column).map(|(u, c)| u * c).sum();
+        let slope = cross / own.max(f64::MIN_POSITIVE);
+        let rows = column.iter().zip(&self.spring);
+        let left: Vec<f64> = rows.map(|(c, u)| c - slope * u).collect();
+        let square = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>();
+        let kept = square(&left) > BESIDE * BESIDE * square(column);
+        (kept && square(&left).is_finite()).then_some(left)
+    }
+
+    /// A function of the load.
+    pub fn over_load(&self, f: impl Fn(f64) -> f64) -> Vec<f64> {
+        self.u.iter().map(|u| f(*u)).collect()
+    }
+
+    /// A function of time.
+    pub fn over_time(&self, f: impl Fn(f64) -> f64) -> Vec<f64> {
+        self.t.iter().map(|t| f(*t)).collect()
+    }
+
+    /// The load behind a play of this half width: it follows once the play is taken up (from rest in its
+    /// middle).
+    pub fn played(&self, half_width: f64) -> Vec<f64> {
+        play(&self.u, half_width)
+    }
+
+    /// The load behind a first-order lag of this share of the duration, from rest.
+    pub fn lagged(&self, tau: f64) -> Vec<f64> {
+        let mut state = 0.0;
+        let mut out = Vec::with_capacity(self.rows());
+        for i in 0..self.rows() {
+            if i > 0 {
+                let x = (self.t[i] - self.t[i - 1]) / tau;
+                let keep = (-x).exp();
+                // exact for a load that is straight between rows
+                let mean = if x > 1e-9 { (1.0 - keep) / x } else { 1.0 };
+                let (a, b) = (self.u[i - 1], self.u[i]);
+                state = keep * state + a * (mean - keep) + b * (1.0 - mean);
+            }
+            out.push(state);
+        }
+        out
+    }
+
+    /// The load as it was `delay` (share of the duration) earlier, less the load.
+    pub fn delayed(&self, delay: impl Fn(f64) -> f64) -> Vec<f64> {
+        let at = |i: usize| interpolate(&self.t, &self.u, self.t[i] - delay(self.t[i])) - self.u[i];
+        (0..self.rows()).map(at).collect()
+    }
+}
+
+fn interpolate(x: &[f64], y: &[f64], at: f64) -> f64 {
+    crate::measurement::load_cycle::interpolate(x, y, at)
+}
+
+fn half_cycles(turning: &[usize], rows: usize) -> Vec<usize> {
+    (0..rows)
+        .map(|i| turning.iter().filter(|t| **t <= i).count())
+        .collect()
+}
+
+/// Most rows stand still, and the load moves in jumps.
+fn is_stepped(u: &[f64]) -> bool {
+    let steps: Vec<f64> = u.windows(2).map(|w| (w[1] - w[0]).abs()).collect();
+    let way: f64 = steps.iter().sum();
+    let still = steps.iter().filter(|s| **s < 0.1 * JUMP).count();
+    let jumps: f64 = steps.iter().filter(|s| **s > JUMP).sum();
+    let busy = still as f64 > STANDS * steps.len() as f64;
+    busy && jumps > STANDS * way
+}
+
+/// Local parabolas through seven rows (Savitzky and Golay 1964); a jump of the load stays one.
+fn smoothed(u: &[f64]) -> Vec<f64> {
+    const WEIGHTS: [f64; 7] = [-2.0, 3.0, 6.0, 7.0, 6.0, 3.0, -2.0];
+    let n = u.len();
+    let at = |i: usize| {
+        if i < 3 || i + 3 >= n {
+            return u[i];
+        }
+        let each = WEIGHTS.iter().zip(&u[i - 3..i + 4]);
+        each.map(|(w, v)| w * v).sum::<f64>() / 21.0
+    };
+    let smooth: Vec<f64> = (0..n).map(at).collect();
+    let off: Vec<f64> = smooth.iter().zip(u).map(|(s, v)| s - v).collect();
+    let limit = 5.0 * crate::signal::outliers::robust_std(&off);
+    let keep = smooth.iter().zip(u).zip(&off);
+    keep.map(|((s, v), o)| if o.abs() > limit { *v } else { *s })
+        .collect()
+}

@@ -1,0 +1,97 @@
+//! What no noise does: jump from level to level, go one way in bursts, swell in the middle of the band.
+
+use super::families::View;
+use super::noise::{Coloured, MEDIAN, differences, is_one_sided, windows};
+use crate::ground::stats::median;
+use crate::signal::outliers;
+
+/// Isolated changes of level that are no noise: coloured noise swallows a structure with many kinks, its
+/// differences do not.
+const JUMPS: usize = 5;
+/// Nats by which a spectrum that rises must be better than one that falls, and the least amplitude of what
+/// rises, deviations of one reading.
+const RISING: (f64, f64) = (16.0, 2.0);
+/// First coefficient that is looked at.
+const FIRST: usize = 6;
+
+/// Whether a residual holds what no noise makes, whatever its colour.
+pub fn is_no_noise(residual: &[f64], noise: &Coloured, view: &View) -> bool {
+    jumps(residual, view) >= JUMPS
+        || is_one_sided(residual, &windows(residual))
+        || is_rising(residual, noise, view)
+}
+
+/// Isolated changes of level in a residual that are far above the noise of its differences. A wild reading
+/// goes and comes back at once; where the load jumps, timing alone makes one.
+fn jumps(residual: &[f64], view: &View) -> usize {
+    const FAR: f64 = 6.0;
+    let own = differences(residual);
+    let spread = outliers::robust_std(&own);
+    let far = |i: usize| own[i].abs() > FAR * spread && spread > 0.0;
+    let calm = |i: usize| own[i].abs() < 0.5 * FAR * spread;
+    let moved = |i: usize| (view.u[i + 1] - view.u[i]).abs() > 0.04;
+    (1..own.len().saturating_sub(1))
+        .filter(|i| far(*i) && calm(i - 1) && calm(i + 1) && !moved(*i))
+        .count()
+}
+
+/// Whether the spectrum rises with the frequency: noise is even or falls, an oscillation rises above what
+/// lies below it.
+fn is_rising(residual: &[f64], noise: &Coloured, view: &View) -> bool {
+    let power: Vec<f64> = noise.spectrum(residual);
+    let end = (view.slow * power.len() as f64) as usize;
+    if end < 4 * FIRST {
+        return false;
+    }
+    let bands = bands(&power[..end]);
+    let falling = falling(&bands);
+    let each = bands.iter().zip(&falling);
+    let nats: f64 = each
+        .clone()
+        .map(|((p, count), f)| 0.5 * count * (f / p).ln())
+        .sum();
+    // power above the least that lies below it
+    let mut least = f64::INFINITY;
+    let mut above = 0.0;
+    for (p, count) in &bands {
+        above += (p - least).max(0.0) * count;
+        least = least.min(*p);
+    }
+    let level = median(&power) / MEDIAN;
+    let amplitude = (2.0 * above / (level * power.len() as f64).max(f64::MIN_POSITIVE)).sqrt();
+    nats > RISING.0 && amplitude > RISING.1
+}
+
+/// Mean power and count of bands whose width grows with the frequency.
+fn bands(power: &[f64]) -> Vec<(f64, f64)> {
+    let mut bands = Vec::new();
+    let mut from = FIRST;
+    while from < power.len() {
+        let to = (from + (from / 6).max(4)).min(power.len());
+        let sum: f64 = power[from..to].iter().sum();
+        let count = (to - from) as f64;
+        bands.push((sum.max(f64::MIN_POSITIVE) / count, count));
+        from = to;
+    }
+    bands
+}
+
+/// The falling spectrum that is nearest: neighbours that rise are pooled (Ayer and others 1955).
+fn falling(bands: &[(f64, f64)]) -> Vec<f64> {
+    let mut pools: Vec<(f64, f64, usize)> = Vec::new();
+    for (p, count) in bands {
+        let mut own = (*p, *count, 1);
+        while let Some(last) = pools.last().copied().filter(|last| last.0 < own.0) {
+            let count = last.1 + own.1;
+            own = (
+                (last.0 * last.1 + own.0 * own.1) / count,
+                count,
+                last.2 + own.2,
+            );
+            pools.pop();
+        }
+        pools.push(own);
+    }
+    let each = pools.iter().flat_map(|p| std::iter::repeat_n(p.0, p.2));
+    each.collect()
+}

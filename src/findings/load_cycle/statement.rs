@@ -1,0 +1,216 @@
+//! A record of load cycles as the engine takes it.
+
+use super::families::{View, suspects};
+use super::noise::{Coloured, TINTS, rough};
+use super::span::{coarse_span, span};
+use super::structure;
+use super::unseen::{Split, folds};
+use crate::effects::Effect;
+use crate::findings::engine::bank::Bank;
+use crate::findings::engine::rest::Span;
+use crate::findings::engine::search::{Scored, search};
+use crate::findings::engine::{
+    Blamed, Experiment, Judgement, Member, Nuisance, Remaining, Statement, Suspect,
+};
+use crate::fit::observation::Observation;
+use crate::ground::stats::rms;
+use nalgebra::{DMatrix, DVector};
+use std::sync::Arc;
+
+/// The linear statement of a record.
+pub struct Record<'a> {
+    data: &'a Observation,
+    unit: &'static str,
+    view: View,
+    suspects: Vec<Suspect>,
+    /// Its noise.
+    pub noise: Coloured,
+    span: Vec<Vec<f64>>,
+    coarse: Vec<Vec<f64>>,
+}
+
+/// Sizes of structure that may stand beside colour, noise deviations, and its price, nats.
+const STRUCTURED: ([f64; 3], f64) = ([1.5, 6.0, 25.0], 8.0);
+/// Sets whose evidence chooses the noise.
+const LEADING: usize = 4;
+/// Rounds in which noise and causes are sought in turn.
+const ROUNDS: usize = 2;
+
+impl<'a> Record<'a> {
+    /// Of reduced data: `stated` is the data sheet's deviation of a reading, where it is known.
+    pub fn new(
+        data: &'a Observation,
+        (unit, stated): (&'static str, Option<f64>),
+        library: &[&'static dyn Effect],
+        site: &dyn Fn(&'static str) -> String,
+    ) -> Self {
+        let view = View::of(data);
+        let elastic = elastic(data);
+        let left: Vec<f64> = data
+            .reading
+            .iter()
+            .zip(elastic)
+            .map(|(y, e)| y - e)
+            .collect();
+        let first = stated.unwrap_or(0.0).max(rough(&left));
+        let digits = 1e-9 * data.scene.deflection_scale;
+        let cosine = Arc::new(crate::signal::cosine::Cosine::new(data.rows()));
+        let mut record = Self {
+            suspects: suspects(library, data, site),
+            span: span(&view),
+            coarse: coarse_span(&view),
+            noise: Coloured::white(cosine, first.max(digits)),
+            data,
+            unit,
+            view,
+        };
+        record.learn_noise();
+        record
+    }
+
+    /// Noise and causes in turn: each is chosen beside the other.
+    fn learn_noise(&mut self) {
+        for _ in 0..ROUNDS {
+            let before = self.noise.tint();
+            let leading = self.leading();
+            let residual = self.residual(&leading[0]);
+            let plain = self.noise.with_deviations(&residual, &self.view);
+            let best = TINTS
+                .iter()
+                .map(|tint| plain.tinted(*tint).with_lines(&residual, &self.view))
+                .map(|noise| (self.evidence(&noise, &leading), noise))
+                .max_by(|a, b| a.0.total_cmp(&b.0));
+            if let Some((_, noise)) = best {
+                self.noise = noise;
+            }
+            if self.noise.tint() == before {
+                break;
+            }
+        }
+    }
+
+    /// The members of the sets that lead under the present noise, with their price; the empty one last.
+    fn leading(&self) -> Vec<(Vec<Member>, f64)> {
+        let statement = self.state(&[]);
+        let mut bank = Bank::new(&statement);
+        let nothing = bank.fit(&[]).map_or(0.0, |f| f.posterior.ln_evidence);
+        let sets = search(&mut bank, &Judgement::default());
+        let members = |s: &Scored| {
+            let own = s.fit.members.iter().map(|m| bank.member(*m).clone());
+            let price = s.fit.posterior.ln_evidence - nothing - s.score;
+            (own.collect::<Vec<Member>>(), price)
+        };
+        let mut leading: Vec<(Vec<Member>, f64)> = sets.iter().take(LEADING).map(members).collect();
+        leading.push((Vec::new(), 0.0));
+        leading
+    }
+
+    /// Greatest evidence of some sets under a noise, their prices paid; structure of unknown make may
+    /// stand beside the first and the empty one, or it would be taken for colour.
+    fn evidence(&self, noise: &Coloured, sets: &[(Vec<Member>, f64)]) -> f64 {
+        let members = sets.iter().flat_map(|set| &set.0);
+        let mut statement = self.stated(noise, members.map(anonymous).collect());
+        statement.span.clone_from(&self.coarse);
+        let (generic, bank) = (Span::of(&statement), Bank::new(&statement));
+        let last = sets.len().saturating_sub(1);
+        let mut first = 0;
+        let mut best = f64::NEG_INFINITY;
+        for (k, (members, price)) in sets.iter().enumerate() {
+            let own: Vec<usize> = (first..first + members.len()).collect();
+            first += members.len();
+            let Some(fit) = bank.fit(&own) else { continue };
+            let span = generic.as_ref().filter(|_| k == 0 || k == last);
+            let structured = span.map_or(f64::NEG_INFINITY, |span| {
+                span.greatest(&bank, &fit, &STRUCTURED.0) - STRUCTURED.1
+            });
+            best = best.max(fit.posterior.ln_evidence.max(structured) - price);
+        }
+        best - noise.ln_size()
+    }
+
+    /// What the spring and a set leave of the readings.
+    fn residual(&self, set: &(Vec<Member>, f64)) -> Vec<f64> {
+        let columns = set.0.iter().flat_map(|m| m.columns.iter());
+        let unit = |c: &Vec<f64>| DVector::from_column_slice(c) / rms(c).max(f64::MIN_POSITIVE);
+        let all: Vec<DVector<f64>> = columns.chain([&self.view.spring]).map(unit).collect();
+        let matrix = DMatrix::from_columns(&all);
+        let y = DVector::from_column_slice(&self.data.reading);
+        let mut inner = matrix.tr_mul(&matrix);
+        (0..all.len()).for_each(|i| inner[(i, i)] += 1e-6 * y.len() as f64);
+        match inner.cholesky() {
+            Some(root) => (&y - &matrix * root.solve(&matrix.tr_mul(&y)))
+                .as_slice()
+                .to_vec(),
+            None => self.data.reading.clone(),
+        }
+    }
+
+    fn stated(&self, noise: &Coloured, suspects: Vec<Suspect>) -> Statement {
+        Statement {
+            reading: self.data.reading.clone(),
+            noise: Box::new(noise.clone()),
+            nuisances: vec![Nuisance {
+                column: self.view.spring.clone(),
+                spread: f64::INFINITY,
+            }],
+            suspects,
+            span: Vec::new(),
+            splits: Vec::new(),
+        }
+    }
+}
+
+/// A member as a suspect of its own.
+fn anonymous(member: &Member) -> Suspect {
+    Suspect {
+        effect: "",
+        site: String::new(),
+        summary: "",
+        mechanism: "",
+        share: 0.0,
+        members: vec![member.clone()],
+    }
+}
+
+fn elastic(data: &Observation) -> Vec<f64> {
+    let load = &data.scene.load;
+    let own: f64 = load.iter().map(|m| m * m).sum();
+    let cross: f64 = load.iter().zip(&data.reading).map(|(m, y)| m * y).sum();
+    load.iter()
+        .map(|m| m * cross / own.max(f64::MIN_POSITIVE))
+        .collect()
+}
+
+impl Experiment for Record<'_> {
+    fn unit(&self) -> &'static str {
+        self.unit
+    }
+
+    fn state(&self, _about: &[Blamed]) -> Statement {
+        Statement {
+            span: self.span.clone(),
+            splits: [Split::Cycles, Split::Pieces]
+                .map(|s| folds(self.data, s))
+                .to_vec(),
+            ..self.stated(&self.noise, self.suspects.clone())
+        }
+    }
+
+    /// Told by the named law, which is fitted after the choice.
+    fn parameters(&self, _blamed: &Blamed) -> Vec<(&'static str, f64, &'static str)> {
+        Vec::new()
+    }
+
+    /// Computed from the named laws, after the choice.
+    fn would_tell(&self, _rivals: &[(&'static str, String)]) -> String {
+        String::new()
+    }
+
+    fn place(&self, missed: &[f64]) -> String {
+        structure::place(missed, self.data)
+    }
+
+    fn remaining(&self, left: &[f64]) -> Remaining {
+        structure::remaining(left, self.data)
+    }
+}

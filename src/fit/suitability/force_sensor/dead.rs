@@ -1,0 +1,25 @@
+//! A channel that stays the same.
+
+use super::{Rule, Turned};
+use crate::fit::suitability::{Said, Weight, channel};
+
+/// The rule.
+pub const RULE: Rule = Rule {
+    name: "dead",
+    about: "A channel that never changes passes for a load that is not there.",
+    remedy: "check the cable of that channel, and measure again",
+    look,
+};
+
+/// A force always changes with the orientation; a moment stays zero where the centre lies on its axis.
+fn look(on: &Turned) -> Said {
+    let (forces, moments) = on.channels.split_at(3);
+    let mut found = channel::dead(forces);
+    let still = moments.iter().filter(|c| channel::is_dead(&c.values));
+    let stuck = still.filter(|c| c.values[0] != 0.0);
+    found.extend(stuck.map(|c| {
+        let what = format!("{} never changes: a dead channel", c.name);
+        (Weight::Odd, what)
+    }));
+    found
+}

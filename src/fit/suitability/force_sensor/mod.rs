@@ -1,0 +1,76 @@
+//! The gate for readings of a force-torque sensor that touches nothing.
+
+mod clipped;
+mod dead;
+mod reversed;
+mod robot;
+mod scale;
+mod unrelated;
+mod wild;
+
+use super::channel::{Channel, Sum, sum};
+use super::{Doubt, Said};
+use crate::ground::spatial::{V3, norm, rotate_back};
+use crate::measurement::force_sensor::{CHANNELS, SensorTest, matrix};
+
+/// What the rules look at: six channels over the direction of the weight.
+pub struct Turned<'a> {
+    /// The test.
+    pub test: &'a SensorTest,
+    /// Its channels, driven by a number that tells orientations apart.
+    pub channels: Vec<Channel>,
+    /// Each channel over the direction of the weight in the sensor frame; none where orientations are too
+    /// few to tell.
+    pub sums: Vec<Option<Sum>>,
+}
+
+/// One rule of this kind.
+pub type Rule = super::Rule<for<'a, 'b> fn(&'b Turned<'a>) -> Said>;
+
+/// Every rule, in the order in which its findings are said.
+pub const RULES: &[Rule] = &[
+    dead::RULE,
+    wild::RULE,
+    clipped::RULE,
+    unrelated::RULE,
+    reversed::RULE,
+    scale::RULE,
+    robot::RULE,
+];
+
+/// What is odd about a test, the gravest first.
+pub fn doubts(test: &SensorTest) -> Vec<Doubt> {
+    let down: Vec<V3> = test
+        .readings
+        .iter()
+        .map(|r| rotate_back(&matrix(r.quaternion), [0.0, 0.0, -1.0]))
+        .collect();
+    let along: Vec<Vec<f64>> = (0..3)
+        .map(|k| down.iter().map(|d| d[k]).collect())
+        .collect();
+    let apart = |d: &V3| d[0] + 1.3 * d[1] + 1.7 * d[2];
+    let apart: Vec<f64> = down.iter().map(apart).collect();
+    let channel = |(c, (name, _)): (usize, &(&str, &str))| {
+        let values = test.readings.iter().map(|r| r.load[c]).collect();
+        Channel::new(*name, values, apart.clone())
+    };
+    let channels: Vec<Channel> = CHANNELS.iter().enumerate().map(channel).collect();
+    let turned = Turned {
+        test,
+        sums: channels.iter().map(|c| sum(&c.values, &along)).collect(),
+        channels,
+    };
+    super::doubts(RULES, |look| look(&turned))
+}
+
+impl Turned<'_> {
+    /// Weight that each force channel alone shows, N.
+    fn weights(&self) -> Option<V3> {
+        let rows: Option<Vec<f64>> = (0..3).map(|c| Some(norm(self.row(c)?))).collect();
+        V3::try_from(rows?).ok()
+    }
+
+    fn row(&self, c: usize) -> Option<V3> {
+        V3::try_from(self.sums[c].as_ref()?.of.clone()).ok()
+    }
+}

@@ -1,0 +1,32 @@
+//! Signs and order of the axes: a weight turns with the sensor, it is not mirrored.
+
+use super::{Rule, Turned};
+use crate::fit::suitability::{Said, Weight};
+use crate::ground::spatial::{cross, dot};
+
+/// The rule.
+pub const RULE: Rule = Rule {
+    name: "reversed",
+    about: "The forces of a weight are a turned vector; a wrong sign or two swapped axes mirror it.",
+    remedy: "turn the sign of that channel (load on the sensor), or correct the order of the axes",
+    look,
+};
+
+/// Share of the volume of a turned frame beyond which a mirrored one is certain.
+const MIRRORED: f64 = -0.3;
+
+fn look(on: &Turned) -> Said {
+    let (Some(x), Some(y), Some(z), Some(weights)) =
+        (on.row(0), on.row(1), on.row(2), on.weights())
+    else {
+        return Vec::new();
+    };
+    let volume = dot(x, cross(y, z)) / weights.iter().product::<f64>();
+    match volume < MIRRORED {
+        true => vec![(
+            Weight::Fatal,
+            "the forces are the mirror image of a weight: one sign or all three are wrong, or two axes are swapped".into(),
+        )],
+        false => Vec::new(),
+    }
+}

@@ -1,0 +1,17 @@
+//! A channel that stays the same.
+
+use super::{Cutting, Rule};
+use crate::fit::suitability::Said;
+use crate::fit::suitability::channel;
+
+/// The rule.
+pub const RULE: Rule = Rule {
+    name: "dead",
+    about: "A channel that never changes passes for a load that is not there.",
+    remedy: "check the cable of that channel, and measure again",
+    look,
+};
+
+fn look(on: &Cutting) -> Said {
+    channel::dead(&on.channels)
+}

@@ -1,0 +1,81 @@
+//! The force must repeat with the spindle.
+
+use super::{Cutting, Rule};
+use crate::fit::suitability::{Said, Weight};
+use crate::measurement::milling_force::Record;
+use std::f64::consts::TAU;
+
+/// The rule.
+pub const RULE: Rule = Rule {
+    name: "unrelated",
+    about: "A cutting force repeats with every turn of the spindle; noise and other channels do not.",
+    remedy: "check which channel was recorded in this column, the time column and the spindle speed",
+    look,
+};
+
+/// Correlation of a force with itself one turn on, below which it does not repeat.
+const ALIKE: f64 = 0.3;
+/// Error of a spindle speed that still passes for the stated one.
+const SPEED: f64 = 0.02;
+/// Turns that a record needs to tell.
+const TURNS: f64 = 2.5;
+/// Samples that are looked at.
+const SAMPLES: usize = 20_000;
+/// Times the stated noise that a channel along the axis must have to be judged.
+const SEEN: f64 = 5.0;
+
+fn look(on: &Cutting) -> Said {
+    let mut found = Vec::new();
+    for (k, channel) in on.channels.iter().enumerate() {
+        let cuts: Vec<f64> = on
+            .cuts()
+            .filter_map(|(cut, record)| repeats(record, k, TAU / cut.spindle_rad_s))
+            .collect();
+        let best = cuts.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let seen = k < 2 || on.loud(k);
+        if !cuts.is_empty() && best < ALIKE && seen {
+            let what = format!(
+                "{} does not repeat with the stated spindle speed in any cut",
+                channel.name
+            );
+            found.push((Weight::Fatal, what));
+        }
+    }
+    found
+}
+
+impl Cutting<'_> {
+    /// Whether a channel stands far out of the stated noise, if one is stated.
+    fn loud(&self, k: usize) -> bool {
+        let values = &self.channels[k].values;
+        let size = (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt();
+        self.file
+            .facts
+            .sensor_noise_n
+            .is_some_and(|noise| size > SEEN * noise)
+    }
+}
+
+/// Largest correlation of a channel with itself about one turn on; none where the record is too short.
+fn repeats(record: &Record, k: usize, turn: f64) -> Option<f64> {
+    let n = record.time.len().min(SAMPLES);
+    let step = (record.time[n - 1] - record.time[0]) / (n - 1) as f64;
+    let lag = turn / step;
+    if !(lag.is_finite() && lag >= 4.0 && n as f64 > TURNS * lag) {
+        return None;
+    }
+    let middle = record.force[..n].iter().map(|f| f[k]).sum::<f64>() / n as f64;
+    let own: Vec<f64> = record.force[..n].iter().map(|f| f[k] - middle).collect();
+    let (from, to) = (
+        ((1.0 - SPEED) * lag) as usize,
+        ((1.0 + SPEED) * lag) as usize + 1,
+    );
+    let stride = ((to - from) / 64).max(1);
+    let at = |lag: usize| {
+        let (a, b) = (&own[..n - lag], &own[lag..]);
+        let product: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
+        let size = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>();
+        product / (size(a) * size(b)).sqrt().max(f64::MIN_POSITIVE)
+    };
+    (from..=to).step_by(stride).map(at).reduce(f64::max)
+}

@@ -1,0 +1,17 @@
+//! A channel at the end of its range.
+
+use super::{Axis, Rule};
+use crate::fit::suitability::Said;
+use crate::fit::suitability::channel;
+
+/// The rule.
+pub const RULE: Rule = Rule {
+    name: "clipped",
+    about: "A channel at the end of its range repeats one number while the test goes on.",
+    remedy: "measure again with a wider range of that channel",
+    look,
+};
+
+fn look(on: &Axis) -> Said {
+    channel::clipped(&on.channels)
+}

@@ -1,0 +1,51 @@
+//! A run that was broken off.
+
+use super::{Axis, Rule};
+use crate::fit::suitability::{Said, Weight};
+use std::collections::BTreeMap;
+
+/// The rule.
+pub const RULE: Rule = Rule {
+    name: "few",
+    about: "A file that was cut off holds runs with fewer readings than the others.",
+    remedy: "check that the whole file was copied",
+    look,
+};
+
+/// Share of the usual number of readings below which a run is broken off.
+const BROKEN_OFF: f64 = 0.75;
+
+fn look(on: &Axis) -> Said {
+    let mut counts: BTreeMap<(i64, bool), usize> = BTreeMap::new();
+    for r in &on.test.readings {
+        *counts.entry((r.run, r.forward)).or_default() += 1;
+    }
+    let mut sorted: Vec<usize> = counts.values().copied().collect();
+    sorted.sort_unstable();
+    let usual = sorted.get(sorted.len() / 2).copied().unwrap_or(0);
+    let mut runs: Vec<i64> = counts.keys().map(|key| key.0).collect();
+    runs.dedup();
+    let both = counts.keys().any(|k| k.1) && counts.keys().any(|k| !k.1);
+    let short = |run: &i64| {
+        let of = |way: bool| counts.get(&(*run, way)).copied();
+        let broken = |n: usize| (n as f64) < BROKEN_OFF * usual as f64;
+        [true, false]
+            .into_iter()
+            .any(|way| of(way).map_or(both, broken))
+    };
+    let short: Vec<String> = runs
+        .iter()
+        .filter(|r| short(r))
+        .map(i64::to_string)
+        .collect();
+    match short.is_empty() || 2 * short.len() > runs.len() {
+        true => Vec::new(),
+        false => vec![(
+            Weight::Odd,
+            format!(
+                "runs with fewer readings than the usual {usual}: {}",
+                short.join(", ")
+            ),
+        )],
+    }
+}

@@ -1,0 +1,280 @@
+//! A path corrected before or during the cut: how much of the deviation goes, what is said about the rest.
+
+mod part_bench;
+
+use ident::compensation::executed::executed;
+use ident::compensation::method::METHODS;
+use ident::compensation::online::Sensor;
+use ident::compensation::remaining::{Size, remaining};
+use ident::compensation::text::text;
+use ident::compensation::{Correction, Search, Task, search};
+use ident::ground::spatial::{dot, norm, sub};
+use ident::process::Planned;
+use ident::process::setup::{Setup, Support};
+use part_bench::{CORNER, DEEP, SLOT, job, plant, ready};
+use serde_json::Value;
+use std::path::Path;
+use std::process::Command;
+
+/// The correction of a method, and the largest deviation before and after on `truth`, m.
+fn judged(
+    method: &str,
+    planned: &Planned,
+    setup: &Setup,
+    truth: &Setup,
+    support: Support,
+) -> (Search, f64, f64) {
+    let method = METHODS.iter().find(|m| m.name == method).unwrap();
+    let task = Task {
+        setup,
+        truth,
+        plan: &planned.plan,
+        support,
+        sensor: Sensor::default(),
+    };
+    let found = search(method, &task).unwrap();
+    let (before, after) = sizes(planned, setup, truth, &found.correction, support);
+    (found, before, after)
+}
+
+fn sizes(
+    planned: &Planned,
+    setup: &Setup,
+    truth: &Setup,
+    correction: &Correction,
+    support: Support,
+) -> (f64, f64) {
+    let none = Correction::none(planned.plan.path.length);
+    let size = |correction: &Correction| {
+        let job = ident::compensation::method::with(truth, &planned.plan, correction).unwrap();
+        let (milled, _) = job.run(support, |_| {}).unwrap();
+        Size::of(&remaining(&milled, correction, &setup.way)).max_m
+    };
+    (size(&none), size(correction))
+}
+
+#[test]
+fn the_mirror_takes_four_fifths_of_a_coupled_cut_away_and_most_of_it_on_plants_ten_percent_off() {
+    let folder = tempfile::tempdir().unwrap();
+    let (planned, setup) = ready(&job(folder.path(), CORNER, 1500.0, ""));
+    let (found, before, after) = judged("mirror", &planned, &setup, &setup, Support::Coupled);
+    println!(
+        "right model: {before:.2e} -> {after:.2e} in {}",
+        found.iterations
+    );
+    assert!(found.converged && after < 0.2 * before);
+    for seed in 0..3 {
+        let truth = plant(&setup, seed, 0.1, true);
+        let (before, after) = sizes(
+            &planned,
+            &setup,
+            &truth,
+            &found.correction,
+            Support::Coupled,
+        );
+        println!("plant {seed}: {before:.2e} -> {after:.2e}");
+        assert!(after < 0.3 * before);
+    }
+}
+
+#[test]
+fn corrections_are_normal_to_the_feed_and_smooth() {
+    let folder = tempfile::tempdir().unwrap();
+    let (planned, setup) = ready(&job(folder.path(), CORNER, 1500.0, ""));
+    let (found, ..) = judged("mirror", &planned, &setup, &setup, Support::Static);
+    let correction = found.correction;
+    for row in planned.plan.rows.iter().filter(|r| r.feed > 0.02) {
+        let Some(feed) = setup.way.feed(row.t) else {
+            continue;
+        };
+        let along = dot(feed, correction.at(row.s)).abs();
+        assert!(
+            along < 0.15 * correction.largest().0,
+            "{along} at {}",
+            row.s
+        );
+    }
+    // no jump of the second derivative: two differences that share a point agree
+    let h = 2e-7;
+    let second = |s: f64| {
+        let [a, b, c] = [s - h, s, s + h].map(|s| correction.at(s));
+        norm(sub(sub(c, b), sub(b, a))) / (h * h)
+    };
+    let size = correction.largest().0;
+    for i in 1..900 {
+        let s = 1e-4 * f64::from(i);
+        let jump = (second(s + 2.0 * h) - second(s - 2.0 * h)).abs();
+        assert!(jump < 0.2 * size / 1e-6, "{jump} at {s}");
+    }
+}
+
+#[test]
+fn measuring_while_cutting_leaves_about_half_at_the_exit_and_the_pilot_force_takes_it_away() {
+    let folder = tempfile::tempdir().unwrap();
+    let (planned, setup) = ready(&job(folder.path(), DEEP, 1500.0, ""));
+    let truth = plant(&setup, 5, 0.05, true);
+    let run = |method: &str| judged(method, &planned, &setup, &truth, Support::Coupled);
+    let (online, before, left_online) = run("online");
+    let (hybrid, _, left_hybrid) = run("hybrid");
+    println!("before {before:.2e}, online {left_online:.2e}, hybrid {left_hybrid:.2e}");
+    assert!(online.converged && hybrid.converged);
+    let [online, hybrid] = [left_online, left_hybrid].map(|left| left / before);
+    assert!((0.35..0.75).contains(&online), "{online}");
+    assert!(hybrid <= 0.3, "{hybrid}");
+}
+
+#[test]
+fn the_written_path_planned_again_is_the_corrected_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let (planned, setup) = ready(&job(folder.path(), CORNER, 1500.0, ""));
+    let (found, ..) = judged("ideal-force", &planned, &setup, &setup, Support::Static);
+    let text = text(
+        &planned.plan,
+        &found.correction,
+        "ideal-force",
+        &planned.inputs,
+        true,
+    );
+    let again = executed(&planned, Path::new("compensated.csv"), &text).unwrap();
+    let shifted = ident::compensation::shifted::shifted(&planned.plan, &found.correction).unwrap();
+    for row in again.way.rows() {
+        let nearest = shifted.rows().iter().map(|r| norm(sub(r.tip, row.tip)));
+        // rows are a cycle apart: 0.3 mm
+        assert!(
+            nearest.fold(f64::INFINITY, f64::min) < 0.16e-3,
+            "{}",
+            row.s_m
+        );
+        let told = shifted
+            .rows()
+            .iter()
+            .filter(|r| (r.s_m - row.s_m).abs() < 0.2e-3);
+        let apart = told
+            .map(|r| norm(sub(r.tip, row.tip)))
+            .fold(f64::INFINITY, f64::min);
+        assert!(apart < 0.25e-3, "{apart} at {}", row.s_m);
+    }
+    let stays = again.way.span()[1] / setup.way.span()[1];
+    assert!((0.98..1.02).contains(&stays), "{stays}");
+}
+
+fn ident(folder: &Path, words: &[&str]) -> (i32, Value) {
+    let out = Command::new(env!("CARGO_BIN_EXE_ident"))
+        .current_dir(folder)
+        .args(words)
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&out.stderr).to_string();
+    let json = serde_json::from_slice(&out.stdout).unwrap_or_else(|_| panic!("{said}"));
+    (out.status.code().unwrap(), json)
+}
+
+#[test]
+fn the_verb_writes_path_and_program_and_says_what_was_checked() {
+    let folder = tempfile::tempdir().unwrap();
+    job(folder.path(), SLOT, 1500.0, "");
+    let words = ["compensate", "job.toml", "--static", "--json"];
+    let (status, json) = ident(folder.path(), &words);
+    assert_eq!(json["method"], "mirror");
+    assert!(json["reduction_percent"].as_f64().unwrap() > 80.0);
+    let [low, high] = [0, 1].map(|i| json["after_ci95_max_mm"][i].as_f64().unwrap());
+    assert!(low <= high);
+    let good = json["tolerance_met"] == "yes"
+        && json["checked"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .all(|c| c["ok"] == true);
+    assert_eq!(status, i32::from(!good));
+    assert_eq!(json["limited_by"].as_array().unwrap().len(), 6);
+    assert!(
+        json["next"]["measure"]
+            .as_str()
+            .unwrap()
+            .contains("ident force")
+    );
+    let program = folder.path().join(json["program"].as_str().unwrap());
+    let program = std::fs::read_to_string(program).unwrap();
+    assert!(program.contains("LIN") && program.contains("sha256"));
+    // the corrected path is a path: it can be planned, with the job's robot
+    let corrected = folder.path().join(json["path"].as_str().unwrap());
+    let text = std::fs::read_to_string(&corrected).unwrap();
+    std::fs::write(folder.path().join("path.csv"), &text).unwrap();
+    assert_eq!(
+        ident(folder.path(), &["plan", "job.toml", "--json"]).1["exceeded"],
+        Value::Array(vec![])
+    );
+}
+
+#[test]
+fn a_dry_run_writes_nothing_and_an_unknown_method_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    job(folder.path(), SLOT, 1500.0, "");
+    let words = ["compensate", "job.toml", "--static", "--json", "--dry-run"];
+    let (_, json) = ident(folder.path(), &words);
+    assert!(json["path"].is_null() && json["program"].is_null());
+    assert!(!folder.path().join("reports").exists());
+    let out = Command::new(env!("CARGO_BIN_EXE_ident"))
+        .current_dir(folder.path())
+        .args(["compensate", "job.toml", "--method", "mirrors"])
+        .output()
+        .unwrap();
+    assert_eq!(out.status.code(), Some(2));
+}
+
+/// Every file under `reports/`, without what an interrupted write left beside them.
+fn results(folder: &Path) -> std::collections::BTreeMap<String, Vec<u8>> {
+    let mut found = std::collections::BTreeMap::new();
+    for entry in std::fs::read_dir(folder.join("reports/job"))
+        .into_iter()
+        .flatten()
+    {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_string_lossy().to_string();
+        if !name.starts_with('.') && !name.contains(".tmp") {
+            found.insert(name, std::fs::read(path).unwrap());
+        }
+    }
+    found
+}
+
+#[test]
+fn results_are_the_same_bytes_every_time_and_whole_after_a_kill() {
+    let folder = tempfile::tempdir().unwrap();
+    let start = || {
+        Command::new(env!("CARGO_BIN_EXE_ident"))
+            .current_dir(folder.path())
+            .args([
+                "compensate",
+                "job.toml",
+                "--static",
+                "--method",
+                "ideal-force",
+            ])
+            .stdout(std::process::Stdio::null())
+            .stderr(std::process::Stdio::null())
+            .spawn()
+            .unwrap()
+    };
+    let finished = |feed: f64| {
+        job(folder.path(), "-16,20,-2\n20,20,-2\n", feed, "");
+        assert!(start().wait().unwrap().code().is_some_and(|code| code < 2));
+        results(folder.path())
+    };
+    let new = finished(3000.0);
+    let begin = std::time::Instant::now();
+    let old = finished(3600.0);
+    let whole = begin.elapsed();
+    assert_ne!(old, new);
+    for kill in 1..=5 {
+        job(folder.path(), "-16,20,-2\n20,20,-2\n", 3000.0, "");
+        let mut running = start();
+        std::thread::sleep(whole * kill / 5);
+        let _ = running.kill();
+        running.wait().unwrap();
+        for (name, bytes) in results(folder.path()) {
+            assert!(bytes == old[&name] || bytes == new[&name], "{name} is torn");
+        }
+    }
+    assert_eq!(finished(3000.0), new);
+}
