@@ -105,18 +105,13 @@ fn commit() -> String {
 fn chapter(suite: &Suite, seed: u64, cases: u64) -> String {
     let count = (cases * suite.times).to_string();
     let typed = format!(
-        "IDENT_BLIND_SEED={seed} {}={count} cargo test --release --test {} -- --nocapture",
+        "IDENT_BLIND_SEED={seed} {}={count} cargo test --release --test suite {}:: -- --nocapture",
         suite.cases, suite.test
     );
     let run = Command::new("cargo")
-        .args([
-            "test",
-            "--release",
-            "--test",
-            suite.test,
-            "--",
-            "--nocapture",
-        ])
+        .args(["test", "--release", "--test", "suite"])
+        .arg(format!("{}::", suite.test))
+        .args(["--", "--nocapture"])
         .env("IDENT_BLIND_SEED", seed.to_string())
         .env(suite.cases, &count)
         .output();

@@ -3,11 +3,11 @@
 //! The generator is written independently of `src/effects`. Seeds are fixed ones and ones that
 //! change with the day; `IDENT_BLIND_SEED` and `IDENT_BLIND_CASES` (per effect) choose others;
 //! `IDENT_DEBUG=1` prints the misses, and `IDENT_BLIND_KEEP=FOLDER` keeps their files.
-//! `cargo test --test blind -- --nocapture` prints the confusion matrix.
+//! `cargo test --test suite blind:: -- --nocapture` prints the confusion matrix.
 
-mod blind_generator;
+use crate::blind_generator;
 
-use blind_generator::{Case, EFFECTS, OUTSIDE};
+use crate::blind_generator::{Case, EFFECTS, OUTSIDE};
 use ident::effects::Effect;
 use ident::findings::{Diagnosis, Settings, Verdict, diagnose};
 use ident::measurement::load_cycle::LoadCycle;
@@ -450,4 +450,4 @@ fn named_detent(seed: u64, settings: &Settings) -> bool {
     diagnosis.causes.iter().any(|c| c.effect == "detent")
 }
 
-mod toy;
+use crate::toy;

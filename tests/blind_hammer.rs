@@ -1,17 +1,17 @@
 //! Hammer tests that hide a cause; the program must name it.
 //!
-//! `cargo test --release --test blind_hammer -- --nocapture`; `IDENT_BLIND_ROBOT_CASES` (per effect),
+//! `cargo test --release --test suite blind_hammer:: -- --nocapture`; `IDENT_BLIND_ROBOT_CASES` (per effect),
 //! `IDENT_BLIND_SEED`, `IDENT_DEBUG=1` (misses),
 //! `IDENT_BLIND_ROBOT_KIND` (one kind alone), `IDENT_BLIND_ROBOT_KEEP` (folder for the files).
 
-mod robot_blind;
+use crate::robot_blind;
 
+use crate::robot_blind::judge::document;
+use crate::robot_blind::suite::{Floors, conclude, judged, kinds, per_kind, say, seeds};
+use crate::robot_blind::{Case, Dynamics, HAMMER_EFFECTS, HAMMER_OUTSIDE, hammer_case, robot_text};
 use ident::measurement::hammer::{HammerRecord, read_hammer};
 use nalgebra::{Complex, Matrix3};
 use rayon::prelude::*;
-use robot_blind::judge::document;
-use robot_blind::suite::{Floors, conclude, judged, kinds, per_kind, say, seeds};
-use robot_blind::{Case, Dynamics, HAMMER_EFFECTS, HAMMER_OUTSIDE, hammer_case, robot_text};
 use serde_json::Value;
 use std::f64::consts::TAU;
 use std::path::Path;

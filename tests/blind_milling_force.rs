@@ -1,15 +1,13 @@
 //! Milling forces that hide a cause, alone or two together, nothing, or something that no effect makes:
 //! how often the diagnosis names it. `IDENT_BLIND_SEED` and `IDENT_BLIND_CASES` ask for more.
 
-mod milling_bench;
-
+use crate::milling_bench::hidden::{FAULTS, Hidden, STRANGERS, hidden};
 use ident::findings::engine::{Judgement, diagnose};
 use ident::findings::milling_force::Case;
 use ident::findings::{Answer, Verdict};
 use ident::ground::random::Random;
 use ident::measurement::milling_force::MillingForce;
 use ident::measurement::table::Table;
-use milling_bench::hidden::{FAULTS, Hidden, STRANGERS, hidden};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 

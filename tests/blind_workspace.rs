@@ -1,16 +1,16 @@
 //! Workspace tests that hide a cause; the program must name it.
 //!
-//! `cargo test --release --test blind_workspace -- --nocapture`; `IDENT_BLIND_ROBOT_CASES` (per
+//! `cargo test --release --test suite blind_workspace:: -- --nocapture`; `IDENT_BLIND_ROBOT_CASES` (per
 //! effect), `IDENT_BLIND_SEED`, `IDENT_DEBUG=1` (misses),
 //! `IDENT_BLIND_ROBOT_KIND` (one kind alone), `IDENT_BLIND_ROBOT_KEEP` (folder for the files).
 
-mod robot_blind;
+use crate::robot_blind;
 
+use crate::robot_blind::judge::document;
+use crate::robot_blind::suite::{Floors, conclude, judged, kinds, per_kind, seeds};
+use crate::robot_blind::{Case, WORKSPACE_EFFECTS, WORKSPACE_OUTSIDE, robot_text, workspace_case};
 use ident::measurement::workspace_test::WorkspaceTest;
 use rayon::prelude::*;
-use robot_blind::judge::document;
-use robot_blind::suite::{Floors, conclude, judged, kinds, per_kind, seeds};
-use robot_blind::{Case, WORKSPACE_EFFECTS, WORKSPACE_OUTSIDE, robot_text, workspace_case};
 use std::path::Path;
 
 /// What four cases of a kind reach whatever the seed: 44 singles and 12 pairs scatter by 3 and 10 %

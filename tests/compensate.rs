@@ -1,7 +1,6 @@
 //! A path corrected before or during the cut: how much of the deviation goes, what is said about the rest.
 
-mod part_bench;
-
+use crate::part_bench::{CORNER, DEEP, SLOT, job, plant, ready};
 use ident::compensation::executed::executed;
 use ident::compensation::method::METHODS;
 use ident::compensation::online::Sensor;
@@ -11,7 +10,6 @@ use ident::compensation::{Correction, Search, Task, search};
 use ident::ground::spatial::{dot, norm, sub};
 use ident::process::Planned;
 use ident::process::setup::{Setup, Support};
-use part_bench::{CORNER, DEEP, SLOT, job, plant, ready};
 use serde_json::Value;
 use std::path::Path;
 use std::process::Command;

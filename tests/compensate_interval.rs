@@ -1,23 +1,22 @@
 //! What is said about the rest of a corrected part, against plants drawn as uncertain as it is stated: every
 //! stiffness, damping and coefficient by a tenth. `IDENT_COVERAGE_PLANTS=200` asks for more plants.
 
-mod part_bench;
-
+use crate::part_bench::{CORNER, job, plant, ready};
 use ident::compensation::limits::certainty;
 use ident::compensation::method::{METHODS, with};
 use ident::compensation::online::Sensor;
 use ident::compensation::remaining::{Size, remaining};
 use ident::compensation::{Task, search};
+use ident::ground::stats::Z95;
 use ident::process::setup::{Setup, Support};
-use ident::process::uncertainty::{NORMAL95, doubts};
-use part_bench::{CORNER, job, plant, ready};
+use ident::process::uncertainty::doubts;
 
 /// Relative standard deviation of everything.
 const SPREAD: f64 = 0.1;
 
 fn stated(mut setup: Setup) -> Setup {
     for (_, spring) in setup.robot.springs_mut() {
-        let ends = |value: f64| [-1.0, 1.0].map(|z| value * (1.0 + z * NORMAL95 * SPREAD));
+        let ends = |value: f64| [-1.0, 1.0].map(|z| value * (1.0 + z * Z95 * SPREAD));
         spring.ci95.stiffness = Some(ends(spring.stiffness));
         spring.ci95.damping = Some(ends(spring.damping));
     }

@@ -1,14 +1,12 @@
 //! Coefficients from wave forms that another dynamometer recorded: intervals hold the truth, and what
 //! cuts cannot tell is not told.
 
-mod milling_bench;
-
+use crate::milling_bench::{Cutter, Pass, Recording, csv, record};
 use ident::fit::cut_force::{Account, identify};
 use ident::fit::parameter::Status;
 use ident::ground::random::Random;
 use ident::measurement::milling_force::MillingForce;
 use ident::measurement::table::Table;
-use milling_bench::{Cutter, Pass, Recording, csv, record};
 
 fn read(text: &str) -> MillingForce {
     let bytes = text.len() as u64;

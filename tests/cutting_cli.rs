@@ -1,10 +1,8 @@
 //! `ident force` and `ident lobes` as typed: account, JSON, files, exit status, refusals.
 
-mod milling_bench;
-
+use crate::milling_bench::{Cutter, Pass, Recording, csv, record};
 use ident::ground::random::Random;
 use ident::measurement::job::Material;
-use milling_bench::{Cutter, Pass, Recording, csv, record};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -1,13 +1,11 @@
 //! Dampings and modes from hammer tests of random robots, made by formulas that share nothing with
 //! `src`: do the intervals hold the truth as often as they say, is a mode lost?
-//! `IDENT_BLIND_ROBOT_CASES=40 cargo test --test damping_robots -- --nocapture`
+//! `IDENT_BLIND_ROBOT_CASES=40 cargo test --test suite damping_robots:: -- --nocapture`
 
-mod robot_blind;
-
+use crate::robot_blind::judge::document;
+use crate::robot_blind::suite::{per_kind, say};
+use crate::robot_blind::{Case, Mode, damping_case, uncertain_case};
 use rayon::prelude::*;
-use robot_blind::judge::document;
-use robot_blind::suite::{per_kind, say};
-use robot_blind::{Case, Mode, damping_case, uncertain_case};
 use serde_json::Value;
 
 /// What one robot showed: intervals, those that hold, dampings left open, and of the modes below 45 Hz

@@ -1,14 +1,13 @@
 //! `ident diagnose` on joint motion: hidden effects of an independent generator, and a real KR 300.
 
-mod common;
-mod joint_motion_generator;
+use crate::common;
 
+use crate::joint_motion_generator::{NAMES, record};
 use ident::findings::joint_motion::{MotionDiagnosis, diagnose};
 use ident::fit::joint_motion_store::StoredMotion;
 use ident::fit::parameter::Status;
 use ident::measurement::joint_motion::JointMotion;
 use ident::measurement::table::Table;
-use joint_motion_generator::{NAMES, record};
 use rayon::prelude::*;
 use std::path::Path;
 

@@ -1,15 +1,13 @@
 //! Diagnosis of milling forces: one thing at a time is changed on a test bench that shares nothing with the
 //! program, and must be named, alone or among at most three that the data cannot tell apart.
 
-mod milling_bench;
-
+use crate::milling_bench::{Cutter, Pass, Recording, csv, record};
 use ident::findings::engine::{Found, Judgement, diagnose};
 use ident::findings::milling_force::Case;
 use ident::findings::{Answer, Verdict};
 use ident::ground::random::Random;
 use ident::measurement::milling_force::MillingForce;
 use ident::measurement::table::Table;
-use milling_bench::{Cutter, Pass, Recording, csv, record};
 use std::f64::consts::TAU;
 
 const NOMINAL: [f64; 6] = [951.365, 262.597, 323.33, 11.115, 11.314, 1.105];

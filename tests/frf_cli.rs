@@ -1,8 +1,6 @@
 //! `ident frf` as typed: account, JSON, universal file, exit status.
 
-mod common;
-
-use common::{Blow, accelerance, axis, csv, record, robot};
+use crate::common::{Blow, accelerance, axis, csv, record, robot};
 use ident::measurement::uff;
 use rustfft::num_complex::Complex64;
 use serde_json::Value;

@@ -1,8 +1,6 @@
 //! The FRF of five real hammer hits equals the published reference.
 
-mod common;
-
-use common::shared;
+use crate::common::shared;
 use ident::measurement::hammer::{self, HammerRecord};
 use ident::signal::frf::{CrossSpectra, Estimator, HitSpectra};
 use rustfft::num_complex::Complex64;

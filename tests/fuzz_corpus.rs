@@ -2,8 +2,7 @@
 //!
 //! `IDENT_FUZZ_SECONDS=600` goes on with other mutations for that long.
 
-mod mutation;
-
+use crate::mutation::mutate;
 use ident::effects::Composite;
 use ident::fit::inspection::inspect;
 use ident::fit::observation::Observation;
@@ -12,7 +11,6 @@ use ident::ground::problem::Outcome;
 use ident::ground::random::Random;
 use ident::measurement::load_cycle::LoadCycle;
 use ident::measurement::table::Table;
-use mutation::mutate;
 use std::path::Path;
 use std::time::{Duration, Instant};
 

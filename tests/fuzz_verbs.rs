@@ -1,9 +1,7 @@
 //! A short, repeatable run of the fuzzer over every reader and every verb; the long one is
 //! `cargo run --release --example fuzz -- --seconds 600`.
 
-mod mutation;
-
-use mutation::verbs::{ENTRIES, seed};
+use crate::mutation::verbs::{ENTRIES, seed};
 use rayon::prelude::*;
 use std::path::Path;
 

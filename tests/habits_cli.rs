@@ -1,9 +1,6 @@
 //! Templates, comparisons, completions, suggestions: from the command line.
 
-#[allow(dead_code)]
-mod bench_of_files;
-
-use bench_of_files::{Bench, rows};
+use crate::bench_of_files::{Bench, rows};
 use serde_json::Value;
 
 fn json(out: &str) -> Value {

@@ -1,8 +1,6 @@
 //! Close, heavily damped pairs: modes of a soft robot at four poses, hit as in a laboratory.
 
-mod common;
-
-use common::{Blow, Mode, axis, record};
+use crate::common::{Blow, Mode, axis, record};
 use ident::experiments::hammer_frf::{Settings, estimate};
 use ident::experiments::hammer_modes::modes;
 use ident::ground::random::Random;

@@ -1,8 +1,6 @@
 //! Hammer tests as files: universal files give what the CSV gives, and no text makes `ident` panic.
 
-mod common;
-
-use common::{Blow, csv, record, robot};
+use crate::common::{Blow, csv, record, robot};
 use ident::experiments::hammer_force::ForceWindow;
 use ident::experiments::hammer_frf::{Settings, estimate};
 use ident::experiments::hammer_modes::modes;

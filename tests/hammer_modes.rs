@@ -1,8 +1,6 @@
 //! Modes of simulated hammer tests against the modes they were made from.
 
-mod common;
-
-use common::{Blow, Mode, axis, record, robot};
+use crate::common::{Blow, Mode, axis, record, robot};
 use ident::experiments::hammer_frf::{Settings, estimate};
 use ident::experiments::hammer_modes::modes;
 use ident::ground::random::Random;

@@ -1,8 +1,6 @@
 //! From simulated hits to dampings: the whole way, with and without exponential window.
 
-mod common;
-
-use common::{Blow, Mode, axis, record, robot};
+use crate::common::{Blow, Mode, axis, record, robot};
 use ident::experiments::hammer_frf::{Settings, estimate};
 use ident::fit::frf_measured::measured;
 use ident::fit::frf_model::{Kind, Pose};

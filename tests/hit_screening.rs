@@ -1,8 +1,6 @@
 //! Bad hits are found, good ones kept: simulated hits with known truth.
 
-mod common;
-
-use common::{Blow, axis, record, robot};
+use crate::common::{Blow, axis, record, robot};
 use ident::experiments::hammer_frf::{Settings, estimate};
 use ident::experiments::hammer_screen::{ScreenedHit, screen};
 use ident::signal::fault::Fault;

@@ -1,9 +1,7 @@
 //! Bad input is refused with file, line and remedy, and nothing is written; odd input is either
 //! read as it was meant or reported. Runs the program as a user does.
 
-mod bench_of_files;
-
-use bench_of_files::{Bench, FRONT, HEADER, Ran, document, rows, with_body, with_rows};
+use crate::bench_of_files::{Bench, FRONT, HEADER, Ran, document, rows, with_body, with_rows};
 
 /// A refusal: what the file holds, on which line the problem lies, a word of the message.
 struct Refused {

@@ -2,12 +2,12 @@
 //! (`tests/judge`).
 //!
 //! `IDENT_BLIND_SEED` and `IDENT_JUDGE_CASES` choose other cases, `IDENT_DEBUG=1` prints the misses (2: everything),
-//! `IDENT_JUDGE_KEEP` names a folder for the files. `cargo test --test judge_instruments -- --nocapture` prints the rates.
+//! `IDENT_JUDGE_KEEP` names a folder for the files. `cargo test --test suite judge_instruments:: -- --nocapture` prints the rates.
 
-mod judge;
+use crate::judge;
 
-use judge::intervals::{Known, held};
-use judge::{Floors, conclude, judged};
+use crate::judge::intervals::{Known, held};
+use crate::judge::{Floors, conclude, judged};
 
 /// Three seeds, 240 cases: clean 49 of 49, single 87 of 99, pair 49 of 75, outside 23 of 36, untrue names in 5 of 223.
 #[test]

@@ -1,9 +1,6 @@
 //! `ident plan` from the command line: files, JSON, refusals.
 
-#[allow(dead_code)]
-mod bench_of_files;
-
-use bench_of_files::Bench;
+use crate::bench_of_files::Bench;
 use serde_json::Value;
 
 const POINTS: &str = "# kind = \"path\"

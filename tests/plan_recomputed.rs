@@ -2,10 +2,7 @@
 //! Brandstötter, Angerer and Hofbaur (2014) with the published lengths of the KR 210-2, angles by hand,
 //! the double-S by its closed form, feeds by differences of rows. Nothing of the planner is used.
 
-#[allow(dead_code)]
-mod bench_of_files;
-
-use bench_of_files::Bench;
+use crate::bench_of_files::Bench;
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, PI};
 

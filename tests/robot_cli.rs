@@ -1,8 +1,6 @@
 //! `ident simulate` and `ident robot` as they are typed: exit status, JSON and nothing else.
 
-mod robot_common;
-
-use robot_common::shared;
+use crate::robot_common::shared;
 use serde_json::Value;
 use std::process::{Command, Output};
 

@@ -1,11 +1,11 @@
 //! Against Pinocchio 4.1.0 (tests/data/pinocchio_golden*.json): pose, Jacobian, M, G, inverse and
 //! forward dynamics within 1e-10 relative, for four URDFs and a chain of 18 hinges.
 
-mod robot_common;
+use crate::robot_common;
 
+use crate::robot_common::{matrix, near, numbers, shared, vector};
 use ident::motion::{self, Work};
 use ident::robot::{Robot, check, load};
-use robot_common::{matrix, near, numbers, shared, vector};
 use serde_json::Value;
 
 const GOLDEN: &str = include_str!("data/pinocchio_golden.json");

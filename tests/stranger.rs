@@ -1,16 +1,16 @@
 //! The diagnosis of load cycles before data by strangers: `tests/stranger_generator`.
 //!
 //! `IDENT_STRANGER_SEED` and `IDENT_STRANGER_CASES` choose other cases, `IDENT_DEBUG=1` prints the misses.
-//! `cargo test --test stranger -- --nocapture` prints the rates.
+//! `cargo test --test suite stranger:: -- --nocapture` prints the rates.
 
-mod stranger_generator;
+use crate::stranger_generator;
 
+use crate::stranger_generator::Case;
 use ident::findings::{Diagnosis, Settings, Verdict, diagnose};
 use ident::measurement::load_cycle::LoadCycle;
 use ident::measurement::table::Table;
 use rayon::prelude::*;
 use std::path::Path;
-use stranger_generator::Case;
 
 fn run(case: &Case) -> Diagnosis {
     let bytes = case.csv.as_bytes();

@@ -1,11 +1,7 @@
 //! A short, repeatable run of a fuzzer over every reader of tool paths and over job files. A longer one,
 //! reader by reader: `cargo run --release --example fuzz_readers 120`.
 
-mod mutation;
-#[path = "mutation/paths.rs"]
-mod paths;
-
-use paths::{case, read, seeds};
+use crate::paths::{case, read, seeds};
 
 /// Mutated files of each seed.
 const CASES: u64 = 2000;

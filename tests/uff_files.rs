@@ -1,8 +1,6 @@
 //! Universal files of other programs are read whole or refused with the reason.
 
-mod common;
-
-use common::shared;
+use crate::common::shared;
 use ident::measurement::uff::{self, Abscissa, Encoding, Quantity, UniversalFile, Values};
 
 /// File, values of each function (pyuff 2.5.8 agrees but for the cases named), blocks skipped.

@@ -1,9 +1,7 @@
 //! What `ident` writes as data set 58, text and binary, `pyuff` reads, and the other way round. Passed
 //! over where `python3` (or what `IDENT_PYTHON` names) has no `pyuff`.
 
-mod common;
-
-use common::{Blow, csv, record, robot};
+use crate::common::{Blow, csv, record, robot};
 use ident::measurement::uff::{self, Values};
 use serde_json::Value;
 use std::path::Path;

@@ -87,7 +87,7 @@ pub struct Account {
 }
 
 /// Reduced chi-square below which FRFs agree with bodies as the robot file has them: right ones gave 0.7 to 1.1
-/// on robots of others (`cargo test --test damping_robots -- --nocapture`).
+/// on robots of others (`cargo test --test suite damping_robots:: -- --nocapture`).
 const AGREED: f64 = 1.25;
 /// How often priors are widened at most.
 const WIDENINGS: usize = 4;

@@ -1,6 +1,6 @@
 //! Clean files of the kinds without an example, by closed forms of this file: what corruption starts from.
 
-use crate::file::{File, noise};
+use crate::honest::file::{File, noise};
 use crate::milling_bench::{Cutter, Pass, Recording, csv, record};
 use ident::experiments::cubes::Setup;
 use ident::ground::random::Random;

@@ -1,7 +1,7 @@
 //! Rule 2: nothing is dropped or ignored in silence.
 
 use crate::bench_of_files::{Bench, Ran, document};
-use crate::file::File;
+use crate::honest::file::File;
 
 /// A campaign with one axis test and the points, for a robot whose joints are called `joint_1..6`.
 fn campaign(bench: &Bench, axis: &File) {

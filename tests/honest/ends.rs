@@ -1,8 +1,8 @@
 //! Rule 3: bounded cost, no panic, clean exits.
 
 use crate::bench_of_files::{Bench, rows, with_rows};
-use crate::file::File;
-use crate::withheld::short_hammer;
+use crate::honest::file::File;
+use crate::honest::withheld::short_hammer;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 

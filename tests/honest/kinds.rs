@@ -1,8 +1,8 @@
 //! The newer kinds corrupted: every verb refuses, gives the right number, or names a fault.
 
-use crate::benches;
-use crate::file::{File, noise};
-use crate::matrix::{Corruption, Verb, nothing_to_get_wrong, same_causes, table};
+use crate::honest::benches;
+use crate::honest::file::{File, noise};
+use crate::honest::matrix::{Corruption, Verb, nothing_to_get_wrong, same_causes, table};
 use serde_json::Value;
 
 fn near(found: &Value, clean: &Value, share: f64) -> bool {
@@ -308,7 +308,7 @@ fn clean_files_of_every_kind_raise_no_doubt() {
         (benches::motion(), &["diagnose", "--json", "--dry-run"]),
     ];
     for (file, verb) in cases {
-        let ran = crate::matrix::run(verb, &file);
+        let ran = crate::honest::matrix::run(verb, &file);
         assert!(ran.status < 2, "{}: {}", verb[0], ran.errors);
         let document: Value = serde_json::from_str(&ran.out).unwrap();
         let doubts = document["doubts"].as_array().expect("doubts are said");

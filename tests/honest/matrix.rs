@@ -2,8 +2,8 @@
 //! number, or a warning that names a fault. A silent wrong number is none of these.
 
 use crate::bench_of_files::{Bench, Ran};
-use crate::file::{File, noise};
-use crate::withheld::short_hammer;
+use crate::honest::file::{File, noise};
+use crate::honest::withheld::short_hammer;
 use rayon::prelude::*;
 use serde_json::Value;
 

@@ -1,7 +1,7 @@
 //! Rule 1: no number and no cause without data that can carry it.
 
 use crate::bench_of_files::{Bench, document};
-use crate::file::{File, noise};
+use crate::honest::file::{File, noise};
 use serde_json::Value;
 
 fn ran(verb: &str, file: &File) -> (i32, Value) {
