@@ -1,7 +1,6 @@
 //! What a force law must bring, and the material that states its coefficients.
 
 use crate::ground::dual::{Dual, Scalar};
-use crate::ground::spatial::V3;
 
 /// Most coefficients of a law (the length of its dual numbers).
 pub const MOST: usize = 8;
@@ -97,13 +96,6 @@ impl Material {
             law: super::LINEAR_EDGE,
             coefficients: si.map(|(value, c)| value * c.factor).collect(),
         }
-    }
-
-    /// Force on the tool, N/m of edge, cut frame: from an edge at tooth angle `turn` that takes a chip
-    /// of `chip` m where the surface normal leans by κ from the axis (formats 5.1).
-    pub fn force_per_length(&self, chip: f64, turn: &Direction) -> V3 {
-        let [t, r, a] = self.law.per_length(&self.coefficients, chip);
-        turn.force([t, r, a])
     }
 
     /// The slopes of tangential, radial and axial force over the chip, N/m².

@@ -27,8 +27,3 @@ pub const LINEAR_EDGE: &dyn CuttingLaw = &linear_edge::LinearEdge;
 
 /// Every force law.
 pub const LAWS: &[&dyn CuttingLaw] = &[LINEAR_EDGE, &kienzle::Kienzle];
-
-/// The law with this name.
-pub fn law_named(name: &str) -> Option<&'static dyn CuttingLaw> {
-    LAWS.iter().copied().find(|law| law.card().name == name)
-}

@@ -84,15 +84,6 @@ impl Tool {
         discs
     }
 
-    /// The discs between two heights above the tip, all of one thickness, as a dexel grid or a moving
-    /// surface needs them; κ and radius at their middles.
-    pub fn even_discs(&self, from_m: f64, to_m: f64, count: usize) -> Vec<Disc> {
-        let height = (to_m - from_m) / count as f64;
-        let middle = |i: usize| from_m + (i as f64 + 0.5) * height;
-        let disc = |z: f64| self.disc(z, height, self.sin_normal(z));
-        (0..count).map(|i| disc(middle(i))).collect()
-    }
-
     fn count_over(&self, height_m: f64) -> usize {
         ((self.lag_rad(height_m).abs() / FINE).ceil() as usize).clamp(1, 1000)
     }

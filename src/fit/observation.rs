@@ -96,9 +96,6 @@ pub const MOST_ROWS: usize = 3000;
 /// reading wild.
 const WILD: f64 = 3.5;
 
-/// The same beside a fitted model, in robust standard deviations of the distance itself.
-const LONE: f64 = 6.5;
-
 impl Observation {
     /// Smallest and largest load.
     pub fn load_range(&self) -> (f64, f64) {
@@ -148,20 +145,6 @@ impl Observation {
             block,
             wild,
         }
-    }
-
-    /// Replaces readings that stand alone in the residual (reading − model) of a model that fits them;
-    /// says whether there were any.
-    pub fn repair_about(&mut self, residual: &[f64]) -> bool {
-        let lone = outliers::lone(residual, LONE);
-        for i in &lone {
-            self.reading[*i] += outliers::neighbours(residual, *i) - residual[*i];
-        }
-        let found = !lone.is_empty();
-        self.wild.extend(lone);
-        self.wild.sort_unstable();
-        self.wild.dedup();
-        found
     }
 
     /// Number of readings.

@@ -45,18 +45,6 @@ const POWERS: usize = 7;
 const SLOW: usize = 6;
 
 impl Screen {
-    /// The same screen of readings (cosine coefficients) with another colour.
-    #[must_use]
-    pub fn recoloured(&self, colour: Colour, reading: &[f64]) -> Self {
-        let (basis, left) = project(&self.span, reading, &colour);
-        Self {
-            saturated: left.norm_squared(),
-            dimension: basis.ncols(),
-            colour,
-            ..self.clone()
-        }
-    }
-
     /// Screens again with more curves (cosine coefficients) in the span.
     #[must_use]
     pub fn widened(&self, curves: &[Vec<f64>], candidates: &Candidates) -> Self {
@@ -88,12 +76,6 @@ impl Screen {
             colour,
             span,
         }
-    }
-
-    /// By how many nats a reading is noisier here than in `other`.
-    pub fn noisier_than(&self, other: &Self) -> f64 {
-        let lines = self.colour.sigma.iter().zip(&other.colour.sigma);
-        lines.map(|(a, b)| (a / b).ln()).sum::<f64>() / self.colour.sigma.len().max(1) as f64
     }
 }
 

@@ -1,7 +1,6 @@
 //! Fits on disk: `fits/<campaign>/<file>.toml`, with provenance, loaded back by later verbs.
 
-use super::parameter::{Identified, Status};
-use super::solution::Solution;
+use super::parameter::Identified;
 use super::stored_text::{stored, stored_text};
 use crate::effects::Composite;
 use crate::ground::files;
@@ -142,9 +141,4 @@ impl StoredFit {
         }
         Ok(fit)
     }
-}
-
-/// Whether every parameter of a solution is supported.
-pub fn all_identified(solution: &Solution) -> bool {
-    solution.status.iter().all(|s| *s == Status::Identified)
 }

@@ -117,24 +117,6 @@ impl Setup {
         })
     }
 
-    /// The same job on a stock and with steps that are coarser by a factor: for changes of a result,
-    /// not for the result.
-    ///
-    /// # Errors
-    /// As the stock's.
-    pub fn coarser(&self, job: &Job, factor: f64) -> Outcome<Self> {
-        let per_tooth = (self.fineness.steps / self.tool.teeth) as f64 / factor;
-        let fineness = Fineness {
-            spacing_m: factor * self.fineness.spacing_m,
-            steps: self.tool.teeth * (per_tooth.round() as usize).max(STEPS[0]),
-        };
-        Ok(Self {
-            stock: stock(job, fineness.spacing_m)?,
-            fineness,
-            ..self.clone()
-        })
-    }
-
     /// The tool beside its stock.
     pub fn cutter(&self) -> Cutter {
         let axis = self.way.rows()[0].axis;

@@ -1,6 +1,6 @@
 //! A rigid body and whether it can exist.
 
-use crate::ground::spatial::{M3, Pose, V3, add, rotate, rotate_tensor, scale, sub};
+use crate::ground::spatial::{Pose, V3, add, rotate, rotate_tensor, scale, sub};
 use nalgebra::Matrix3;
 
 /// A rigid body in base-frame axes, placed where it is with every joint at zero.
@@ -96,11 +96,6 @@ impl Body {
             format!("has an inertia that violates the triangle inequality ({large:.4} > {small:.4} + {middle:.4} kg·m²)")
         })
     }
-}
-
-/// Rows of a symmetric tensor xx yy zz xy xz yz.
-pub fn tensor_rows(t: &[f64; 6]) -> M3 {
-    [[t[0], t[3], t[4]], [t[3], t[1], t[5]], [t[4], t[5], t[2]]]
 }
 
 #[cfg(test)]

@@ -9,11 +9,6 @@ pub fn random_error(coherence: f64, hits: usize) -> f64 {
     ((1.0 - coherence).max(0.0) / (2.0 * hits as f64 * coherence)).sqrt()
 }
 
-/// Coherence less its first-order bias `(1−γ²)²/n` (Bendat and Piersol 2010, eq. 9.76), at least 0.
-pub fn unbiased(coherence: f64, hits: usize) -> f64 {
-    (coherence - (1.0 - coherence).powi(2) / hits.max(1) as f64).max(0.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -22,6 +17,5 @@ mod tests {
     fn formulas_at_simple_points() {
         assert!((random_error(0.5, 2) - 0.5).abs() < 1e-12);
         assert!(random_error(0.9, 1).is_nan());
-        assert!((unbiased(0.5, 5) - 0.45).abs() < 1e-12);
     }
 }

@@ -78,16 +78,6 @@ impl Colour {
         }
     }
 
-    /// The same colour for a record of another length.
-    pub fn resized(&self, n: usize) -> Self {
-        let old = self.sigma.len().max(1);
-        let at = |k: usize| self.sigma[(k * old / n.max(1)).min(old - 1)];
-        Self {
-            sigma: (0..n).map(at).collect(),
-            ..self.clone()
-        }
-    }
-
     /// Noise in words.
     pub fn describe(&self) -> String {
         match self.family {

@@ -21,13 +21,6 @@ impl Exponential {
         }
     }
 
-    /// The window of the stated time constant in s: `σ = 1/τ`.
-    pub fn with_time_constant(time_constant_s: f64) -> Self {
-        Self {
-            rate: 1.0 / time_constant_s,
-        }
-    }
-
     /// Sum of its squares over a record.
     pub fn power(&self, samples: usize, interval_s: f64) -> f64 {
         let square = |i: usize| (-2.0 * self.rate * i as f64 * interval_s).exp();

@@ -4,6 +4,7 @@
 use super::algebra::{
     Quat, V3, axis, cross, dot, length_beyond, minus, norm, plus, scaled, times, turn, turned, unit,
 };
+use super::chosen::{USUAL, chosen};
 use super::{Case, Truth, chance, pick, twin};
 use ident::ground::random::Random;
 
@@ -673,25 +674,6 @@ fn fits(name: &str, habit: &Habit) -> bool {
     }
 }
 
-fn chosen(random: &mut Random, habit: &Habit) -> Vec<&'static str> {
-    let class = random.below(20);
-    let from: &[&'static str] = if class >= 18 { &OUTSIDE } else { &EFFECTS };
-    let count = match class {
-        0..=3 => 0,
-        4..=13 => 1,
-        14..=17 => 2,
-        _ => 1,
-    };
-    let mut names: Vec<&'static str> = Vec::new();
-    while names.len() < count {
-        let name = *pick(random, from);
-        if !names.contains(&name) && fits(name, habit) {
-            names.push(name);
-        }
-    }
-    names
-}
-
 /// Puts a cause in place; what it is blamed as, where, and the law.
 fn place(
     name: &'static str,
@@ -836,7 +818,9 @@ fn outside(name: &str, habit: &Habit, world: &World, random: &mut Random) -> Vec
 pub fn draw(seed: u64) -> Case {
     let mut random = Random::new(seed ^ 0xcbe5_0000);
     let (habit, frame) = Habit::draw(&mut random);
-    let names = chosen(&mut random, &habit);
+    let names = chosen(&mut random, USUAL, [&EFFECTS, &OUTSIDE], |name| {
+        fits(name, &habit)
+    });
     let mut real = habit.told.clone();
     let mut bearing = (String::new(), 1.0);
     for s in &mut real.springs {

@@ -4,6 +4,7 @@
 use super::algebra::{
     Quat, V3, axis, cross, length_beyond, minus, norm, plus, scaled, times, turn, turned, unit,
 };
+use super::chosen::{USUAL, chosen};
 use super::{Case, Truth, chance, pick, twin};
 use ident::ground::random::Random;
 use std::f64::consts::{PI, TAU};
@@ -562,26 +563,6 @@ const EFFECTS: [&str; 10] = [
 ];
 const OUTSIDE: [&str; 3] = ["loose part in the tool", "channel bends", "zeros jump"];
 
-fn chosen(random: &mut Random, habit: &Habit) -> Vec<&'static str> {
-    let class = random.below(20);
-    let from: &[&'static str] = if class >= 18 { &OUTSIDE } else { &EFFECTS };
-    let count = match class {
-        0..=3 => 0,
-        4..=13 => 1,
-        14..=17 => 2,
-        _ => 1,
-    };
-    let mut names: Vec<&'static str> = Vec::new();
-    while names.len() < count {
-        let name = *pick(random, from);
-        let told = habit.told_nominal || !["tool_weight", "centre_of_mass"].contains(&name);
-        if told && !names.contains(&name) {
-            names.push(name);
-        }
-    }
-    names
-}
-
 /// The size at which the largest reading of a cause is `strength` times the noise.
 fn sized(cause: &Hidden, habit: &Habit, base: &World, strength: f64) -> f64 {
     let peak = |size: f64| {
@@ -611,7 +592,9 @@ fn change(cause: &Hidden, habit: &Habit, base: &World, size: f64) -> Record {
 pub fn draw(seed: u64) -> Case {
     let mut random = Random::new(seed ^ 0xf5e4_0000);
     let habit = Habit::draw(&mut random);
-    let names = chosen(&mut random, &habit);
+    let names = chosen(&mut random, USUAL, [&EFFECTS, &OUTSIDE], |name| {
+        habit.told_nominal || !["tool_weight", "centre_of_mass"].contains(&name)
+    });
     let mut world = habit.real(&mut random);
     let real = world.clone();
     let mut more: Record = vec![[0.0; 6]; habit.rows.len()];

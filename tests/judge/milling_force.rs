@@ -2,6 +2,7 @@
 //! tooth has left; the dynamometer is a mass on a spring, integrated through time.
 
 use super::algebra::length_beyond;
+use super::chosen::{USUAL, chosen};
 use super::{Case, Truth, chance, pick, twin};
 use ident::ground::random::Random;
 use std::f64::consts::{PI, TAU};
@@ -660,25 +661,6 @@ fn fits(effect: &str, habit: &Habit) -> bool {
     }
 }
 
-fn chosen(random: &mut Random, habit: &Habit) -> Vec<&'static str> {
-    let class = random.below(20);
-    let from: &[&'static str] = if class >= 18 { &OUTSIDE } else { &EFFECTS };
-    let count = match class {
-        0..=3 => 0,
-        4..=13 => 1,
-        14..=17 => 2,
-        _ => 1,
-    };
-    let mut names: Vec<&'static str> = Vec::new();
-    while names.len() < count {
-        let name = *pick(random, from);
-        if !names.contains(&name) && fits(name, habit) {
-            names.push(name);
-        }
-    }
-    names
-}
-
 /// What nobody in the library explains, as it changes the readings.
 fn outside(name: &str, habit: &Habit, rows: &mut [Force], random: &mut Random) {
     let peak = rows.iter().flatten().fold(0.0_f64, |m, f| m.max(f.abs()));
@@ -711,7 +693,9 @@ fn outside(name: &str, habit: &Habit, rows: &mut [Force], random: &mut Random) {
 pub fn draw(seed: u64) -> Case {
     let mut random = Random::new(seed ^ 0x3111_0000);
     let habit = Habit::draw(&mut random);
-    let names = chosen(&mut random, &habit);
+    let names = chosen(&mut random, USUAL, [&EFFECTS, &OUTSIDE], |name| {
+        fits(name, &habit)
+    });
     let real = habit.real(&mut random);
     let mut world = real.clone();
     let placed: Vec<Placed> = names

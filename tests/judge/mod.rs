@@ -4,6 +4,7 @@
 #![allow(dead_code)]
 
 pub mod algebra;
+mod chosen;
 pub mod cubes;
 pub mod force_sensor;
 pub mod intervals;

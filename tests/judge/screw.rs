@@ -2,6 +2,7 @@
 //! against a scale.
 
 use super::algebra::length_beyond;
+use super::chosen::chosen;
 use super::{Case, Truth, chance, pick, twin};
 use ident::ground::random::Random;
 use std::f64::consts::TAU;
@@ -361,28 +362,11 @@ fn fits(effect: &str, habit: &Habit) -> bool {
     }
 }
 
-fn chosen(random: &mut Random, habit: &Habit) -> Vec<&'static str> {
-    let class = random.below(20);
-    let from: &[&'static str] = if class >= 17 { &OUTSIDE } else { &EFFECTS };
-    let count = match class {
-        0..=3 => 0,
-        4..=11 => 1,
-        12..=16 => 2,
-        _ => 1,
-    };
-    let mut names: Vec<&'static str> = Vec::new();
-    while names.len() < count {
-        let name = *pick(random, from);
-        if !names.contains(&name) && fits(name, habit) {
-            names.push(name);
-        }
-    }
-    names
-}
-
 /// The errors in µm of every hidden cause and its truth.
 fn hide(habit: &Habit, random: &mut Random) -> (Vec<Vec<f64>>, Vec<Truth>) {
-    let names = chosen(random, habit);
+    let names = chosen(random, [4, 12, 17], [&EFFECTS, &OUTSIDE], |name| {
+        fits(name, habit)
+    });
     let spread = (habit.noise.powi(2) + habit.rounding.powi(2) / 12.0).sqrt();
     let mut errors = Vec::new();
     let mut laws = Vec::new();

@@ -110,13 +110,6 @@ impl Engagement {
         row[low] + part * (row[high] - row[low])
     }
 
-    /// Whether anything is in material.
-    pub fn touches(&self) -> bool {
-        self.share[..self.used * self.angles]
-            .iter()
-            .any(|s| *s > 0.0)
-    }
-
     /// Highest ring with material, m above the tip.
     pub fn depth_m(&self) -> f64 {
         let row = |i: usize| &self.share[i * self.angles..(i + 1) * self.angles];

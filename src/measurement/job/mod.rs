@@ -118,11 +118,6 @@ const MM_MIN: f64 = 1e-3 / 60.0;
 const MOST_JOINTS: usize = 64;
 
 impl Job {
-    /// Whether it says everything that milling needs beside a path: tool, material and stock.
-    pub fn is_cut(&self) -> bool {
-        self.cutter.is_some() && self.material.is_some() && self.workpiece.stock.is_some()
-    }
-
     /// Reads a job file, and the material file that it may name.
     ///
     /// # Errors
