@@ -66,6 +66,7 @@ mod judge_instruments;
 mod killed;
 mod lobes_reference;
 mod mill_coupled;
+mod milled_part;
 mod next_measured;
 mod next_setups;
 mod plan_cli;

@@ -167,6 +167,7 @@ fn missing(facts: &toml::Table) -> Vec<String> {
         None => &["kind"],
         Some("workspace" | "hammer" | "cubes") => &["robot", "joint_angles_deg"],
         Some("milling-force") => &["diameter_mm", "teeth", "cuts"],
+        Some("milled-part") => &["job"],
         Some(_) => &[],
     };
     needed

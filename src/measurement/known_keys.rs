@@ -1,8 +1,8 @@
 //! A key that nobody knows: an error that names the nearest known one.
 
 use super::test::Kind;
-use super::{cubes, force_sensor, front, hammer, joint_motion, load_cycle, milling_force};
-use super::{screw, toolpath, workspace_test};
+use super::{cubes, force_sensor, front, hammer, joint_motion, load_cycle, milled_part};
+use super::{milling_force, screw, toolpath, workspace_test};
 use crate::ground::nearest::nearest;
 use crate::ground::problem::Problem;
 
@@ -14,6 +14,7 @@ const KINDS: &[&[&str]] = &[
     hammer::FACTS,
     joint_motion::FACTS,
     load_cycle::FACTS,
+    milled_part::Facts::KEYS,
     milling_force::KEYS,
     screw::Facts::KEYS,
     toolpath::FACTS,

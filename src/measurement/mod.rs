@@ -16,6 +16,7 @@ pub mod keys;
 pub mod known_keys;
 pub mod leading;
 pub mod load_cycle;
+pub mod milled_part;
 pub mod milling_force;
 pub mod modal;
 pub mod pitch_table;

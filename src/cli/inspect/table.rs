@@ -6,6 +6,7 @@ use crate::ground::problem::Outcome;
 use crate::measurement::cubes::CubeTest;
 use crate::measurement::force_sensor::SensorTest;
 use crate::measurement::joint_motion::JointMotion;
+use crate::measurement::milled_part::PartTest;
 use crate::measurement::milling_force::MillingForce;
 use crate::measurement::screw::ScrewTest;
 use crate::measurement::table::{Cells, Column, Table};
@@ -36,6 +37,9 @@ const GATES: &[(&str, Gate)] = &[
     }),
     ("screw", |path| {
         Ok(suitability::screw::doubts(&ScrewTest::read(path)?))
+    }),
+    ("milled-part", |path| {
+        Ok(suitability::milled_part::doubts(&PartTest::read(path)?))
     }),
     ("milling-force", |path| {
         Ok(suitability::milling_force::doubts(&MillingForce::read(

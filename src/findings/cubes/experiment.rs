@@ -1,8 +1,9 @@
 //! The statement of a cubes test for the engine.
 
-use super::{Case, EFFECTS, physics};
+use super::{Case, EFFECTS};
 use crate::causes::places::soften;
 use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, White};
+use crate::findings::physics::{self, OnRobot};
 use crate::findings::table;
 
 /// Relative standard deviation of a stiffness whose interval the robot does not state.

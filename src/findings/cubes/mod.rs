@@ -5,10 +5,10 @@ mod force_gain;
 mod frame_motion;
 mod load_misalignment;
 mod loose_cube;
-mod physics;
 mod rows;
 mod softer;
 
+use super::physics::OnRobot;
 use super::table::Effect;
 use crate::experiments::cubes::Setup;
 use crate::ground::problem::Outcome;
@@ -78,8 +78,24 @@ impl Case {
         })
     }
 
-    /// What another robot would show more than this one, row by row, m. Empty where the file does not fit it.
-    pub fn change(&self, robot: &Robot) -> Vec<f64> {
+    /// Numbers of the tests, in the order of the file.
+    pub fn tests(&self) -> Vec<i64> {
+        let mut found: Vec<i64> = Vec::new();
+        for row in &self.rows {
+            if !found.contains(&row.test) {
+                found.push(row.test);
+            }
+        }
+        found
+    }
+}
+
+impl OnRobot for Case {
+    fn robot(&self) -> &Robot {
+        &self.robot
+    }
+
+    fn change(&self, robot: &Robot) -> Vec<f64> {
         let Ok(setup) = Setup::new(&self.test, robot) else {
             return Vec::new();
         };
@@ -91,14 +107,11 @@ impl Case {
             .collect()
     }
 
-    /// Numbers of the tests, in the order of the file.
-    pub fn tests(&self) -> Vec<i64> {
-        let mut found: Vec<i64> = Vec::new();
-        for row in &self.rows {
-            if !found.contains(&row.test) {
-                found.push(row.test);
-            }
-        }
-        found
+    fn noise(&self) -> f64 {
+        self.noise
+    }
+
+    fn shows(&self, _: &str) -> bool {
+        true
     }
 }

@@ -4,6 +4,7 @@
 use super::Case;
 use crate::causes::places::{soften, softened};
 use crate::findings::engine::{Blamed, Member};
+use crate::findings::physics::OnRobot;
 use crate::findings::table::{Effect, Place};
 
 pub(super) const BASE: Effect<Case> = effect(

@@ -8,6 +8,7 @@ mod hammer;
 mod hammer_figures;
 mod joint_motion;
 pub mod load_cycle;
+mod milled_part;
 mod milling_force;
 mod present;
 mod screw;
@@ -99,6 +100,7 @@ pub const KINDS: &[(&str, Diagnose)] = &[
     ("force-sensor", force_sensor::diagnosed),
     ("screw", screw::diagnosed),
     ("milling-force", milling_force::diagnosed),
+    ("milled-part", milled_part::diagnosed),
 ];
 
 /// The kind of a file, and how it is diagnosed. A universal file is a hammer test; a CSV file that states none is read as a load cycle,

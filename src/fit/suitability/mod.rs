@@ -11,6 +11,7 @@ pub mod hammer;
 pub mod joint_motion;
 pub mod load_cycle;
 pub mod magnitude;
+pub mod milled_part;
 pub mod milling_force;
 pub mod relation;
 pub mod screw;

@@ -1,12 +1,24 @@
-//! Causes of the whole robot ([`crate::causes`]) as cubes see them: each alters the robot, and the cubes show
-//! the difference. What cubes do not see adds nothing and is left out.
+//! Causes of the whole robot ([`crate::causes`]) as a kind of measurement sees them: each alters the robot,
+//! and the readings show the difference. What they do not show adds nothing and is left out.
 
-use super::Case;
 use crate::causes::contract::Cause;
 use crate::causes::{CAUSES, Sight};
 use crate::effects::Family;
 use crate::findings::engine::{Blamed, Member, Suspect};
 use crate::inference::gaussian::Size;
+use crate::robot::Robot;
+
+/// A kind whose readings follow from a robot.
+pub trait OnRobot {
+    /// The robot as it is simulated.
+    fn robot(&self) -> &Robot;
+    /// What another robot would show more, reading by reading; empty where that cannot be told.
+    fn change(&self, robot: &Robot) -> Vec<f64>;
+    /// Standard deviation of a reading, in the unit of the readings.
+    fn noise(&self) -> f64;
+    /// Whether this kind shows a cause.
+    fn shows(&self, cause: &str) -> bool;
+}
 
 /// Share of an ordinary strength at which a cause is tried: small, so that what it adds is linear.
 const TRIED: f64 = 0.02;
@@ -16,29 +28,30 @@ const LEAST: f64 = 0.1;
 const UNSEEN: f64 = 1e-3;
 
 /// Everybody of the robot who may be to blame.
-pub(super) fn suspects(case: &Case) -> Vec<Suspect> {
-    let physics = CAUSES.iter().filter(|cause| shows(**cause));
+pub fn suspects(case: &dyn OnRobot) -> Vec<Suspect> {
+    let physics = CAUSES.iter().filter(|cause| shows(case, **cause));
     physics.flat_map(|cause| of(case, *cause)).collect()
 }
 
-fn shows(cause: &dyn Cause) -> bool {
+fn shows(case: &dyn OnRobot, cause: &dyn Cause) -> bool {
     let card = cause.card();
     card.family == Family::Physics
         && card
             .shows
             .iter()
             .any(|(sight, _)| *sight == Sight::Workspace)
+        && case.shows(card.name)
 }
 
-fn of(case: &Case, cause: &'static dyn Cause) -> Vec<Suspect> {
-    let sites = cause.sites(&case.robot);
+fn of(case: &dyn OnRobot, cause: &'static dyn Cause) -> Vec<Suspect> {
+    let sites = cause.sites(case.robot());
     let total: f64 = sites
         .iter()
-        .map(|site| cause.readiness(&case.robot, site))
+        .map(|site| cause.readiness(case.robot(), site))
         .sum();
     let suspect = |site: String| {
         let members = members(case, cause, &site);
-        let share = (cause.readiness(&case.robot, &site) / total).ln();
+        let share = (cause.readiness(case.robot(), &site) / total).ln();
         let card = cause.card();
         (!members.is_empty()).then_some(Suspect {
             effect: card.name,
@@ -53,12 +66,13 @@ fn of(case: &Case, cause: &'static dyn Cause) -> Vec<Suspect> {
 }
 
 /// One member per form; columns are the difference at an ordinary strength.
-fn members(case: &Case, cause: &dyn Cause, site: &str) -> Vec<Member> {
-    let scale = cause.scale(&case.robot, site);
+fn members(case: &dyn OnRobot, cause: &dyn Cause, site: &str) -> Vec<Member> {
+    let scale = cause.scale(case.robot(), site);
     let columns: Vec<Vec<f64>> = (0..scale.len())
         .map(|k| column(case, cause, site, &scale, k))
         .collect();
-    let limit = UNSEEN * case.noise * (case.rows.len() as f64).sqrt();
+    let rows = columns.iter().map(Vec::len).max().unwrap_or(0) as f64;
+    let limit = UNSEEN * case.noise() * rows.sqrt();
     let seen = |k: &usize| columns[*k].iter().map(|x| x * x).sum::<f64>().sqrt() > limit;
     let form = |(index, form): (usize, Vec<usize>)| {
         let positive = form
@@ -77,31 +91,43 @@ fn members(case: &Case, cause: &dyn Cause, site: &str) -> Vec<Member> {
     forms.filter_map(form).collect()
 }
 
-fn column(case: &Case, cause: &dyn Cause, site: &str, scale: &[f64], k: usize) -> Vec<f64> {
+fn column(case: &dyn OnRobot, cause: &dyn Cause, site: &str, scale: &[f64], k: usize) -> Vec<f64> {
     let mut amounts = vec![0.0; scale.len()];
     amounts[k] = TRIED * scale[k];
-    let mut robot = case.robot.clone();
+    let mut robot = case.robot().clone();
     cause.alter(&mut robot, site, &amounts);
     case.change(&robot).iter().map(|x| x / TRIED).collect()
 }
 
 /// Parameters of a named cause; none for those of other tables.
-pub(super) fn parameters(
-    case: &Case,
+pub fn parameters(
+    case: &dyn OnRobot,
     blamed: &Blamed,
 ) -> Option<Vec<(&'static str, f64, &'static str)>> {
+    let (cause, amounts) = amounts(case, blamed)?;
+    Some(cause.said(case.robot(), &blamed.site, &amounts))
+}
+
+/// The robot with a named cause; as it is for those of other tables.
+pub fn alter(case: &dyn OnRobot, blamed: &Blamed, robot: &mut Robot) {
+    if let Some((cause, amounts)) = amounts(case, blamed) {
+        cause.alter(robot, &blamed.site, &amounts);
+    }
+}
+
+fn amounts(case: &dyn OnRobot, blamed: &Blamed) -> Option<(&'static dyn Cause, Vec<f64>)> {
     let cause = CAUSES
         .iter()
-        .find(|cause| shows(**cause) && cause.card().name == blamed.effect)?;
-    let known = cause.sites(&case.robot).contains(&blamed.site);
+        .find(|cause| shows(case, **cause) && cause.card().name == blamed.effect)?;
+    let known = cause.sites(case.robot()).contains(&blamed.site);
     let form = cause
         .forms()
         .into_iter()
         .nth(*blamed.shape.first().filter(|_| known)? as usize)?;
-    let scale = cause.scale(&case.robot, &blamed.site);
+    let scale = cause.scale(case.robot(), &blamed.site);
     let mut amounts = vec![0.0; scale.len()];
     form.iter()
         .zip(&blamed.amounts)
         .for_each(|(k, amount)| amounts[*k] = amount * scale[*k]);
-    Some(cause.said(&case.robot, &blamed.site, &amounts))
+    Some((*cause, amounts))
 }

@@ -1,0 +1,124 @@
+//! A diagnosed part: its figures.
+
+use super::{Diagnosed, Measured, Source, examined};
+use crate::findings::engine::Found;
+use crate::findings::milled_part::{Case, Row};
+use crate::findings::physics;
+use crate::fit::suitability::{self, Doubt};
+use crate::ground::problem::Outcome;
+use crate::measurement::job::beside;
+use crate::measurement::milled_part::PartTest;
+use crate::process::Planned;
+use crate::robot::write::labelled;
+use crate::sheet::chart::{Axis, Chart, Panel, Series};
+use std::path::Path;
+
+/// Diagnoses a file of this kind.
+///
+/// # Errors
+/// The file is no measured part, or its job cannot be milled.
+pub fn diagnosed(path: &Path) -> Outcome<Box<dyn Diagnosed>> {
+    let test = PartTest::read(path)?;
+    let planned = Planned::read(&beside(path, &test.facts.job))?;
+    Ok(examined(Case::new(test, planned)?))
+}
+
+impl Measured for Case {
+    fn source(&self) -> Source<'_> {
+        Source {
+            path: &self.test.path,
+            sha256: &self.test.sha256,
+            synthetic: self.test.facts.synthetic,
+        }
+    }
+
+    fn about(&self) -> String {
+        format!("part milled by {}", self.test.facts.job)
+    }
+
+    fn doubts(&self) -> Vec<Doubt> {
+        suitability::milled_part::doubts(&self.test)
+    }
+
+    fn before_and_after(&self, found: &Found) -> Vec<Chart> {
+        let mut chart = Chart::new(
+            format!("{}-part", self.test.stem()),
+            "The part along the path",
+            "Deviation across the feed as probed, as it was simulated, and with the named causes.",
+        )
+        .synthetic(self.test.facts.synthetic);
+        for (label, left) in [("Left of the feed", true), ("Along the spindle", false)] {
+            let named: Vec<f64> = self
+                .simulated
+                .iter()
+                .zip(&found.explained)
+                .map(|(s, e)| s + e)
+                .collect();
+            let panel = Panel::new(Axis::new("Path", "mm"), Axis::new(label, "µm"))
+                .with(Series::points(
+                    "probed",
+                    self.over(left, |_, row| row.measured),
+                ))
+                .with(Series::line(
+                    "present simulation",
+                    self.over(left, |i, _| self.simulated[i]),
+                ))
+                .with(Series::line(
+                    "with the named causes",
+                    self.over(left, |i, _| named[i]),
+                ));
+            chart = chart.with(panel);
+        }
+        vec![chart]
+    }
+
+    fn remaining_figures(&self, found: &Found) -> Vec<Chart> {
+        let panel = Panel::new(Axis::new("Path", "mm"), Axis::new("Left", "µm"))
+            .with(Series::points(
+                "left of the feed",
+                self.over(true, |i, _| found.left[i]),
+            ))
+            .with(Series::points(
+                "along the spindle",
+                self.over(false, |i, _| found.left[i]),
+            ));
+        vec![
+            Chart::new(
+                format!("{}-left", self.test.stem()),
+                "What is left along the path",
+                "What the named causes leave of every probed place.",
+            )
+            .with(panel)
+            .synthetic(self.test.facts.synthetic),
+        ]
+    }
+
+    /// The robot with the causes that sit in it.
+    fn model(&self, found: &Found) -> Outcome<Option<String>> {
+        let mut robot = self.setup.robot.clone();
+        let named = found.blamed.iter().filter(|b| b.shape[0] >= 0.0);
+        named.for_each(|blamed| physics::alter(self, blamed, &mut robot));
+        let synthetic = self.test.facts.synthetic;
+        Ok((robot != self.setup.robot).then(|| labelled(&robot, synthetic)))
+    }
+
+    fn remarks(&self, _: &Found) -> Vec<String> {
+        match self.test.readings.len() - self.stations.len() {
+            0 => Vec::new(),
+            n => vec![format!(
+                "{n} of {} probed places lie where the job cuts nothing: they are left out.",
+                self.test.readings.len()
+            )],
+        }
+    }
+}
+
+impl Case {
+    /// Values along the path, of one direction: mm, µm.
+    fn over(&self, left: bool, of: impl Fn(usize, &Row) -> f64) -> Vec<[f64; 2]> {
+        let rows = self.rows.iter().enumerate();
+        let own = rows.filter(|(_, row)| row.left == left);
+        own.map(|(i, row)| [1e3 * self.stations[row.station].s_m, 1e6 * of(i, row)])
+            .collect()
+    }
+}

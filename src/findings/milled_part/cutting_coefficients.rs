@@ -1,0 +1,45 @@
+//! The material cuts harder or easier than it is stated.
+
+use super::Case;
+use super::stations::GROUPS;
+use crate::findings::engine::{Blamed, Member};
+use crate::findings::table::{Effect, Place};
+use crate::process::setup::Setup;
+
+pub(super) const EFFECT: Effect<Case> = Effect {
+    name: "cutting_coefficients",
+    summary: "The material cuts harder or easier than stated.",
+    mechanism: "force",
+    places: |case| vec![Place::new("material", members(case))],
+    parameters: |_, blamed| vec![("relative_change", blamed.amounts[0], "1")],
+    would_tell: "record the force of the cut (`ident force`)",
+};
+
+/// Ordinary relative error of a coefficient.
+const ORDINARY: f64 = 0.3;
+/// Which groups change together: all cutting, all at all, tangential, radial.
+const FORMS: [&[usize]; 4] = [&[0, 1, 2], &[0, 1, 2, 3], &[0], &[1]];
+
+fn members(case: &Case) -> Vec<Member> {
+    let form = |(i, groups): (usize, &&[usize])| {
+        let sum = |row: usize| groups.iter().map(|g| case.coefficients[*g][row]).sum();
+        let column: Vec<f64> = (0..case.rows.len()).map(sum).collect();
+        Member::given(column, ORDINARY).shaped(&[-1.0, i as f64])
+    };
+    FORMS.iter().enumerate().map(form).collect()
+}
+
+/// Least factor of a coefficient: none pulls.
+const LEAST: f64 = 0.05;
+
+/// Puts the cause into the material; false for others.
+pub(super) fn alter(blamed: &Blamed, setup: &mut Setup) -> bool {
+    let own = blamed.effect == EFFECT.name;
+    if own {
+        let factor = (1.0 + blamed.amounts[0]).max(LEAST);
+        let groups = FORMS[blamed.shape[1] as usize];
+        let changed = groups.iter().flat_map(|g| GROUPS[*g]);
+        changed.for_each(|k| setup.material.coefficients[*k] *= factor);
+    }
+    own
+}

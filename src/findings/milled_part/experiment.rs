@@ -1,0 +1,158 @@
+//! The statement of a milled part for the engine.
+
+use super::{Case, EFFECTS};
+use crate::causes::places::soften;
+use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, White};
+use crate::findings::physics::{self, OnRobot};
+use crate::findings::table;
+
+/// Relative standard deviation of a stiffness or coefficient that states none.
+const USUAL: f64 = 0.02;
+/// Standard deviation of a datum that states none, m.
+const DATUM: f64 = 10e-6;
+/// Readings that a stated noise is worth.
+const WORTH: f64 = 60.0;
+/// Relative compliance at which a spring is tried.
+const TRIED: f64 = 0.01;
+/// Waves of what nobody knows, over the path and over the time.
+const WAVES: [usize; 2] = [10, 5];
+/// Stretches of the path that are held out, one after the other.
+const STRETCHES: usize = 8;
+
+impl Experiment for Case {
+    fn unit(&self) -> &'static str {
+        "m"
+    }
+
+    fn is_linear(&self) -> bool {
+        false
+    }
+
+    fn state(&self, about: &[Blamed]) -> Statement {
+        let mut suspects = physics::suspects(self);
+        suspects.extend(table::suspects(EFFECTS, self));
+        let stated = self.test.facts.probe_noise.is_some();
+        Statement {
+            reading: self
+                .missed
+                .iter()
+                .zip(self.beyond_first_order(about))
+                .map(|(missed, beyond)| missed - beyond)
+                .collect(),
+            noise: Box::new(White {
+                spread: self.spread.clone(),
+                rows: if stated { WORTH } else { 0.0 },
+            }),
+            nuisances: self.uncertain(),
+            suspects,
+            span: self.span(),
+            splits: self.splits(),
+        }
+    }
+
+    fn parameters(&self, blamed: &Blamed) -> Vec<(&'static str, f64, &'static str)> {
+        match blamed.shape.first() {
+            Some(form) if *form >= 0.0 => physics::parameters(self, blamed).unwrap_or_default(),
+            _ => table::parameters(EFFECTS, self, blamed),
+        }
+    }
+
+    fn would_tell(&self, rivals: &[(&'static str, String)]) -> String {
+        let own = rivals
+            .iter()
+            .any(|r| EFFECTS.iter().any(|effect| effect.name == r.0));
+        match own {
+            true => table::would_tell(EFFECTS, rivals),
+            false => "mill with the tool turned to another orientation, or load the axes one by one (`ident stiffness`)".into(),
+        }
+    }
+
+    fn place(&self, missed: &[f64]) -> String {
+        let worst = (0..missed.len()).max_by(|a, b| missed[*a].abs().total_cmp(&missed[*b].abs()));
+        worst.map_or("nowhere".into(), |i| {
+            let station = &self.stations[self.rows[i].station];
+            format!("largest at {:.1} mm of the path", 1e3 * station.s_m)
+        })
+    }
+
+    fn remaining(&self, left: &[f64]) -> Remaining {
+        let along = self.rows.iter().zip(left);
+        let over_time = self.rows.iter().zip(left);
+        Remaining {
+            shape: along
+                .map(|(row, l)| [1e3 * self.stations[row.station].s_m, *l])
+                .collect(),
+            over_time: over_time
+                .map(|(row, l)| [self.stations[row.station].time_s, *l])
+                .collect(),
+            description:
+                "a deviation that no known effect makes (over the arc length of the path in mm)"
+                    .into(),
+        }
+    }
+}
+
+impl Case {
+    /// Springs and coefficients within what is known of them, and the datum.
+    fn uncertain(&self) -> Vec<Nuisance> {
+        let spring = |(site, rel): (String, Option<f64>)| {
+            let mut robot = self.robot().clone();
+            soften(&mut robot, &site, TRIED);
+            let column: Vec<f64> = self.change(&robot).iter().map(|x| x / TRIED).collect();
+            Nuisance {
+                column,
+                spread: rel.unwrap_or(USUAL),
+            }
+        };
+        let springs = self.robot().springs();
+        let springs = springs.map(|(site, s)| (site, s.relative_std()));
+        let stds = self.planned.coefficient_stds();
+        let coefficient = |(i, column): (usize, &Vec<f64>)| Nuisance {
+            column: column.clone(),
+            spread: stds.get(i).copied().flatten().unwrap_or(USUAL),
+        };
+        let datum = (0..3).map(|k| Nuisance {
+            column: self.column(|_, row| row.across[k]),
+            spread: self.test.facts.datum_std.unwrap_or(DATUM).max(1e-9),
+        });
+        let coefficients = self.coefficients.iter().enumerate().map(coefficient);
+        let all = springs.map(spring).chain(coefficients).chain(datum);
+        all.filter(|n| n.column.iter().any(|x| x.abs() > 1e-12))
+            .collect()
+    }
+
+    /// Waves over path and time, and the simulated deviation changing along the path.
+    fn span(&self) -> Vec<Vec<f64>> {
+        let over = |of: fn(&super::Station) -> f64| table::unit_range(&self.column(|s, _| of(s)));
+        let path = table::waves(&over(|s| s.s_m), WAVES[0]);
+        let time = table::waves(&over(|s| s.time_s), WAVES[1]);
+        let mut span = Vec::new();
+        for wave in path.iter().chain(&time) {
+            for left in [true, false] {
+                let own = self.rows.iter().zip(wave);
+                let column = own.map(|(row, w)| if row.left == left { *w } else { 0.0 });
+                span.push(column.collect::<Vec<f64>>());
+            }
+        }
+        let sizes = self.simulated.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
+        if sizes > 0.0 {
+            let times = |wave: &Vec<f64>| {
+                let pairs = wave.iter().zip(&self.simulated);
+                pairs.map(|(w, s)| w * s / sizes).collect()
+            };
+            span.extend(path.iter().take(4).map(times));
+        }
+        span.retain(|column| column.iter().any(|x| *x != 0.0));
+        span
+    }
+
+    /// Stretches of the path, then places here and there.
+    fn splits(&self) -> Vec<Vec<usize>> {
+        let count = self.stations.len().max(1);
+        let stretch = |row: &super::Row| row.station * STRETCHES / count;
+        vec![
+            self.rows.iter().map(stretch).collect(),
+            self.rows.iter().map(|row| row.station % 5).collect(),
+        ]
+    }
+}

@@ -1,0 +1,259 @@
+//! Where a part was probed: places along the simulated way, the two directions across the feed that a
+//! surface shows, and how well a simulation knows them.
+
+use crate::ground::problem::{Outcome, Problem};
+use crate::ground::spatial::{M3, V3, cross, dot, norm, scale, sub, unit};
+use crate::measurement::milled_part::{At, PartTest, Reading};
+use crate::motion::elastic;
+use crate::process::pose::Carrier;
+use crate::process::run::Outcome as Milled;
+use crate::process::setup::{Setup, Support};
+use crate::robot::Robot;
+use rayon::prelude::*;
+
+/// A probed place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Station {
+    /// When the tool was there, s.
+    pub time_s: f64,
+    /// Share of the whole time by then, 0 to 1.
+    pub progress: f64,
+    /// Arc length of the programmed path, m.
+    pub s_m: f64,
+    /// Tip of the tool, workpiece frame, m.
+    pub tip: V3,
+    /// Spindle axis, workpiece frame.
+    pub axis: V3,
+    /// Direction of the feed.
+    pub feed: V3,
+    /// Joint angles, rad, and their speeds, rad/s.
+    pub joints: Vec<f64>,
+    /// See `joints`.
+    pub speeds: Vec<f64>,
+    /// Simulated mean force on the tool, N, workpiece frame.
+    pub force: V3,
+    /// Simulated deviation of the tool, m, workpiece frame.
+    pub deviation: V3,
+    /// By how much that differs over [`NEAR`], m.
+    pub steep: f64,
+    /// Measured deviation, m; NaN where a component was not probed.
+    pub measured: V3,
+}
+
+/// One number that was measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Row {
+    /// Its station.
+    pub station: usize,
+    /// The direction that it measures: to the left of the feed, or along the spindle.
+    pub across: V3,
+    /// Whether that is to the left of the feed.
+    pub left: bool,
+    /// Measured deviation along it, m.
+    pub measured: f64,
+}
+
+/// Distance over which a simulated deviation is called steep, and how well a place is known, m.
+const NEAR: f64 = 0.25e-3;
+/// A component that a direction hardly has may be missing.
+const HARDLY: f64 = 0.02;
+/// Share of a simulated deviation that the laws of the cut do not know (the force's feedback on the depth,
+/// `mill.md`: 3 to 9 % where it is left out of the changes).
+const LAW: f64 = 0.03;
+/// Relative change at which coefficients are tried.
+const TRIED: f64 = 0.1;
+/// Coefficients of one name: tangential, radial and axial cutting, the edge.
+pub(super) const GROUPS: [&[usize]; 4] = [&[0], &[1], &[2], &[3, 4, 5]];
+
+/// The stations of a test, those where nothing is cut left out.
+///
+/// # Errors
+/// A place that is not on the path, with its line; nothing that is cut.
+pub(super) fn placed(test: &PartTest, setup: &Setup, milled: &Milled) -> Outcome<Vec<Station>> {
+    let mut stations = Vec::new();
+    for reading in &test.readings {
+        let time_s = when(reading, setup).map_err(|p| p.at_line(reading.line))?;
+        stations.extend(station(reading, time_s, setup, milled));
+    }
+    match stations.is_empty() {
+        true => Err(Problem::new(
+            "no probed place lies where the job cuts",
+            "check `job`, and that s_mm is the arc length of the programmed path",
+        )
+        .at_line(test.readings[0].line)),
+        false => Ok(stations),
+    }
+}
+
+fn when(reading: &Reading, setup: &Setup) -> Outcome<f64> {
+    let rows = setup.way.rows();
+    match reading.at {
+        At::Along(s) => {
+            let last = rows.last().map_or(0.0, |r| r.s_m);
+            if s < -NEAR || s > last + NEAR {
+                let what = format!(
+                    "s = {:.3} mm is not on the path of {:.3} mm",
+                    1e3 * s,
+                    1e3 * last
+                );
+                return Err(
+                    Problem::new(what, "give the arc length of the programmed path")
+                        .in_column("s_mm"),
+                );
+            }
+            let after = rows.partition_point(|r| r.s_m < s).clamp(1, rows.len() - 1);
+            let [a, b] = [&rows[after - 1], &rows[after]];
+            let share = if b.s_m > a.s_m {
+                ((s - a.s_m) / (b.s_m - a.s_m)).clamp(0.0, 1.0)
+            } else {
+                1.0
+            };
+            Ok(a.time_s + share * (b.time_s - a.time_s))
+        }
+        At::Place(place) => {
+            let far = |i: &usize| norm(sub(rows[*i].tip, place));
+            let nearest = (0..rows.len()).min_by(|a, b| far(a).total_cmp(&far(b)));
+            let reach = 2.0 * setup.tool.radius_m + NEAR;
+            match nearest.filter(|i| far(i) <= reach) {
+                Some(i) => Ok(rows[i].time_s),
+                None => Err(Problem::new(
+                    format!("the place is more than {:.1} mm from the path", 1e3 * reach),
+                    "give nominal coordinates in the frame of the workpiece",
+                )
+                .in_column("x_mm")),
+            }
+        }
+    }
+}
+
+fn station(reading: &Reading, time_s: f64, setup: &Setup, milled: &Milled) -> Option<Station> {
+    let at = setup.way.at(time_s);
+    let force = milled.force_at(time_s);
+    let feed = setup.way.feed(time_s)?;
+    let [begin, end] = setup.way.span();
+    let speed = norm(sub(
+        setup.way.at(time_s + 1e-3).tip,
+        setup.way.at(time_s - 1e-3).tip,
+    )) / 2e-3;
+    let near = NEAR / speed.max(1e-4);
+    let [before, after] = [-near, near].map(|d| milled.deviation_at(time_s + d));
+    (norm(force) > 0.0).then(|| Station {
+        time_s,
+        progress: (time_s - begin) / (end - begin),
+        s_m: at.s_m,
+        tip: at.tip,
+        axis: at.axis,
+        feed,
+        joints: at.joints,
+        speeds: at.speeds,
+        force,
+        deviation: milled.deviation_at(time_s),
+        steep: 0.5 * norm(sub(after, before)),
+        measured: reading.deviation,
+    })
+}
+
+/// What was measured across the feed: to its left, and along the spindle.
+pub(super) fn rows(stations: &[Station]) -> Vec<Row> {
+    let of = |(i, s): (usize, &Station)| {
+        let left = unit(cross(s.axis, s.feed)).unwrap_or([0.0; 3]);
+        let directions = [(left, true), (s.axis, false)];
+        directions.map(|(across, left)| Row {
+            station: i,
+            across,
+            left,
+            measured: (0..3)
+                .filter(|k| across[*k].abs() > HARDLY)
+                .map(|k| across[k] * s.measured[k])
+                .sum(),
+        })
+    };
+    let all = stations.iter().enumerate().flat_map(of);
+    all.filter(|row| row.measured.is_finite() && norm(row.across) > 0.5)
+        .collect()
+}
+
+/// Standard deviation of every row, m.
+pub(super) fn spreads(stations: &[Station], rows: &[Row], probe: f64) -> Vec<f64> {
+    let of = |row: &Row| {
+        let s = &stations[row.station];
+        let law = LAW * norm(s.deviation);
+        (probe * probe + law * law + s.steep * s.steep).sqrt()
+    };
+    rows.iter().map(of).collect()
+}
+
+/// What springs alone leave at every row, m.
+///
+/// # Errors
+/// As a run of the job.
+pub(super) fn still(setup: &Setup, stations: &[Station], rows: &[Row]) -> Outcome<Vec<f64>> {
+    let (milled, _) = setup.run(Support::Static, |_| {})?;
+    let at = |row: &Row| {
+        let time = stations[row.station].time_s;
+        dot(row.across, milled.deviation_at(time))
+    };
+    Ok(rows.iter().map(at).collect())
+}
+
+/// What springs alone leave at every row, m, and its change by each group of coefficients, per relative
+/// change of one.
+///
+/// # Errors
+/// As a run of the job.
+pub(super) fn grouped(
+    setup: &Setup,
+    stations: &[Station],
+    rows: &[Row],
+) -> Outcome<(Vec<f64>, Vec<Vec<f64>>)> {
+    let run = |group: Option<&&[usize]>| {
+        let mut setup = setup.clone();
+        let changed = group.into_iter().flat_map(|g| g.iter());
+        changed.for_each(|k| setup.material.coefficients[*k] *= 1.0 + TRIED);
+        still(&setup, stations, rows)
+    };
+    let runs: Vec<Outcome<Vec<f64>>> = (0..=GROUPS.len())
+        .into_par_iter()
+        .map(|i| run(i.checked_sub(1).map(|i| &GROUPS[i])))
+        .collect();
+    let mut runs = runs.into_iter().collect::<Outcome<Vec<_>>>()?;
+    let base = runs.remove(0);
+    let change = |run: &Vec<f64>| {
+        let pairs = run.iter().zip(&base);
+        pairs.map(|(a, b)| (a - b) / TRIED).collect()
+    };
+    let changes = runs.iter().map(change).collect();
+    Ok((base, changes))
+}
+
+/// Compliance of the tool of a robot at every station, m/N, workpiece frame.
+///
+/// # Errors
+/// A robot in which nothing is elastic.
+pub(super) fn compliances(setup: &Setup, robot: &Robot, stations: &[Station]) -> Outcome<Vec<M3>> {
+    let mut carrier = Carrier::new(elastic(robot), setup.workpiece);
+    let at = |s: &Station| Ok(carrier.held(&s.joints)?.compliance());
+    stations.iter().map(at).collect()
+}
+
+/// Motion of the tool per radian of each driven joint with a spring at every station, m, with the torque of
+/// the cut about it, N·m: by joint, in the order of the robot.
+pub(super) fn levers(
+    setup: &Setup,
+    stations: &[Station],
+    site: &str,
+) -> Option<Vec<(V3, f64, f64)>> {
+    let mut carrier = setup.carrier();
+    let at = |s: &Station| {
+        let held = carrier.held(&s.joints).ok()?;
+        let own = held.linear.names.iter().position(|name| name == site)?;
+        let lever = held.linear.tool[own];
+        Some((lever, dot(lever, s.force), held.weight[own]))
+    };
+    stations.iter().map(at).collect()
+}
+
+/// A displacement times a number.
+pub(super) fn times(v: V3, by: f64) -> V3 {
+    scale(by, v)
+}

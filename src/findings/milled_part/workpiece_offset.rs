@@ -1,0 +1,32 @@
+//! The workpiece stands elsewhere than the job says.
+
+use super::Case;
+use crate::findings::engine::Member;
+use crate::findings::table::{Effect, Place};
+use crate::inference::gaussian::Size;
+
+pub(super) const EFFECT: Effect<Case> = Effect {
+    name: "workpiece_offset",
+    summary: "The workpiece stands elsewhere than the job says.",
+    mechanism: "datum",
+    places: |case| vec![Place::new("workpiece", members(case))],
+    parameters: |_, blamed| {
+        let names = ["x", "y", "z"].iter();
+        names
+            .zip(&blamed.amounts)
+            .map(|(name, amount)| (*name, *amount, "m"))
+            .collect()
+    },
+    would_tell: "probe the datum faces of the workpiece before the cut",
+};
+
+fn members(case: &Case) -> Vec<Member> {
+    vec![Member {
+        columns: (0..3)
+            .map(|k| case.column(|_, row| row.across[k]))
+            .collect(),
+        size: Size::Free,
+        positive: None,
+        shape: vec![-1.0],
+    }]
+}
