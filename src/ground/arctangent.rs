@@ -12,12 +12,11 @@ const EIGHTH: f64 = 0.414_213_562_373_095;
 
 /// Angles (rad, in [−π, π]) of the directions (x, y); zero where both are zero.
 #[inline(always)]
-pub fn arctangents<const N: usize>(y: [f64; N], x: [f64; N]) -> [f64; N] {
-    let mut angles = [0.0; N];
-    for i in 0..N {
-        angles[i] = arctangent(y[i], x[i]);
+pub fn arctangents<const N: usize>(mut y: [f64; N], x: [f64; N]) -> [f64; N] {
+    for (y, x) in y.iter_mut().zip(x) {
+        *y = arctangent(*y, x);
     }
-    angles
+    y
 }
 
 /// Angle (rad, in [−π, π]) of the direction (x, y); zero where both are zero.
@@ -35,7 +34,7 @@ pub fn arctangent(y: f64, x: f64) -> f64 {
     let run = if wide { low + high } else { high };
     let ratio = rise / if run == 0.0 { 1.0 } else { run };
     let small = kernel(ratio);
-    let (n, small) = (if wide { 1.0 } else { 0.0 }, small);
+    let n = if wide { 1.0 } else { 0.0 };
     let (n, small) = if steep { (2.0 - n, -small) } else { (n, small) };
     let (n, small) = if x < 0.0 {
         (4.0 - n, -small)

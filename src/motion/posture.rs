@@ -78,9 +78,9 @@ const SLACK: f64 = 1e-9;
 /// one; one that has none lies within half a turn of zero.
 #[inline(always)]
 pub(super) fn within(q: &[f64; 6], seed: &[f64; 6], limits: &[[f64; 2]; 6]) -> ([f64; 6], bool) {
-    let mut turned = [0.0; 6];
-    for i in 0..6 {
-        turned[i] = q[i] + TAU * whole_turns(seed[i] - q[i]);
+    let mut turned = *q;
+    for (angle, seed) in turned.iter_mut().zip(seed) {
+        *angle += TAU * whole_turns(seed - *angle);
     }
     let mut reachable = true;
     for (angle, limits) in turned.iter_mut().zip(limits) {
