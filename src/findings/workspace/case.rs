@@ -51,7 +51,10 @@ impl<'a> Case<'a> {
         let blamed = columns.iter().any(|c| first.seats.columns[*c].instrument);
         match blamed {
             false => first,
-            true => Self::about(test, robot, &columns),
+            true => {
+                drop(first);
+                Self::about(test, robot, &columns)
+            }
         }
     }
 

@@ -29,7 +29,7 @@ const FORMS: usize = 4;
 /// Sets whose members are tried in all their forms.
 const REFINED: usize = 16;
 /// Forms that the convex programme chooses from.
-const PROPOSED: usize = 500;
+const PROPOSED: usize = 200;
 /// Sets of one length that grow by one.
 const BEAM: usize = 8;
 /// Longest set.
