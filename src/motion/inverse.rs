@@ -125,7 +125,7 @@ impl SphericalWrist {
         let wrist = self.in_base(pose)[0];
         let (turns, _) = self.first_turns(wrist, 0.0);
         let turn = turns[0].unwrap_or([1.0, 0.0]);
-        let [x, y] = self.from_shoulder(turned_back(wrist, turn));
+        let [x, y] = self.beyond_shoulder(turned_back(wrist, turn));
         let [upper, fore] = self.lengths;
         (x.hypot(y), [(upper - fore).abs(), upper + fore])
     }
@@ -151,7 +151,7 @@ impl SphericalWrist {
         let there = turns.into_iter().flatten().zip([false, true]);
         for (turn, branch) in there.filter(|(_, branch)| wanted(0, *branch)) {
             let to_arm = |v: V3| rotate(&self.arm_in_base, turned_back(v, turn));
-            let reach = self.from_shoulder(turned_back(wrist, turn));
+            let reach = self.beyond_shoulder(turned_back(wrist, turn));
             let shoulder = self.shoulder(turn, branch, free, reach, [to_arm(a6), to_arm(a5)]);
             for (elbow, bend) in shoulder.elbows.iter().flatten() {
                 if wanted(1, *elbow) {
@@ -188,7 +188,7 @@ impl SphericalWrist {
 
     /// From A2 to the wrist in the plane of the arm, of a wrist in the frame `base`, m.
     #[inline(always)]
-    fn from_shoulder(&self, wrist: V3) -> [f64; 2] {
+    fn beyond_shoulder(&self, wrist: V3) -> [f64; 2] {
         let [x, y] = [0, 1].map(|i| dot(self.arm_in_base[i], wrist));
         [x - self.shoulder[0], y - self.shoulder[1]]
     }

@@ -35,8 +35,8 @@ pub struct Gram {
 impl Gram {
     /// Of columns and what the springs take of them.
     pub fn of(columns: &Columns, taken: Option<DMatrix<f64>>) -> Self {
-        let (mut places, mut locals): (Vec<Place>, BTreeMap<usize, Vec<usize>>) =
-            Default::default();
+        let mut places: Vec<Place> = Vec::new();
+        let mut locals: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         let (mut wide, mut count) = (Vec::new(), 0);
         for (j, rows) in columns.all().iter().enumerate() {
             places.push(match rows {
@@ -135,8 +135,8 @@ impl Gram {
 
 /// Products of columns that act everywhere, over slopes and levels.
 fn products(columns: &Columns, wide: &[usize]) -> DMatrix<f64> {
-    let (mut heads, mut tails): (Vec<&DVector<f64>>, Vec<(usize, &DVector<f64>)>) =
-        Default::default();
+    let mut heads: Vec<&DVector<f64>> = Vec::new();
+    let mut tails: Vec<(usize, &DVector<f64>)> = Vec::new();
     for (a, j) in wide.iter().enumerate() {
         if let Rows::Wide(slopes, tail) = &columns.all()[*j] {
             heads.push(slopes);
