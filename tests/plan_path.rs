@@ -530,3 +530,99 @@ fn the_stiffest_turn_of_an_angled_spindle_is_stiffer_and_turns_slowly() {
     }
     assert!(missed(&stiffest)[0] < 1e-9);
 }
+
+/// Largest second difference of every joint over the square of the cycle, rad/s².
+fn hardest(plan: &Plan) -> [f64; 6] {
+    let second = |i: usize, r: &[ident::planning::plan::Row]| {
+        (r[0].q[i] - 2.0 * r[1].q[i] + r[2].q[i]).abs() / plan.cycle.powi(2)
+    };
+    let largest = |i| {
+        plan.rows
+            .windows(3)
+            .map(|r| second(i, r))
+            .fold(0.0, f64::max)
+    };
+    std::array::from_fn(largest)
+}
+
+/// A zigzag whose corners are blended, `feed` in mm/min.
+fn zigzag(feed: f64) -> (String, Toolpath) {
+    let corners = (0..8).map(|k| to(20.0 * f64::from(k), 30.0 * f64::from(k % 2), 0.0));
+    let lines = format!("feed_mm_min = {feed:.1}\nblend_radius_mm = 4.0");
+    (lines, toolpath(corners.collect()))
+}
+
+#[test]
+fn joints_that_would_accelerate_too_hard_are_named_and_adapt_keeps_them() {
+    // fast: the bends of the corners count; slow: starts and stops
+    for (feed, share) in [(9000.0, 0.4), (600.0, 0.25)] {
+        let (lines, path) = zigzag(feed);
+        let mut robot = load("kr210", None).unwrap().robot;
+        let free = plan(&job(&lines), &path, &robot).unwrap().unwrap();
+        // a joint that stays where it is must not be judged by its rounding
+        let most = hardest(&free).map(|most| most.max(1e-3));
+        for (joint, most) in robot.joints.iter_mut().zip(most) {
+            joint.max_acceleration = Some(share * most);
+        }
+        let bound = plan(&job(&lines), &path, &robot).unwrap().unwrap();
+        assert_eq!(
+            bound.rows, free.rows,
+            "without leave the feed is not lowered"
+        );
+        let moving = robot
+            .joints
+            .iter()
+            .zip(most)
+            .filter(|(_, most)| *most > 1e-3);
+        let moving: Vec<_> = moving.collect();
+        assert_eq!(bound.exceeded.len(), moving.len());
+        assert!(moving.len() > 3);
+        for (one, (joint, most)) in bound.exceeded.iter().zip(moving) {
+            assert_eq!((one.what, &one.site), ("joint-acceleration", &joint.name));
+            assert!((one.value * DEGREE / most - 1.0).abs() < 1e-9);
+            assert!((one.limit * DEGREE / (share * most) - 1.0).abs() < 1e-12);
+        }
+        let adapted = job(&format!("{lines}\nfeed = \"adapt\""));
+        let kept = plan(&adapted, &path, &robot).unwrap().unwrap();
+        assert!(kept.exceeded.is_empty(), "{:?}", kept.exceeded);
+        for ((own, most), joint) in hardest(&kept).iter().zip(most).zip(&kept.joints) {
+            assert!(*own <= share * most * (1.0 + 1e-6));
+            assert!((joint.max_acceleration - own).abs() < 1e-12);
+        }
+        let longer = kept.timeline.duration / free.timeline.duration;
+        println!(
+            "feed {feed}: {longer:.3} times as long, eased to {:.3}",
+            kept.feed.eased
+        );
+        assert!(longer > 1.0 && longer < 4.0, "{longer}");
+        assert!(missed(&kept)[0] < 1e-9);
+    }
+}
+
+#[test]
+fn a_turn_on_the_spot_keeps_accelerations_too() {
+    let turned = |x: f64, angle: f64| {
+        let axis = [angle.sin(), 0.0, angle.cos()];
+        Move {
+            orientation: Orientation::Axis(axis),
+            ..to(x, 0.0, 0.0)
+        }
+    };
+    let path = toolpath(vec![
+        turned(0.0, 0.0),
+        turned(50.0, 0.0),
+        turned(50.0, 0.3),
+        turned(100.0, 0.3),
+    ]);
+    let lines = "feed_mm_min = 3000.0\nfeed = \"adapt\"\nblend_radius_mm = 0.0";
+    let mut robot = load("kr210", None).unwrap().robot;
+    let free = plan(&job(lines), &path, &robot).unwrap().unwrap();
+    assert!(free.path.halts.iter().any(|halt| !halt.turns.is_empty()));
+    for (joint, most) in robot.joints.iter_mut().zip(hardest(&free)) {
+        joint.max_acceleration = Some(0.3 * most.max(1e-3));
+    }
+    let kept = plan(&job(lines), &path, &robot).unwrap().unwrap();
+    assert!(kept.exceeded.is_empty(), "{:?}", kept.exceeded);
+    let longer = kept.timeline.duration / free.timeline.duration;
+    assert!(longer > 1.0 && longer < 3.0, "{longer}");
+}

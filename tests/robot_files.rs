@@ -36,6 +36,19 @@ fn a_small_robot_reads() {
 }
 
 #[test]
+fn a_joint_may_state_its_accelerations() {
+    let limits = "limits_deg = [-90.0, 90.0]";
+    let text = GOOD.replace(
+        limits,
+        &format!("{limits}\nmax_acceleration_deg_s2 = 250.0"),
+    );
+    let robot = file::read(&text).unwrap();
+    let stated = robot.joints[0].max_acceleration.unwrap();
+    assert!((stated.to_degrees() - 250.0).abs() < 1e-12);
+    assert_eq!(file::read(&write::write(&robot)).unwrap(), robot);
+}
+
+#[test]
 fn a_stiffness_may_state_its_spread_where_no_interval_is_known() {
     let with = |spread: &str| {
         let text = format!("stiffness_Nm_rad = 1.0e6, stiffness_rel_std = {spread}");
@@ -73,6 +86,12 @@ const BAD: &[(&str, &str, &[&str], Option<usize>)] = &[
         "limits_deg = [-90.0, 90.0]",
         "limits_deg = [90.0, -90.0]",
         &["A1", "limits_deg"],
+        Some(4),
+    ),
+    (
+        "limits_deg = [-90.0, 90.0]",
+        "limits_deg = [-90.0, 90.0]\nmax_acceleration_deg_s2 = 0.0",
+        &["A1", "max_acceleration_deg_s2", "positive"],
         Some(4),
     ),
     (

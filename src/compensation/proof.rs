@@ -97,8 +97,8 @@ fn speed(rows: &[Row], i: usize, site: &str, limit: f64) -> Checked {
     }
 }
 
-/// No robot file states accelerations: a joint is taken to reach its highest speed in [`RAMP_S`], and to do
-/// twice what the uncorrected path asks.
+/// Where the robot file states no acceleration, a joint is taken to reach its highest speed in [`RAMP_S`], and
+/// to do twice what the uncorrected path asks.
 fn acceleration(
     way: &Way,
     plan: &[crate::planning::plan::Row],
@@ -110,7 +110,8 @@ fn acceleration(
     let drawn = plan
         .windows(3)
         .map(|r| second(r[0].q[i], r[1].q[i], r[2].q[i], r[1].t - r[0].t));
-    let limit = (2.0 * drawn.fold(0.0, f64::max)).max(joint.max_speed.unwrap_or(FAST) / RAMP_S);
+    let usual = (2.0 * drawn.fold(0.0, f64::max)).max(joint.max_speed.unwrap_or(FAST) / RAMP_S);
+    let limit = joint.max_acceleration.unwrap_or(usual);
     let triples = way.rows().windows(3).map(|r| {
         let h = r[1].time_s - r[0].time_s;
         (

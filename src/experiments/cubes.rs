@@ -71,7 +71,7 @@ impl Setup {
         let tcp = forward_kinematics(&chain, &mut work, &angles).point;
         let seat = |cube: &Cube| {
             Ok(Seat {
-                hinges: before(robot, &chain, cube).map_err(|p| p.in_file(&test.path))?,
+                hinges: before(robot, &chain, cube).map_err(|p| p.at_key(&test.path, "cubes"))?,
                 at: cube.centre,
             })
         };

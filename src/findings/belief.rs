@@ -31,8 +31,10 @@ pub struct Belief {
 /// Prior probability of one cause at one place in a joint inference: experiments bring evidence, and this is
 /// applied once. A hundred places of a robot, and mostly one of them wrong.
 pub const PRIOR: f64 = 0.01;
-/// Sets with less than this probability are not kept, nor more than so many.
-const KEPT: (f64, usize) = (1e-9, 100);
+/// Sets with less than this probability are not kept.
+pub const LEAST: f64 = 1e-9;
+/// No more sets than so many are kept.
+const KEPT: usize = 100;
 /// Logarithm of the evidence of a set of which not even a part was weighed.
 const UNHEARD_OF: f64 = -25.0;
 
@@ -45,7 +47,7 @@ impl Belief {
         weighed: impl Iterator<Item = (Vec<Place>, f64, f64, Robot)>,
     ) -> Self {
         let mut sets: Vec<Weighed> = Vec::new();
-        for (mut causes, p, ln_odds, robot) in weighed.filter(|w| w.1 > KEPT.0).take(KEPT.1) {
+        for (mut causes, p, ln_odds, robot) in weighed.filter(|w| w.1 > LEAST).take(KEPT) {
             causes.sort();
             match sets.iter_mut().find(|set| set.causes == causes) {
                 Some(set) => {

@@ -4,7 +4,7 @@
 use super::force_steps::{Setup, quantile};
 use super::parameter::Z95;
 use crate::experiments::workspace::{Response, Site};
-use crate::ground::spatial::V3;
+use crate::ground::spatial::{M3, V3};
 use nalgebra::{DMatrix, DVector};
 
 /// The measured components of one set-up with the transform that whitens them.
@@ -136,6 +136,21 @@ impl Weighing {
             .iter()
             .flat_map(|b| own(b).data.as_vec().clone());
         DVector::from_vec(all.collect())
+    }
+
+    /// The numbers of [`Self::whiten`] that the slopes of one point (m/N by direction) make, with their
+    /// places.
+    pub fn whiten_at(&self, point: usize, slopes: &M3) -> Vec<(usize, f64)> {
+        let mut found = Vec::with_capacity(9);
+        let mut first = 0;
+        for block in &self.blocks {
+            if block.point == point {
+                let own = &block.whitener * block.pick(&slopes[block.direction]);
+                found.extend(own.iter().enumerate().map(|(i, x)| (first + i, *x)));
+            }
+            first += block.components.len();
+        }
+        found
     }
 
     /// Point, direction and component of every whitened number: a number belongs to all components

@@ -51,6 +51,19 @@ pub fn read_bytes(path: &Path) -> Outcome<Vec<u8>> {
     Ok(content)
 }
 
+/// The 1-based line of a text file on which `key` is set, in front matter too; 1 where none is.
+pub fn line_setting(path: &Path, key: &str) -> usize {
+    let sets = |line: &[u8]| {
+        let line = String::from_utf8_lossy(line);
+        let bare = line.trim_start_matches(['#', ' ', '\t', '\u{feff}']);
+        let rest = bare.strip_prefix(key);
+        rest.is_some_and(|rest| rest.trim_start().starts_with('='))
+    };
+    let bytes = read_bytes(path).unwrap_or_default();
+    let found = bytes.split(|byte| *byte == b'\n').position(sets);
+    found.map_or(1, |before| before + 1)
+}
+
 /// SHA-256 as 64 hex digits.
 pub fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes)

@@ -50,6 +50,18 @@ impl Problem {
         }
     }
 
+    /// The same problem, found where `file` sets `key`: in its first line where it does not.
+    #[must_use]
+    pub fn at_key(self, file: &Path, key: &str) -> Self {
+        match self.file.is_some() {
+            true => self,
+            false => {
+                let line = super::files::line_setting(file, key);
+                self.in_column(key).at_line(line).in_file(file)
+            }
+        }
+    }
+
     /// The same problem, found in 1-based `line`.
     #[must_use]
     pub fn at_line(mut self, line: usize) -> Self {

@@ -3,6 +3,7 @@
 
 pub mod build;
 pub mod chain;
+pub mod circle;
 pub mod dynamics;
 pub mod forward;
 pub mod frf;
@@ -12,6 +13,7 @@ pub mod kinematics;
 pub mod linear;
 pub mod modes;
 pub mod numeric;
+pub mod posture;
 pub mod receptance;
 pub mod servo;
 pub mod statics;

@@ -40,6 +40,24 @@ impl Phase {
 }
 
 impl Limits {
+    /// So much of both.
+    #[must_use]
+    pub fn scaled(&self, share: f64) -> Self {
+        Self {
+            acceleration: share * self.acceleration,
+            jerk: share * self.jerk,
+        }
+    }
+
+    /// Those of the same motion at this share of its speed: stretched in time.
+    #[must_use]
+    pub fn slowed(&self, share: f64) -> Self {
+        Self {
+            acceleration: share.powi(2) * self.acceleration,
+            jerk: share.powi(3) * self.jerk,
+        }
+    }
+
     /// Time from one speed to another (m/s), acceleration zero at both, s.
     pub fn change_time(&self, from: f64, to: f64) -> f64 {
         let (change, ramp) = ((to - from).abs(), self.acceleration / self.jerk);

@@ -83,7 +83,7 @@ impl Feeds {
 
 impl Timeline {
     /// Runs the path at the speeds of `steps`; `slow` gives the share of its usual speed for a turn
-    /// on the spot.
+    /// on the spot, which is stretched in time so that its joints accelerate by the square of it.
     pub fn run(path: &Path, steps: &[Step], limits: &Limits, slow: &[f64]) -> Self {
         let (mut stages, mut t, mut first) = (Vec::new(), 0.0, 0);
         let mut slow = slow.iter();
@@ -92,13 +92,14 @@ impl Timeline {
                 let way = norm(turn.ends[0].way_to(turn.ends[1])) * TURN_LEVER;
                 let here = steps.partition_point(|step| step.end < halt.at);
                 let speed = steps.get(here);
-                let speed = speed.map_or(0.01, |step| step.speed) * slow.next().unwrap_or(&1.0);
+                let share = *slow.next().unwrap_or(&1.0);
+                let speed = speed.map_or(0.01, |step| step.speed) * share;
                 let whole = Step {
                     begin: 0.0,
                     end: way,
                     speed,
                 };
-                let phases = profile(&[whole], limits, t);
+                let phases = profile(&[whole], &limits.slowed(share), t);
                 t = end_of(&phases, t);
                 stages.push(Stage::Turn(*turn, halt.at, phases));
             }

@@ -109,7 +109,7 @@ fn start(job: &Job, limits: &[[f64; 2]]) -> Outcome<[f64; JOINTS]> {
             format!("has {} angles, the robot six joints", given.len()),
             "write one angle per joint: `[0, -90, 90, 0, 0, 0]`",
         )
-        .in_column("start_joints_deg")
+        .at_key(&job.path, "start_joints_deg")
     })
 }
 

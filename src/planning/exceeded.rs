@@ -1,5 +1,6 @@
 //! What the robot cannot do: speeds, ranges, singularities.
 
+use super::adapt::{acceleration, speed};
 use super::cell::{Cell, JOINTS};
 use super::plan::Row;
 use crate::ground::units::DEGREE;
@@ -7,7 +8,7 @@ use crate::ground::units::DEGREE;
 /// A limit that is exceeded, at its worst.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Exceeded {
-    /// `joint-speed`, `joint-angle`, `reach` or `singularity`.
+    /// `joint-speed`, `joint-acceleration`, `joint-angle`, `reach` or `singularity`.
     pub what: &'static str,
     /// Joint, or `wrist`, `elbow`, `shoulder`, `arm`.
     pub site: String,
@@ -15,7 +16,7 @@ pub struct Exceeded {
     pub at: f64,
     /// Line of the path file.
     pub line: usize,
-    /// How much: deg/s, deg, m; for a singularity the angle from it, deg.
+    /// How much: deg/s, deg/s², deg, m; for a singularity the angle from it, deg.
     pub value: f64,
     /// What is allowed, in the same unit.
     pub limit: f64,
@@ -36,6 +37,12 @@ pub struct JointUse {
     pub speed_limit: Option<f64>,
     /// Row of the largest speed.
     pub fastest: usize,
+    /// Largest acceleration, rad/s²: second difference of rows over the square of the cycle.
+    pub max_acceleration: f64,
+    /// Highest acceleration allowed, rad/s².
+    pub acceleration_limit: Option<f64>,
+    /// Row of the largest acceleration.
+    pub hardest: usize,
 }
 
 /// Share of a limit beyond which it counts as exceeded: rounding.
@@ -48,10 +55,10 @@ pub fn uses(cell: &Cell, rows: &[Row], cycle: f64) -> Vec<JointUse> {
     let joints = cell.robot.joints.iter().enumerate();
     let one = |(i, joint): (usize, &crate::robot::Joint)| {
         let angles = || rows.iter().map(|row| row.q[i]);
-        let speed = |pair: &[Row]| (pair[1].q[i] - pair[0].q[i]).abs() / cycle;
-        let speeds = rows.windows(2).map(speed).enumerate();
-        let fastest = speeds.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
-        let (fastest, max_speed) = fastest.unwrap_or((0, 0.0));
+        let speeds = rows.windows(2).map(|pair| speed(pair, i, cycle));
+        let (fastest, max_speed) = largest(speeds);
+        let accelerations = rows.windows(3).map(|rows| acceleration(rows, i, cycle));
+        let (hardest, max_acceleration) = largest(accelerations.map(f64::abs));
         JointUse {
             site: joint.name.clone(),
             range: [
@@ -62,32 +69,49 @@ pub fn uses(cell: &Cell, rows: &[Row], cycle: f64) -> Vec<JointUse> {
             max_speed,
             speed_limit: joint.max_speed,
             fastest,
+            max_acceleration,
+            acceleration_limit: joint.max_acceleration,
+            hardest: hardest + usize::from(rows.len() > 2),
         }
     };
     joints.map(one).collect()
 }
 
-/// The worst of every kind and site, in the order speeds, angles, singularities.
+/// The first of the largest values, and where it stands.
+fn largest(values: impl Iterator<Item = f64>) -> (usize, f64) {
+    let all = values.enumerate();
+    let found = all.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+    found.unwrap_or((0, 0.0))
+}
+
+/// The worst of every kind and site, in the order speeds, accelerations, angles, singularities.
 pub fn exceeded(
     cell: &Cell,
     rows: &[Row],
     uses: &[JointUse],
     line: impl Fn(f64) -> usize,
 ) -> Vec<Exceeded> {
+    let beyond_limit = |own: &JointUse, what: &'static str| {
+        let (value, limit, row) = match what {
+            "joint-speed" => (own.max_speed, own.speed_limit?, &rows[own.fastest]),
+            _ => (
+                own.max_acceleration,
+                own.acceleration_limit?,
+                &rows[own.hardest],
+            ),
+        };
+        (value > limit * (1.0 + SLACK)).then(|| Exceeded {
+            what,
+            site: own.site.clone(),
+            at: row.t,
+            line: line(row.s),
+            value: value / DEGREE,
+            limit: limit / DEGREE,
+        })
+    };
     let mut all = Vec::new();
-    for own in uses {
-        let limit = own.speed_limit.unwrap_or(f64::INFINITY);
-        if own.max_speed > limit * (1.0 + SLACK) {
-            let row = &rows[own.fastest];
-            all.push(Exceeded {
-                what: "joint-speed",
-                site: own.site.clone(),
-                at: row.t,
-                line: line(row.s),
-                value: own.max_speed / DEGREE,
-                limit: limit / DEGREE,
-            });
-        }
+    for what in ["joint-speed", "joint-acceleration"] {
+        all.extend(uses.iter().filter_map(|own| beyond_limit(own, what)));
     }
     for (i, own) in uses.iter().enumerate() {
         all.extend(beyond(rows, i, own, &line));

@@ -1,6 +1,7 @@
 //! Joint angles along a path: one branch, without jumps.
 
 use super::cell::{Cell, JOINTS};
+use crate::ground::arctangent::whole_turns;
 use crate::ground::spatial::{Pose, norm};
 use crate::motion::inverse::{Posture, Postures};
 use crate::motion::{Work, numeric};
@@ -124,7 +125,7 @@ fn nearest(postures: &Postures, to: &[f64; JOINTS]) -> Option<[f64; JOINTS]> {
 
 /// The same posture by the full turns nearest to `to`.
 fn carried_on(q: &[f64; JOINTS], to: &[f64; JOINTS]) -> [f64; JOINTS] {
-    std::array::from_fn(|i| q[i] + TAU * ((to[i] - q[i]) / TAU).round())
+    std::array::from_fn(|i| q[i] + TAU * whole_turns(to[i] - q[i]))
 }
 
 /// Sum of squared differences, rad².

@@ -7,6 +7,7 @@ pub mod exceeded;
 pub mod follow;
 pub mod plan;
 pub mod program;
+pub mod ride;
 pub mod spin;
 pub mod trajectory;
 pub mod turn_search;

@@ -1,29 +1,24 @@
 //! From a job, its path and its robot to joint angles over time.
 
-use super::adapt::caps;
 use super::cell::{Cell, JOINTS};
 use super::exceeded::{Exceeded, JointUse, exceeded, passages, uses};
-use super::follow::{Follower, Miss};
+use super::follow::Miss;
+use super::ride::{Ride, Run};
 use super::spin::{SpinLaw, mean_compliance};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::V3;
 use crate::measurement::job::{self, Job};
 use crate::measurement::toolpath::Toolpath;
-use crate::path::build::Part;
-use crate::path::double_s::{Limits, Phase};
+use crate::path::double_s::Phase;
 use crate::path::element::programme;
 use crate::path::orientation::Turning;
-use crate::path::profile::{Step, lower};
+use crate::path::profile::Step;
 use crate::path::timeline::{Feeds, Stage};
 use crate::path::{Drawing, Path, Quaternion, Timeline};
 use crate::robot::Robot;
 
 /// Rapid motions run at this multiple of the feed if the job does not say.
 const RAPID: f64 = 5.0;
-/// More rows than this are refused.
-const MOST_ROWS: f64 = 1e7;
-/// Feeds are lowered again at most this often.
-const ROUNDS: usize = 40;
 
 /// The commanded motion at one cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,6 +46,9 @@ pub struct FeedUse {
     pub held_share: f64,
     /// Lowest speed outside of starts and stops, m/s.
     pub min: f64,
+    /// Share of the path's acceleration and jerk that is used, so that no joint accelerates harder than
+    /// it can; below 1 only where the feed adapts.
+    pub eased: f64,
 }
 
 /// A planned job.
@@ -162,18 +160,25 @@ pub fn plan(job: &Job, toolpath: &Toolpath, robot: &Robot) -> Outcome<Result<Pla
     };
     let asked = feeds.steps(&path);
     ride.bounded(&asked)?;
-    let (timeline, rows) = match ride.within_speeds(&asked) {
+    let Run {
+        timeline,
+        rows,
+        eased,
+    } = match ride.within_limits(&asked) {
         Ok(run) => run,
         Err(unreached) => return Ok(Err(unreached)),
     };
     let joints = uses(&cell, &rows, job.cycle);
     let exceeded = exceeded(&cell, &rows, &joints, |s| path.line(s));
-    let feed = feed_use(
-        &path,
-        &timeline,
-        &asked,
-        feeds.feed.unwrap_or(feeds.fallback),
-    );
+    let feed = FeedUse {
+        eased,
+        ..feed_use(
+            &path,
+            &timeline,
+            &asked,
+            feeds.feed.unwrap_or(feeds.fallback),
+        )
+    };
     Ok(Ok(Plan {
         compliance: compared(&cell, &path, &spin),
         passages: passages(&cell, &rows),
@@ -216,124 +221,6 @@ fn feeds(job: &Job, path: &Path) -> Outcome<Feeds> {
     }
 }
 
-/// A path, ridden again and again until the joints keep their speeds.
-struct Ride<'a> {
-    job: &'a Job,
-    cell: &'a Cell,
-    path: &'a Path,
-    spin: &'a SpinLaw,
-}
-
-impl Ride<'_> {
-    fn limits(&self) -> Limits {
-        Limits {
-            acceleration: self.job.limits.path_acceleration,
-            jerk: self.job.limits.path_jerk,
-        }
-    }
-
-    /// Refuses what would take more rows than anybody can use.
-    fn bounded(&self, asked: &[Step]) -> Outcome<()> {
-        let timeline = Timeline::run(self.path, asked, &self.limits(), &[]);
-        let rows = timeline.duration / self.job.cycle;
-        match rows <= MOST_ROWS {
-            true => Ok(()),
-            false => Err(Problem::new(
-                format!("would take {:.3e} s, {rows:.1e} cycles", timeline.duration),
-                "check the units of path, feed and limits, or choose a longer cycle_ms",
-            )
-            .in_file(&self.job.path)),
-        }
-    }
-
-    fn within_speeds(&self, asked: &[Step]) -> Result<(Timeline, Vec<Row>), Unreached> {
-        let limits = self.limits();
-        let turns = self.path.halts.iter().map(|halt| halt.turns.len()).sum();
-        let (mut steps, mut slow) = (asked.to_vec(), vec![1.0; turns]);
-        let mut run = self.run(&steps, &limits, &slow)?;
-        for _ in 0..ROUNDS {
-            let may = |s: f64| self.job.adapt || self.is_rapid(s);
-            let caps = caps(self.cell, &run.1, self.job.cycle, self.path.length, may);
-            let slower = self.job.adapt && self.slow_turns(&run, &mut slow);
-            match caps {
-                Some(caps) => steps = lower(&steps, &caps),
-                None if !slower => break,
-                None => {}
-            }
-            run = self.run(&steps, &limits, &slow)?;
-        }
-        Ok(run)
-    }
-
-    fn is_rapid(&self, s: f64) -> bool {
-        let elements = &self.path.programme.elements;
-        match self.path.piece(s).part {
-            Part::Element(k, _) => elements[k].rapid,
-            Part::Blend(k, _) => elements[k].rapid && elements[k + 1].rapid,
-        }
-    }
-
-    fn run(
-        &self,
-        steps: &[Step],
-        limits: &Limits,
-        slow: &[f64],
-    ) -> Result<(Timeline, Vec<Row>), Unreached> {
-        let timeline = Timeline::run(self.path, steps, limits, slow);
-        let mut follower = Follower::new(self.cell);
-        let states = timeline.sample(self.path, self.job.cycle);
-        let row = |(k, state): (usize, crate::path::timeline::State)| {
-            let orientation = self.spin.apply(state.s, state.orientation);
-            let t = k as f64 * self.job.cycle;
-            let pose = self.cell.in_base(state.point, orientation);
-            let q = follower.next(&pose).map_err(|miss| Unreached {
-                t,
-                point: state.point,
-                line: self.path.line(state.s),
-                miss,
-            })?;
-            Ok(Row {
-                t,
-                s: state.s,
-                point: state.point,
-                orientation,
-                q,
-                feed: state.feed,
-            })
-        };
-        let rows = states.into_iter().enumerate().map(row);
-        let rows = rows.collect::<Result<Vec<Row>, Unreached>>()?;
-        Ok((timeline, rows))
-    }
-
-    /// Slows the turns on the spot in which a joint is too fast; whether there was one.
-    fn slow_turns(&self, run: &(Timeline, Vec<Row>), slow: &mut [f64]) -> bool {
-        let (timeline, rows) = run;
-        let turns = timeline.stages.iter().filter_map(|stage| match stage {
-            Stage::Turn(.., phases) => Some(phases),
-            Stage::Travel(_) => None,
-        });
-        let mut found = false;
-        for (phases, slow) in turns.zip(slow) {
-            let during = |row: &&Row| is_during(phases, row.t);
-            let rows: Vec<Row> = rows.iter().filter(during).copied().collect();
-            let pairs = rows.windows(2);
-            let excess = pairs.map(|pair| super::adapt::excess(self.cell, pair, self.job.cycle));
-            let excess = excess.fold(0.0, f64::max);
-            if excess > 1.0 {
-                *slow *= 0.98 / excess;
-                found = true;
-            }
-        }
-        found
-    }
-}
-
-fn is_during(phases: &[Phase], t: f64) -> bool {
-    let ends = phases.first().zip(phases.last());
-    ends.is_some_and(|(first, last)| t >= first.begin && t <= last.begin + last.duration)
-}
-
 fn feed_use(path: &Path, timeline: &Timeline, asked: &[Step], feed: f64) -> FeedUse {
     let travels = timeline.stages.iter().filter_map(|stage| match stage {
         Stage::Travel(phases) => Some(phases),
@@ -351,6 +238,7 @@ fn feed_use(path: &Path, timeline: &Timeline, asked: &[Step], feed: f64) -> Feed
         asked: feed,
         held_share: (held / path.length).min(1.0),
         min: least,
+        eased: 1.0,
     }
 }
 

@@ -39,7 +39,7 @@ pub fn load(name: &str, measurement: Option<&Path>) -> Outcome<Loaded> {
         });
     }
     let path = find(name, measurement);
-    let bytes = read_bytes(&path).map_err(|problem| no_such(name, problem))?;
+    let bytes = read_bytes(&path).map_err(|problem| no_such(name, problem, measurement))?;
     let robot = read(&bytes).map_err(|problem| problem.in_text(&path))?;
     Ok(Loaded {
         robot,
@@ -56,14 +56,17 @@ fn find(name: &str, measurement: Option<&Path>) -> PathBuf {
     beside.filter(|path| path.exists()).unwrap_or(plain)
 }
 
-fn no_such(name: &str, problem: Problem) -> Problem {
+fn no_such(name: &str, problem: Problem, measurement: Option<&Path>) -> Problem {
     let known = builtin::names();
-    Problem {
-        remedy: format!(
-            "`{name}` is no built-in robot ({known}); {}",
-            problem.remedy
-        ),
-        ..problem
+    let remedy = format!(
+        "`{name}` is no built-in robot ({known}); {}",
+        problem.remedy
+    );
+    match measurement {
+        Some(file) => {
+            Problem::new(format!("`{name}` {}", problem.what), remedy).at_key(file, "robot")
+        }
+        None => Problem { remedy, ..problem },
     }
 }
 

@@ -36,6 +36,8 @@ pub struct Joint {
     pub limits: [f64; 2],
     /// Highest speed, rad/s.
     pub max_speed: Option<f64>,
+    /// Highest acceleration, rad/s²; `None`: not stated.
+    pub max_acceleration: Option<f64>,
     /// Elastic drive; `None`: rigid.
     pub drive: Option<Spring>,
     /// Elastic bearing across the axis, equal in both directions; `None`: rigid.

@@ -158,6 +158,7 @@ fn joint_of(text: &JointText, pose: &Pose) -> Outcome<Joint> {
         point: pose.point,
         limits,
         max_speed: text.velocity.filter(|speed| *speed > 0.0),
+        max_acceleration: None,
         drive: None,
         tilt: None,
         link: None,

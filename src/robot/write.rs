@@ -55,6 +55,9 @@ fn joint_table(out: &mut String, joint: &Joint) {
     if let Some(speed) = joint.max_speed {
         let _ = writeln!(out, "max_speed_deg_s = {}", number(degrees(speed)));
     }
+    if let Some(limit) = joint.max_acceleration {
+        let _ = writeln!(out, "max_acceleration_deg_s2 = {}", number(degrees(limit)));
+    }
     for (key, spring) in [("drive", &joint.drive), ("tilt", &joint.tilt)] {
         if let Some(spring) = spring {
             let _ = writeln!(out, "{key} = {{ {} }}", entries(spring).join(", "));

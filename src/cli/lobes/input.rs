@@ -136,13 +136,13 @@ fn robot_modes(job: &Job, loaded: &Loaded) -> Outcome<Vec<TipMode>> {
     if joints.len() != robot.joints.len() {
         return Err(Problem::new(
             format!(
-                "`start_joints_deg` has {} angles, the robot {} joints",
+                "has {} angles, the robot {} joints",
                 joints.len(),
                 robot.joints.len()
             ),
             "write one angle per joint in the job: the pose at which the lobes are asked for",
         )
-        .in_file(&job.path));
+        .at_key(&job.path, "start_joints_deg"));
     }
     let chain = elastic(robot);
     let mut work = Work::new(&chain);

@@ -54,6 +54,12 @@ pub fn sentences(planned: &Planned) -> Vec<String> {
             significant(share, 3)
         ));
     }
+    if plan.feed.eased < 1.0 {
+        said.push(format!(
+            "Acceleration and jerk along the path are lowered to {} % for the accelerations of the joints.",
+            significant(100.0 * plan.feed.eased, 3)
+        ));
+    }
     if let Some([carried, chosen]) = plan.compliance {
         said.push(format!(
             "Normal to the path the robot gives way by {} µm/N on average with the chosen turn about the spindle, by {} with the fixed one.",
@@ -78,6 +84,9 @@ pub fn told(exceeded: &Exceeded) -> String {
     let site = &exceeded.site;
     match exceeded.what {
         "joint-speed" => format!("{site} is too fast {place}: {value} deg/s, {limit} are allowed."),
+        "joint-acceleration" => format!(
+            "{site} would have to accelerate too hard {place}: {value} deg/s², {limit} are allowed."
+        ),
         "joint-angle" => {
             format!("{site} leaves its range {place}: {value} deg, the limit is {limit}.")
         }

@@ -21,6 +21,7 @@ pub fn body(planned: &Planned, written: &Written) -> Value {
             "asked_m_s": number(plan.feed.asked),
             "held_share": number(plan.feed.held_share),
             "min_m_s": number(plan.feed.min),
+            "acceleration_share": number(plan.feed.eased),
         },
         "joints": plan.joints.iter().map(joint).collect::<Value>(),
         "exceeded": plan.exceeded.iter().map(exceeded).collect::<Value>(),
@@ -104,6 +105,8 @@ fn joint(joint: &JointUse) -> Value {
         "max_speed_deg_s": number(joint.max_speed / DEGREE),
         "limit_deg_s": joint.speed_limit.map(|limit| number(limit / DEGREE)),
         "use_percent": share.map(number),
+        "max_acceleration_deg_s2": number(joint.max_acceleration / DEGREE),
+        "limit_deg_s2": joint.acceleration_limit.map(|limit| number(limit / DEGREE)),
         "limits_deg": joint.limits.map(|limit| number(limit / DEGREE)),
     })
 }

@@ -53,8 +53,10 @@ fn joints(planned: &Planned) -> Table {
         "limits deg",
         "fastest deg/s",
         "limit deg/s",
+        "hardest deg/s²",
+        "limit deg/s²",
     ];
-    let table = Table::new("Ranges and speeds", header).numeric([1, 2, 4, 5]);
+    let table = Table::new("Ranges, speeds and accelerations", header).numeric([1, 2, 4, 5, 6, 7]);
     planned
         .plan
         .joints
@@ -62,9 +64,9 @@ fn joints(planned: &Planned) -> Table {
         .fold(table, |table, joint| table.with(row(joint)))
 }
 
-fn row(joint: &JointUse) -> [String; 6] {
+fn row(joint: &JointUse) -> [String; 8] {
     let fixed = |angle: f64| format!("{:.2}", angle / DEGREE + 0.0);
-    let limit = joint.speed_limit.map_or(ABSENT.into(), fixed);
+    let limit = |limit: Option<f64>| limit.map_or(ABSENT.into(), fixed);
     let [low, high] = joint.limits.map(|limit| significant(limit / DEGREE, 4));
     [
         joint.site.clone(),
@@ -72,6 +74,8 @@ fn row(joint: &JointUse) -> [String; 6] {
         fixed(joint.range[1]),
         format!("{low} to {high}"),
         fixed(joint.max_speed),
-        limit,
+        limit(joint.speed_limit),
+        fixed(joint.max_acceleration),
+        limit(joint.acceleration_limit),
     ]
 }

@@ -151,7 +151,10 @@ fn only_apply(file: &Path, arguments: &Arguments) -> Outcome<Ending> {
         )
         .in_file(file));
     };
-    let applied = applied(record, &stored.model().map_err(|p| p.in_file(file))?)?;
+    let applied = applied(
+        record,
+        &stored.model().map_err(|p| p.at_key(file, "values"))?,
+    )?;
     if !arguments.dry_run {
         files::replace(&applied.path(), applied.text().as_bytes())?;
     }

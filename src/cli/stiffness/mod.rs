@@ -140,7 +140,7 @@ fn request(arguments: &Arguments) -> Outcome<Request> {
         Some(path) => {
             StoredFit::read(path)?
                 .model()
-                .map_err(|p| p.in_file(path))?
+                .map_err(|p| p.in_text(path))?
                 .0
         }
         None => Composite::named(&names)?,

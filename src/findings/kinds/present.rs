@@ -73,11 +73,11 @@ impl Origin {
 /// No fit, or one of another joint or another kind of test.
 pub fn of_fit(file: &mut LoadCycle, path: &Path) -> Outcome<Base> {
     let fit = StoredFit::read(path)?;
-    let (model, p) = fit.model().map_err(|problem| problem.in_file(path))?;
+    let (model, p) = fit.model().map_err(|problem| problem.in_text(path))?;
     let moved = |e: &&'static dyn Effect| e.role() == Role::Imposed;
     if is_imposed(file) || model.effects().iter().any(moved) {
         let remedy = "leave out --model: such tests are compared with a straight spring";
-        return Err(Problem::new("is of a test that moved the joint", remedy).in_file(path));
+        return Err(Problem::new("is of a test that moved the joint", remedy).in_text(path));
     }
     if fit.site != file.site() {
         let what = format!(
@@ -86,7 +86,7 @@ pub fn of_fit(file: &mut LoadCycle, path: &Path) -> Outcome<Base> {
             file.path.display(),
             file.site()
         );
-        return Err(Problem::new(what, "give a fit of the same joint and axis").in_file(path));
+        return Err(Problem::new(what, "give a fit of the same joint and axis").in_text(path));
     }
     let stated = fit.parameters.iter().find(|q| q.name == "stiffness");
     if stated.is_some_and(|q| q.status == Status::NotIdentifiable) {

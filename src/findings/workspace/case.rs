@@ -1,10 +1,11 @@
 //! Everything that is known about a test before causes are named.
 
+use super::columns::Columns;
 use super::field::{Field, Springs};
 use super::patterns::Scene;
 use super::posterior::Posterior;
 use super::search::{Set, search};
-use super::seats::{Column, Seats};
+use super::seats::Seats;
 use super::smooth::{norm, smooth};
 use super::weights::weigh;
 use crate::experiments::drive_law::{Law, STOP};
@@ -15,7 +16,7 @@ use crate::fit::weighing::Weighing;
 use crate::ground::spatial::{M3, V3};
 use crate::measurement::workspace_test::WorkspaceTest;
 use crate::robot::Robot;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 /// No model is right to better than this share of a deflection ...
 const MODEL: f64 = 0.01;
@@ -36,7 +37,7 @@ pub(super) struct Case<'a> {
     /// Readings less the simulation: slopes, then levels; in standard deviations.
     pub(super) readings: DVector<f64>,
     /// The columns of all seats.
-    pub(super) columns: DMatrix<f64>,
+    pub(super) columns: Columns,
     pub(super) posterior: Posterior,
     pub(super) levels: usize,
 }
@@ -50,7 +51,10 @@ impl<'a> Case<'a> {
         let blamed = columns.iter().any(|c| first.seats.columns[*c].instrument);
         match blamed {
             false => first,
-            true => Self::about(test, robot, &columns),
+            true => {
+                drop(first);
+                Self::about(test, robot, &columns)
+            }
         }
     }
 
@@ -92,8 +96,8 @@ impl<'a> Case<'a> {
         let readings: Vec<f64> = slopes.iter().copied().chain(bends).collect();
         let readings = DVector::from_vec(readings);
         let levels = left.len();
-        let weighed = |c: &Column| c.pattern.weighed(&weighing, levels);
-        let columns = DMatrix::from_columns(&seats.columns.iter().map(weighed).collect::<Vec<_>>());
+        let patterns = seats.columns.iter().map(|c| &c.pattern);
+        let columns = Columns::of(patterns, &weighing, levels);
         let springs = weighing.design(&response, &response.sites);
         let springs = Springs {
             columns: springs.resize_vertically(readings.len(), 0.0),
@@ -101,12 +105,7 @@ impl<'a> Case<'a> {
         };
         let prior = seats.columns.iter().map(|c| c.prior).collect();
         let low = seats.columns.iter().map(|c| c.low).collect();
-        let field = Field::new(
-            (&readings, readings.len() - levels),
-            &columns,
-            &springs,
-            (prior, low),
-        );
+        let field = Field::new(&readings, &columns, &springs, (prior, low));
         let posterior = Posterior::new(search(&seats, &field));
         Self {
             test,
@@ -156,8 +155,8 @@ impl<'a> Case<'a> {
         let mut slopes = self.scene.base.slopes.clone();
         for (column, amount) in self.columns_of(set).iter().zip(self.amounts(set)) {
             let own = &self.seats.columns[*column].pattern.slopes;
-            for (all, part) in slopes.iter_mut().zip(own) {
-                for (a, b) in all.iter_mut().flatten().zip(part.iter().flatten()) {
+            for (p, all) in slopes.iter_mut().enumerate() {
+                for (a, b) in all.iter_mut().flatten().zip(own.at(p).iter().flatten()) {
                     *a += amount * b;
                 }
             }

@@ -8,7 +8,6 @@ use super::unseen::{Rows, fitted, gain, held_out};
 use crate::findings::gain::Gain;
 use crate::fit::force_shapes::Level;
 use crate::ground::spatial::M3;
-use nalgebra::DMatrix;
 
 /// Probability of a cause (it or any other in its stead) against none, below which it is not named.
 const NEEDED: f64 = 0.72;
@@ -168,10 +167,13 @@ impl Case<'_> {
         let own = self.columns_of(set);
         let springs = &self.springs.columns;
         let k = springs.ncols();
-        let columns = DMatrix::from_fn(count, k + own.len(), |i, j| match j < k {
-            true => springs[(i, j)],
-            false => self.columns[(i, own[j - k])],
-        });
+        let mut columns = springs
+            .rows(0, count)
+            .resize_horizontally(k + own.len(), 0.0);
+        for (j, column) in own.iter().enumerate() {
+            let column = self.columns.column(*column);
+            columns.set_column(k + j, &column.rows(0, count));
+        }
         let spread = std::iter::repeat_n(self.springs.spread, k);
         let prior = own.iter().map(|c| 10.0 * self.field.prior(*c));
         Rows {
@@ -213,7 +215,7 @@ impl Case<'_> {
         for (point, slope) in slopes.iter_mut().enumerate() {
             let amounts = found.amounts.get(point);
             for (column, amount) in columns.iter().zip(amounts.into_iter().flatten()) {
-                let own = &self.seats.columns[*column].pattern.slopes[point];
+                let own = &self.seats.columns[*column].pattern.slopes.at(point);
                 for (s, o) in slope.iter_mut().flatten().zip(own.iter().flatten()) {
                     *s += amount * o;
                 }

@@ -8,7 +8,7 @@ use super::seats::Seat;
 use super::thin::thinned;
 use crate::causes::contract::Blame;
 use crate::findings::answer::{Answer, Cause, Group, Verdict};
-use crate::findings::belief::Belief;
+use crate::findings::belief::{Belief, LEAST};
 use crate::fit::force_shapes::Shapes;
 use crate::fit::suitability::workspace::doubts;
 use crate::ground::spatial::M3;
@@ -122,7 +122,8 @@ impl Case<'_> {
         let seats = &self.seats.seats;
         let physical = |s: &Seat| s.cause.blame() != Blame::Instrument && !s.stranger;
         let sees = seats.iter().filter(|s| physical(s)).map(Seat::place);
-        let weighed = self.posterior.sets.iter().map(|(set, p)| {
+        let likely = self.posterior.sets.iter().filter(|(_, p)| *p > LEAST);
+        let weighed = likely.map(|(set, p)| {
             let own = set.seats.iter().copied();
             let own: Vec<usize> = own.filter(|s| physical(&seats[*s])).collect();
             let causes = own.iter().map(|s| seats[*s].place()).collect();

@@ -1,13 +1,15 @@
 //! The linear-Gaussian algebra: what the data say of every set of columns, with the springs free
 //! within their stated spread.
 
+use super::columns::Columns;
+use super::gram::Gram;
 use nalgebra::{DMatrix, DVector};
 use statrs::function::erf::erfc;
 
 /// All columns seen through the data.
 #[derive(Debug, Clone)]
 pub struct Field {
-    gram: DMatrix<f64>,
+    gram: Gram,
     gradient: DVector<f64>,
     /// Misfit of no cause at all, in squared standard deviations.
     pub base: f64,
@@ -53,28 +55,30 @@ impl Springs {
 
 impl Field {
     /// Of `readings` less the simulation and the columns with their priors, all in standard
-    /// deviations of the readings. Beyond the first rows, the `slopes`, most columns are zero.
+    /// deviations of the readings.
     pub fn new(
-        (readings, slopes): (&DVector<f64>, usize),
-        columns: &DMatrix<f64>,
+        readings: &DVector<f64>,
+        columns: &Columns,
         springs: &Springs,
         (prior, low): (Vec<f64>, Vec<f64>),
     ) -> Self {
-        let mut gram = gram_of(columns, slopes);
-        let mut gradient = columns.tr_mul(readings);
         let mut base = readings.norm_squared();
         let b = &springs.columns;
-        let head = b.rows(0, slopes);
+        let head = b.rows(0, columns.slopes());
         let mut inner = head.tr_mul(&head);
         (0..inner.nrows()).for_each(|i| inner[(i, i)] += springs.spread.powi(-2));
-        if let Some(root) = inner.cholesky() {
-            let (upper, lower) = (columns.rows(0, slopes), b.rows(0, slopes));
-            let (cross, right) = (lower.tr_mul(&upper), b.tr_mul(readings));
-            let solved = root.solve(&cross);
-            gram -= cross.tr_mul(&solved);
-            gradient -= solved.tr_mul(&right);
-            base -= right.dot(&root.solve(&right));
+        let root = inner.cholesky();
+        let taken = root.as_ref().map(|root| columns.taken(b, root));
+        let mut gradient = columns.gradient(readings);
+        if let (Some(root), Some(taken)) = (&root, &taken) {
+            let right = b.tr_mul(readings);
+            let solved = root.l_dirty().solve_lower_triangular(&right);
+            if let Some(solved) = solved {
+                gradient -= taken.tr_mul(&solved);
+                base -= solved.norm_squared();
+            }
         }
+        let gram = Gram::of(columns, taken);
         Self {
             gram,
             gradient,
@@ -93,7 +97,7 @@ impl Field {
         let mut g = vec![0.0; n];
         for i in 0..n {
             for j in 0..=i {
-                h[i * n + j] = spread(i) * spread(j) * self.gram[(columns[i], columns[j])];
+                h[i * n + j] = spread(i) * spread(j) * self.gram.of_both(columns[i], columns[j]);
             }
             h[i * n + i] += 1.0;
             g[i] = spread(i) * self.gradient[columns[i]];
@@ -123,7 +127,7 @@ impl Field {
         for (i, a) in columns.iter().zip(amounts) {
             sum += a * self.gradient[*i];
             for (j, b) in columns.iter().zip(amounts) {
-                sum -= 0.5 * a * b * self.gram[(*i, *j)];
+                sum -= 0.5 * a * b * self.gram.of_both(*i, *j);
             }
         }
         sum
@@ -134,7 +138,7 @@ impl Field {
         let n = columns.len();
         let t = |i: usize| self.prior[columns[i]];
         let gram = DMatrix::from_fn(n, n, |i, j| {
-            t(i) * t(j) * self.gram[(columns[i], columns[j])]
+            t(i) * t(j) * self.gram.of_both(columns[i], columns[j])
         });
         let gradient = DVector::from_fn(n, |i, _| t(i) * self.gradient[columns[i]]);
         (gram, gradient)
@@ -142,7 +146,7 @@ impl Field {
 
     /// Precision that the data alone give a column, one over its units.
     pub fn precision(&self, column: usize) -> f64 {
-        self.gram[(column, column)].max(0.0).sqrt()
+        self.gram.of_both(column, column).max(0.0).sqrt()
     }
 
     /// Lowest value of a column.
@@ -154,29 +158,6 @@ impl Field {
     pub fn prior(&self, column: usize) -> f64 {
         self.prior[column]
     }
-}
-
-/// Products of all columns, of which beyond the first `slopes` rows most are zero.
-fn gram_of(columns: &DMatrix<f64>, slopes: usize) -> DMatrix<f64> {
-    let head = columns.rows(0, slopes);
-    let mut gram = head.tr_mul(&head);
-    let rest = columns.nrows() - slopes;
-    let bent = |j: &usize| {
-        columns
-            .column(*j)
-            .rows(slopes, rest)
-            .iter()
-            .any(|x| *x != 0.0)
-    };
-    let bent: Vec<usize> = (0..columns.ncols()).filter(bent).collect();
-    let tail = columns.rows(slopes, rest).select_columns(&bent);
-    let products = tail.tr_mul(&tail);
-    for (a, i) in bent.iter().enumerate() {
-        for (b, j) in bent.iter().enumerate() {
-            gram[(*i, *j)] += products[(a, b)];
-        }
-    }
-    gram
 }
 
 /// Probability above x standard deviations.

@@ -4,8 +4,10 @@
 mod adequacy;
 mod case;
 mod choose;
+mod columns;
 mod diagnosis;
 mod field;
+mod gram;
 mod limits;
 mod name;
 mod next;

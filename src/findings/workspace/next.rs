@@ -1,6 +1,7 @@
 //! The experiment that would tell: each proposal is simulated with one candidate and fitted with the
 //! others, on top of what was measured already; the one that leaves most is proposed.
 
+use super::columns::Columns;
 use super::field::{Field, Springs};
 use super::patterns::Scene;
 use super::seats::{Column, Seats};
@@ -21,7 +22,7 @@ pub struct Known<'a> {
     /// The springs over its rows.
     pub springs: &'a Springs,
     /// The columns of all seats over its rows.
-    pub columns: &'a DMatrix<f64>,
+    pub columns: &'a Columns,
     /// Everybody who may be blamed.
     pub seats: &'a Seats,
     /// Relative standard deviation of a set-up.
@@ -221,10 +222,10 @@ fn separations(known: &Known, probe: &Probe, suspects: &[Suspect]) -> Vec<f64> {
                 let Column { prior, .. } = known.seats.columns[*column];
                 let step = (*column - own.first, prior);
                 let pattern = scene.pattern(own.cause, &own.site, step, known.shapes);
-                weighing.whiten(|p, d| pattern.slopes[p][d])
+                weighing.whiten(|p, d| pattern.slopes.at(p)[d])
             }
         };
-        let both = |c: &usize| stacked(&known.columns.column(*c).into_owned(), &new(c));
+        let both = |c: &usize| stacked(&known.columns.column(*c), &new(c));
         suspect.columns.iter().map(both).collect()
     };
     let columns: Vec<Vec<DVector<f64>>> = suspects.iter().map(seen).collect();
@@ -244,10 +245,9 @@ fn separations(known: &Known, probe: &Probe, suspects: &[Suspect]) -> Vec<f64> {
 
 /// Nats of a signal that a rival, its amounts free, leaves.
 fn imitated(signal: &DVector<f64>, rival: &[DVector<f64>], springs: &Springs) -> f64 {
-    let rival = DMatrix::from_columns(rival);
-    let n = rival.ncols();
+    let n = rival.len();
     let wide = (vec![1e6; n], vec![f64::MIN; n]);
-    let field = Field::new((signal, signal.len()), &rival, springs, wide);
+    let field = Field::new(signal, &Columns::wide(rival.to_vec()), springs, wide);
     let all: Vec<usize> = (0..n).collect();
     (0.5 * field.base - field.amounts(&all, |_| 1.0).nats).max(0.0)
 }

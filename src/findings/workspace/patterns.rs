@@ -1,24 +1,43 @@
 //! What an amount of a cause does to the force steps: one pattern over points, directions and levels.
 
 use crate::causes::contract::{Cause, StepSeen};
+use crate::causes::places::number_in;
 use crate::effects::Family;
 use crate::experiments::drive_law::{Law, STOP};
 use crate::experiments::workspace::Deflection;
 use crate::fit::force_shapes::Shapes;
-use crate::fit::weighing::Weighing;
 use crate::ground::spatial::{M3, V3};
 use crate::motion::{Work, forward_kinematics, rigid};
 use crate::robot::Robot;
-use nalgebra::DVector;
 
 /// Change of the readings per unit of an amount.
 #[derive(Debug, Clone)]
 pub struct Pattern {
-    /// Of the slopes, m/N: by point, then by direction of the force.
-    pub slopes: Vec<M3>,
+    /// Of the slopes.
+    pub slopes: Slopes,
     /// Of what the lines leave, in standard deviations; empty where force and displacement stay in
     /// proportion.
     pub left: Vec<f64>,
+}
+
+/// Slopes, m/N, by direction of the force at every point.
+#[derive(Debug, Clone)]
+pub enum Slopes {
+    /// At all points.
+    Everywhere(Vec<M3>),
+    /// At one point, and none elsewhere.
+    At(usize, M3),
+}
+
+impl Slopes {
+    /// Those at a point.
+    pub fn at(&self, point: usize) -> M3 {
+        match self {
+            Self::Everywhere(all) => all[point],
+            Self::At(own, slopes) if *own == point => *slopes,
+            Self::At(..) => [[0.0; 3]; 3],
+        }
+    }
 }
 
 /// What patterns are taken about.
@@ -90,7 +109,10 @@ impl<'a> Scene<'a> {
         let slopes: Vec<M3> = pairs.map(|(a, b)| difference(a, b, step)).collect();
         let left = Vec::new();
         match moved.is_linear() {
-            true => Pattern { slopes, left },
+            true => Pattern {
+                slopes: Slopes::Everywhere(slopes),
+                left,
+            },
             false => self.bent(&moved, (cause.law(amounts), &[]), slopes, step, shapes),
         }
     }
@@ -116,6 +138,7 @@ impl<'a> Scene<'a> {
             let own = &mut slopes[setup.point][setup.direction];
             (0..3).for_each(|k| own[k] += line[k].unwrap_or(0.0));
         }
+        let slopes = Slopes::Everywhere(slopes);
         Pattern { slopes, left }
     }
 
@@ -152,10 +175,13 @@ impl<'a> Scene<'a> {
             std::array::from_fn(|k| (read.displacement[k] - displacement[k]) / step)
         };
         let of = |point: usize| [0, 1, 2].map(|direction| seen(point, direction));
-        Pattern {
-            slopes: (0..self.points.len()).map(of).collect(),
-            left: Vec::new(),
-        }
+        let own = number_in(site, "point").and_then(|n| n.checked_sub(1));
+        let slopes = match own.filter(|own| *own < self.points.len()) {
+            Some(own) => Slopes::At(own, of(own)),
+            None => Slopes::Everywhere((0..self.points.len()).map(of).collect()),
+        };
+        let left = Vec::new();
+        Pattern { slopes, left }
     }
 }
 
@@ -173,18 +199,16 @@ fn difference(a: &M3, b: &M3, step: f64) -> M3 {
 impl Pattern {
     /// Multiplies what it does at every point.
     pub fn scale_points(&mut self, factor: impl Fn(usize) -> f64) {
-        for (p, slopes) in self.slopes.iter_mut().enumerate() {
-            slopes.iter_mut().flatten().for_each(|s| *s *= factor(p));
-        }
-    }
-
-    /// All numbers in standard deviations: the slopes, then `levels` numbers of what the lines leave.
-    pub fn weighed(&self, weighing: &Weighing, levels: usize) -> DVector<f64> {
-        let slopes = weighing.whiten(|p, d| self.slopes[p][d]);
-        let all = slopes.iter().copied();
-        match self.left.is_empty() {
-            true => DVector::from_vec(all.chain(std::iter::repeat_n(0.0, levels)).collect()),
-            false => DVector::from_vec(all.chain(self.left.iter().copied()).collect()),
+        let scaled = |p: usize, slopes: &mut M3| {
+            let factor = factor(p);
+            slopes.iter_mut().flatten().for_each(|s| *s *= factor);
+        };
+        match &mut self.slopes {
+            Slopes::Everywhere(all) => {
+                let all = all.iter_mut().enumerate();
+                all.for_each(|(p, slopes)| scaled(p, slopes));
+            }
+            Slopes::At(p, slopes) => scaled(*p, slopes),
         }
     }
 }

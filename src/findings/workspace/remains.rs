@@ -11,7 +11,7 @@ impl Case<'_> {
         let mut left = self.readings.clone();
         let columns = self.columns_of(set);
         for (column, amount) in columns.iter().zip(self.amounts(set)) {
-            left -= self.columns.column(*column) * amount;
+            left.axpy(-amount, &self.columns.column(*column), 1.0);
         }
         let n = self.slopes();
         let levels = left.rows(n, self.levels).norm_squared();

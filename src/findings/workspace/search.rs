@@ -28,6 +28,8 @@ const LEADERS: usize = 60;
 const FORMS: usize = 4;
 /// Sets whose members are tried in all their forms.
 const REFINED: usize = 16;
+/// Forms that the convex programme chooses from.
+const PROPOSED: usize = 200;
 /// Sets of one length that grow by one.
 const BEAM: usize = 8;
 /// Longest set.
@@ -241,12 +243,21 @@ impl Book<'_> {
             .collect()
     }
 
-    /// One-column forms with a sign: those that may be negative stand in it twice.
+    /// One-column forms with a sign, of those that are best alone: those that may be negative stand in
+    /// it twice.
     fn narrow(&self) -> Vec<(usize, usize, f64)> {
+        let one = |f: &usize| {
+            let form = &self.seats.forms[*f];
+            form.columns.len() == 1 && form.width >= 1.0
+        };
+        let alone = |f: &usize| self.tried.get(&vec![*f]).copied().unwrap_or(f64::MIN);
+        let mut forms: Vec<usize> = (0..self.seats.forms.len()).filter(one).collect();
+        forms.sort_by(|a, b| alone(b).total_cmp(&alone(a)));
+        forms.truncate(PROPOSED);
+        forms.sort_unstable();
         let mut found = Vec::new();
-        for (f, form) in self.seats.forms.iter().enumerate() {
-            if let ([column], true) = (&form.columns[..], form.width >= 1.0) {
-                let column = *column;
+        for f in forms {
+            if let [column] = self.seats.forms[f].columns[..] {
                 found.push((f, column, 1.0));
                 if self.field.low(column) < 0.0 {
                     found.push((f, column, -1.0));

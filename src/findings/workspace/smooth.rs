@@ -39,7 +39,7 @@ pub fn smooth(
     let k = springs.ncols();
     let mut design = springs.resize_horizontally(k + parts.len(), 0.0);
     for (j, part) in parts.iter().enumerate() {
-        design.set_column(k + j, &weighing.whiten(|p, d| part.pattern.slopes[p][d]));
+        design.set_column(k + j, &weighing.whiten(|p, d| part.pattern.slopes.at(p)[d]));
     }
     let readings = weighing.measured() - weighing.whiten(|p, d| scene.base.slopes[p][d]);
     let mut normal = design.tr_mul(&design);
@@ -64,7 +64,8 @@ pub fn smooth(
         let mut sum: V3 = std::array::from_fn(|c| scene.base.slopes[p][d][c] + own[c]);
         for (j, part) in parts.iter().enumerate() {
             if instruments || !part.instrument {
-                (0..3).for_each(|c| sum[c] += amounts[k + j] * part.pattern.slopes[p][d][c]);
+                let own = part.pattern.slopes.at(p)[d];
+                (0..3).for_each(|c| sum[c] += amounts[k + j] * own[c]);
             }
         }
         sum

@@ -8,7 +8,7 @@ use crate::experiments::drive_law::Law;
 use crate::ground::spatial::V3;
 use crate::robot::model::ElasticAxis;
 use crate::robot::{Robot, Spring};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 /// All of them.
 pub const STRANGERS: &[&dyn Cause] = &[&Shift, &Uneven, &Wave];
@@ -211,17 +211,41 @@ pub fn modes(
 ) -> Option<DMatrix<f64>> {
     (cause.card().name == WAVE.name).then_some(())?;
     let joint = robot.joints.iter().position(|j| j.name == site)?;
-    let n = measured.len();
-    let angle = |i: usize| points[measured[i]][joint];
-    let kernel = DMatrix::from_fn(n, n, |i, j| {
-        (-0.5 * ((angle(i) - angle(j)) / ALIKE).powi(2)).exp()
-    });
-    let eigen = kernel.symmetric_eigen();
-    let mut order: Vec<usize> = (0..n).collect();
+    let angles: Vec<f64> = measured.iter().map(|i| points[*i][joint]).collect();
+    let root = root_of_kernel(&angles);
+    let eigen = root.tr_mul(&root).symmetric_eigen();
+    let mut order: Vec<usize> = (0..root.ncols()).collect();
     order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
-    let count = WAVE.amounts.len();
-    Some(DMatrix::from_fn(n, count, |i, k| match order.get(k) {
-        Some(at) => eigen.eigenvectors[(i, *at)] * eigen.eigenvalues[*at].max(0.0).sqrt(),
-        None => 0.0,
-    }))
+    let mut modes = DMatrix::zeros(angles.len(), WAVE.amounts.len());
+    for (k, at) in order.iter().take(WAVE.amounts.len()).enumerate() {
+        modes.set_column(k, &(&root * eigen.eigenvectors.column(*at)));
+    }
+    Some(modes)
+}
+
+/// L with LLᵀ the likeness of the angles, by Cholesky's method with pivots (Harbrecht, Peters and
+/// Schneider 2012): waves over angles are smooth, so that few columns hold it to the last digits.
+fn root_of_kernel(angles: &[f64]) -> DMatrix<f64> {
+    let n = angles.len();
+    let alike = |i: usize, j: usize| (-0.5 * ((angles[i] - angles[j]) / ALIKE).powi(2)).exp();
+    let mut left = vec![1.0_f64; n];
+    let mut columns: Vec<DVector<f64>> = Vec::new();
+    while columns.len() < n {
+        let pivot = (0..n).fold(0, |p, i| if left[i] > left[p] { i } else { p });
+        if left[pivot] < 1e-13 {
+            break;
+        }
+        let root = left[pivot].sqrt();
+        let taken = |i: usize| columns.iter().map(|c| c[i] * c[pivot]).sum::<f64>();
+        let column = DVector::from_fn(n, |i, _| (alike(i, pivot) - taken(i)) / root);
+        for (left, x) in left.iter_mut().zip(column.iter()) {
+            *left = (*left - x * x).max(0.0);
+        }
+        left[pivot] = 0.0;
+        columns.push(column);
+    }
+    match columns.is_empty() {
+        true => DMatrix::zeros(n, 0),
+        false => DMatrix::from_columns(&columns),
+    }
 }

@@ -52,10 +52,11 @@ pub fn held_out(rows: &Rows, folds: &[Option<usize>], springs: usize) -> HeldOut
         amounts: Vec::new(),
     };
     let count = folds.iter().flatten().max().map_or(0, |m| m + 1);
-    for fold in 0..count {
-        let own: Vec<usize> = (0..folds.len())
-            .filter(|i| folds[*i] == Some(fold))
-            .collect();
+    let mut rows_of = vec![Vec::new(); count];
+    for (i, fold) in folds.iter().enumerate() {
+        fold.iter().for_each(|fold| rows_of[*fold].push(i));
+    }
+    for own in rows_of {
         let part = d.select_rows(&own);
         let read = rows.readings.select_rows(&own);
         let rest = &normal - part.tr_mul(&part);

@@ -1,7 +1,7 @@
 //! A gap stands where the weight presses it, and no weight is known exactly: where force and
 //! displacement are out of proportion, the weights fit along, point by point.
 
-use super::patterns::{Pattern, Scene};
+use super::patterns::{Pattern, Scene, Slopes};
 use super::seats::{Seat, Seats};
 use crate::fit::force_shapes::Shapes;
 use crate::ground::spatial::M3;
@@ -70,10 +70,11 @@ fn pick(tried: &[Pattern], left: &[f64], places: &[usize], points: usize) -> Vec
 /// The pattern with the picked weight at every point.
 fn mixed(tried: &[Pattern], picked: &[usize], places: &[usize]) -> Pattern {
     let slopes: Vec<M3> = (0..picked.len())
-        .map(|p| tried[picked[p]].slopes[p])
+        .map(|p| tried[picked[p]].slopes.at(p))
         .collect();
     let rows = places.iter().enumerate();
     let left = rows.map(|(row, p)| tried[picked[*p]].left[row]).collect();
+    let slopes = Slopes::Everywhere(slopes);
     Pattern { slopes, left }
 }
 

@@ -37,7 +37,10 @@ pub fn identify(tests: &[CubeTest], robot: &Robot) -> Outcome<Account> {
         .iter()
         .map(|test| Setup::new(test, robot))
         .collect::<Outcome<Vec<_>>>()?;
-    let solved = Solved::of(tests, &setups)?;
+    let solved = Solved::of(tests, &setups).map_err(|problem| match tests.first() {
+        Some(test) => problem.in_text(&test.path),
+        None => problem,
+    })?;
     Ok(Account {
         parameters: parameters(&solved),
         together: together::together(&solved),

@@ -100,22 +100,22 @@ fn joint_of(raw: JointText) -> Outcome<Joint> {
             "write them as [lowest, highest] in degrees",
         ));
     }
-    if raw
-        .max_speed_deg_s
-        .is_some_and(|speed| !(speed > 0.0 && speed.is_finite()))
-    {
-        return Err(refuse(
-            &name,
-            "max_speed_deg_s",
-            "is not positive".into(),
-            "write the highest speed in deg/s, or leave it out",
-        ));
+    let most = [
+        ("max_speed_deg_s", raw.max_speed_deg_s),
+        ("max_acceleration_deg_s2", raw.max_acceleration_deg_s2),
+    ];
+    for (key, limit) in most {
+        if limit.is_some_and(|limit| !(limit > 0.0 && limit.is_finite())) {
+            let remedy = "write the highest one in deg/s or deg/s², or leave it out";
+            return Err(refuse(&name, key, "is not positive".into(), remedy));
+        }
     }
     Ok(Joint {
         axis: unit_axis(&name, raw.axis)?,
         point: finite(&name, "point_m", raw.point_m)?,
         limits: [low * DEGREE, high * DEGREE],
         max_speed: raw.max_speed_deg_s.map(|speed| speed * DEGREE),
+        max_acceleration: raw.max_acceleration_deg_s2.map(|limit| limit * DEGREE),
         drive: raw.drive.map(|drive| spring_of(&name, drive)).transpose()?,
         tilt: raw
             .tilt

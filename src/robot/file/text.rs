@@ -27,6 +27,7 @@ pub(super) struct JointText {
     pub(super) point_m: V3,
     pub(super) limits_deg: Option<[f64; 2]>,
     pub(super) max_speed_deg_s: Option<f64>,
+    pub(super) max_acceleration_deg_s2: Option<f64>,
     pub(super) drive: Option<SpringText>,
     pub(super) tilt: Option<SpringText>,
     pub(super) link: Option<BodyText>,
