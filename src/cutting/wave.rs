@@ -3,7 +3,7 @@
 //! Both families of sums that the linear law needs are gathered once: forces for any coefficients, and
 //! their derivatives, are then products.
 
-use super::chip::{Steady, Stock};
+use super::chip::{Steady, Stock, Tip};
 use super::law::Direction;
 use super::tool::{Disc, Tool};
 use crate::ground::dual::Scalar;
@@ -69,8 +69,8 @@ pub struct Wave<'a, S: Scalar> {
     pub tool: &'a Tool,
     /// Its discs in the cut.
     pub discs: Vec<Disc>,
-    /// Radii of all teeth, disc by disc.
-    radii: Vec<Vec<S>>,
+    /// Tips of all teeth, disc by disc.
+    tips: Vec<Vec<Tip<S>>>,
     steady: Steady<S>,
 }
 
@@ -81,12 +81,12 @@ impl<'a, S: Scalar> Wave<'a, S> {
         let discs = tool.discs(cut.depth_m);
         let all = |disc: &Disc| {
             (0..tool.teeth)
-                .map(|j| tool.tooth_radius_of(disc, j, runout))
+                .map(|j| tool.tip(disc, j, runout))
                 .collect()
         };
         Self {
             tool,
-            radii: discs.iter().map(all).collect(),
+            tips: discs.iter().map(all).collect(),
             discs,
             steady: Steady {
                 feed_per_radian: cut.feed_per_radian(),
@@ -98,9 +98,9 @@ impl<'a, S: Scalar> Wave<'a, S> {
     /// The same with teeth shorter by these lengths (m; none given: unchanged) along their whole edge.
     #[must_use]
     pub fn shorter(mut self, by: &[f64]) -> Self {
-        for radii in &mut self.radii {
-            for (radius, by) in radii.iter_mut().zip(by) {
-                *radius += S::constant(-by);
+        for tips in &mut self.tips {
+            for (tip, by) in tips.iter_mut().zip(by) {
+                tip.radius += S::constant(-by);
             }
         }
         self
@@ -110,21 +110,21 @@ impl<'a, S: Scalar> Wave<'a, S> {
     /// which an entry or exit is spread: the distance of the samples if the wave is to be filtered.
     pub fn basis(&self, spindle: S, blur: f64) -> Basis<S> {
         let mut sums = [[S::constant(0.0); 3]; 6];
-        for (disc, radii) in self.discs.iter().zip(&self.radii) {
+        for (disc, tips) in self.discs.iter().zip(&self.tips) {
             for tooth in 0..self.tool.teeth {
                 let lag = tooth as f64 * self.tool.pitch_rad() - disc.lag_rad;
-                self.add(&mut sums, disc, spindle + lag, tooth, radii, blur);
+                self.add(&mut sums, disc, spindle + lag, tooth, tips, blur);
             }
         }
         sums
     }
 
-    fn add(&self, sums: &mut Basis<S>, disc: &Disc, phi: S, tooth: usize, radii: &[S], blur: f64) {
+    fn add(&self, sums: &mut Basis<S>, disc: &Disc, phi: S, tooth: usize, tips: &[Tip<S>], blur: f64) {
         let direction = [phi.sin(), phi.cos()];
         if direction[0].value() < OUTSIDE {
             return;
         }
-        let bite = self.steady.bite(direction, tooth, radii);
+        let bite = self.steady.bite(direction, tooth, tips);
         let spread = (disc.lag_width_rad + blur).max(SHARP);
         let share = (bite.depth_rad / spread + 0.5)
             .max(S::constant(0.0))
