@@ -47,6 +47,9 @@ pub struct Steady<S: Scalar = f64> {
     pub feed_per_radian: f64,
     /// The stock.
     pub stock: Stock<S>,
+    /// Share of a ray before the border that counts as chip all the same: 0 by geometry; up to 1 where the
+    /// chip gives way towards the free face of the stock before it is cut.
+    pub before: S,
 }
 
 /// Least cosine with which a chip is taken to grow over the angle.
@@ -63,16 +66,16 @@ pub struct Bite<S: Scalar = f64> {
 }
 
 impl<S: Scalar> Bite<S> {
-    /// The part of it behind a border.
-    fn within(self, own: S, border: S, into: S, sin: S) -> Self {
+    /// The part of it behind a border, and `share` of what lies before it.
+    fn within(self, own: S, [border, into]: [S; 2], sin: S, share: S) -> Self {
         let ahead = own * into - border;
         let across = (own * sin).value().abs().max(FLAT * own.value());
-        let before = match into.value() > 0.0 && border.value() > 0.0 {
-            true => ahead / into,
+        let behind = match into.value() > 0.0 && border.value() > 0.0 {
+            true => self.thickness.min(ahead / into),
             false => self.thickness,
         };
         Self {
-            thickness: self.thickness.min(before),
+            thickness: behind + (self.thickness - behind) * share,
             depth_rad: self.depth_rad.min(ahead / across),
         }
     }
@@ -94,7 +97,7 @@ impl<S: Scalar> Steady<S> {
         };
         match self.stock.border(cos) {
             None => bite,
-            Some([border, into]) => bite.within(own, border, into, sin),
+            Some(border) => bite.within(own, border, sin, self.before),
         }
     }
 
@@ -178,6 +181,7 @@ mod tests {
         let steady = Steady::<f64> {
             feed_per_radian: q,
             stock: Stock::Full,
+            before: 0.0,
         };
         let tool = crate::cutting::Tool::square(R, teeth, 0.0);
         let disc = tool.discs(1e-3)[0];
@@ -195,6 +199,7 @@ mod tests {
         let steady = Steady {
             feed_per_radian: c * 2.0 / TAU,
             stock: Stock::Full,
+            before: 0.0,
         };
         for phi in [0.3, 1.2, 2.5] {
             let h = bite(&steady, phi, &[R, R]);
@@ -209,6 +214,7 @@ mod tests {
         let steady = Steady::<f64> {
             feed_per_radian: q,
             stock: Stock::Full,
+            before: 0.0,
         };
         let rho = steady.left_by([phi.sin(), phi.cos()], TAU * k / teeth, R);
         let point = [rho * phi.sin(), rho * phi.cos()];
@@ -227,6 +233,7 @@ mod tests {
         let steady = Steady {
             feed_per_radian: 0.1e-3 * 2.0 / TAU,
             stock: Stock::Full,
+            before: 0.0,
         };
         let radii = [R + 5e-6, R - 5e-6];
         let of = |tooth: usize| steady.bite([1.0, 0.0], tooth, &tips(&radii)).thickness;
@@ -242,9 +249,11 @@ mod tests {
         let left = Steady {
             feed_per_radian: q,
             stock: Stock::Left(R - 2e-3),
+            before: 0.0,
         };
         let right = Steady {
             stock: Stock::Right(-(R - 2e-3)),
+            before: 0.0,
             ..left
         };
         let reach = (0.75_f64).acos();

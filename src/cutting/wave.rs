@@ -91,8 +91,16 @@ impl<'a, S: Scalar> Wave<'a, S> {
             steady: Steady {
                 feed_per_radian: cut.feed_per_radian(),
                 stock: cut.stock(tool.radius_m, width),
+                before: S::constant(0.0),
             },
         }
+    }
+
+    /// The same where this share of a ray before the border of the stock counts as chip.
+    #[must_use]
+    pub fn before_the_border(mut self, share: S) -> Self {
+        self.steady.before = share;
+        self
     }
 
     /// The same with teeth shorter by these lengths (m; none given: unchanged) along their whole edge.
@@ -125,10 +133,7 @@ impl<'a, S: Scalar> Wave<'a, S> {
             return;
         }
         let bite = self.steady.bite(direction, tooth, tips);
-        let spread = (disc.lag_width_rad + blur).max(SHARP);
-        let share = (bite.depth_rad / spread + 0.5)
-            .max(S::constant(0.0))
-            .min(S::constant(1.0));
+        let share = passed(bite.depth_rad, disc.lag_width_rad.max(SHARP), blur);
         if share.value() <= 0.0 {
             return;
         }
@@ -145,6 +150,23 @@ impl<'a, S: Scalar> Wave<'a, S> {
             }
         }
     }
+}
+
+/// Share of an edge that has passed a border by `depth` when it is spread evenly over one width, and
+/// that over another.
+fn passed<S: Scalar>(depth: S, one: f64, other: f64) -> S {
+    let (wide, narrow) = (one.max(other), one.min(other));
+    let away = 0.5 * (wide + narrow) - depth.value().abs();
+    if away <= 0.0 {
+        return S::constant(if depth.value() > 0.0 { 1.0 } else { 0.0 });
+    }
+    if away >= narrow {
+        return depth / wide + 0.5;
+    }
+    let positive = depth.value() > 0.0;
+    let left = if positive { -depth } else { depth } + 0.5 * (wide + narrow);
+    let rest = left * left / (2.0 * wide * narrow);
+    if positive { -rest + 1.0 } else { rest }
 }
 
 /// sin φ below which no tooth of a sensible feed cuts: behind the tool.

@@ -80,6 +80,7 @@ mod tests {
         let steady = Steady::<f64> {
             feed_per_radian: q,
             stock: Stock::Full,
+            before: 0.0,
         };
         let tips = radii.map(|radius| Tip { radius, aside: 0.0 });
         let way = |m: usize| [q * TAU * m as f64 / teeth as f64, 0.0, 0.0];
