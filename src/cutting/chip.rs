@@ -63,20 +63,27 @@ pub struct Bite<S: Scalar = f64> {
     /// How far the tooth is within the cut, as an angle, rad: negative outside. To first order; it
     /// spreads an entry or exit over an edge that lags within its disc.
     pub depth_rad: S,
+    /// 1 where the tooth is nearest to its entry, −1 where to its exit.
+    pub side: f64,
 }
 
 impl<S: Scalar> Bite<S> {
-    /// The part of it behind a border, and `share` of what lies before it.
-    fn within(self, own: S, [border, into]: [S; 2], sin: S, share: S) -> Self {
+    /// The part of it behind a border of which teeth enter (1) or leave (−1), and `share` of what lies before it.
+    fn within(self, [own, sin]: [S; 2], [border, into]: [S; 2], side: f64, share: S) -> Self {
         let ahead = own * into - border;
         let across = (own * sin).value().abs().max(FLAT * own.value());
         let behind = match into.value() > 0.0 && border.value() > 0.0 {
             true => self.thickness.min(ahead / into),
             false => self.thickness,
         };
+        let depth_rad = ahead / across;
         Self {
             thickness: behind + (self.thickness - behind) * share,
-            depth_rad: self.depth_rad.min(ahead / across),
+            side: match depth_rad.value() < self.depth_rad.value() {
+                true => side,
+                false => self.side,
+            },
+            depth_rad: self.depth_rad.min(depth_rad),
         }
     }
 }
@@ -94,10 +101,15 @@ impl<S: Scalar> Steady<S> {
         let bite = Bite {
             thickness: own - surface,
             depth_rad: (own - surface) / slope.max(f64::MIN_POSITIVE),
+            side: 1.0_f64.copysign(cos.value()),
+        };
+        let side = match self.stock {
+            Stock::Right(_) => 1.0,
+            _ => -1.0,
         };
         match self.stock.border(cos) {
             None => bite,
-            Some(border) => bite.within(own, border, sin, self.before),
+            Some(border) => bite.within([own, sin], border, side, self.before),
         }
     }
 
@@ -149,7 +161,9 @@ mod tests {
     }
 
     fn bite(steady: &Steady, phi: f64, radii: &[f64]) -> f64 {
-        steady.bite([phi.sin(), phi.cos()], 0, &tips(radii)).thickness
+        steady
+            .bite([phi.sin(), phi.cos()], 0, &tips(radii))
+            .thickness
     }
 
     /// The chip along the ray of a tip from the tool's own axis, every place straight from the motion.

@@ -44,7 +44,7 @@ pub struct Disc {
 }
 
 /// Largest angle of the surface normal and of the lag within a disc, rad.
-const FINE: f64 = 0.05;
+const FINE: f64 = 0.03;
 
 impl Tool {
     /// A square end without runout.
@@ -177,7 +177,8 @@ impl Tool {
         let (sin, cos) = (tooth as f64 * self.pitch_rad() - disc.lag_rad).sin_cos();
         let across = runout[1] * cos - runout[0] * sin;
         Tip {
-            radius: self.tooth_radius_of(disc, tooth, runout) + across * across / (2.0 * disc.radius_m),
+            radius: self.tooth_radius_of(disc, tooth, runout)
+                + across * across / (2.0 * disc.radius_m),
             aside: across / disc.radius_m,
         }
     }

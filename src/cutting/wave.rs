@@ -79,11 +79,7 @@ impl<'a, S: Scalar> Wave<'a, S> {
     /// given apart from what the tool and the cut say.
     pub fn new(tool: &'a Tool, cut: &Cut, runout: [S; 2], width: S) -> Self {
         let discs = tool.discs(cut.depth_m);
-        let all = |disc: &Disc| {
-            (0..tool.teeth)
-                .map(|j| tool.tip(disc, j, runout))
-                .collect()
-        };
+        let all = |disc: &Disc| (0..tool.teeth).map(|j| tool.tip(disc, j, runout)).collect();
         Self {
             tool,
             tips: discs.iter().map(all).collect(),
@@ -127,15 +123,30 @@ impl<'a, S: Scalar> Wave<'a, S> {
         sums
     }
 
-    fn add(&self, sums: &mut Basis<S>, disc: &Disc, phi: S, tooth: usize, tips: &[Tip<S>], blur: f64) {
-        let direction = [phi.sin(), phi.cos()];
+    fn add(
+        &self,
+        sums: &mut Basis<S>,
+        disc: &Disc,
+        phi: S,
+        tooth: usize,
+        tips: &[Tip<S>],
+        blur: f64,
+    ) {
+        let mut direction = [phi.sin(), phi.cos()];
         if direction[0].value() < OUTSIDE {
             return;
         }
-        let bite = self.steady.bite(direction, tooth, tips);
-        let share = passed(bite.depth_rad, disc.lag_width_rad.max(SHARP), blur);
+        let mut bite = self.steady.bite(direction, tooth, tips);
+        let lag = disc.lag_width_rad;
+        let share = passed(bite.depth_rad, lag.max(SHARP), blur);
         if share.value() <= 0.0 {
             return;
+        }
+        if share.value() < 1.0 && lag > 0.0 {
+            // the middle of that part of the edge that is in
+            let middle = phi + (-share + 1.0) * (0.5 * lag * bite.side);
+            direction = [middle.sin(), middle.cos()];
+            bite = self.steady.bite(direction, tooth, tips);
         }
         let length = share * disc.edge_m;
         let area = bite.thickness.max(S::constant(0.0)) * disc.normal[0] * length;

@@ -2,9 +2,7 @@
 
 use super::CutData;
 use crate::cutting::wave::Side;
-use crate::experiments::milling_force::{
-    BANDWIDTH, BORDER, PHASE, RUNOUT, SPEED, UNKNOWNS, WIDTH,
-};
+use crate::experiments::milling_force::{BANDWIDTH, BORDER, PHASE, RUNOUT, SPEED, UNKNOWNS, WIDTH};
 
 /// Spread of the logarithm of a stated bandwidth.
 const BANDWIDTH_STD: f64 = 0.2;
