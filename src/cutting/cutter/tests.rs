@@ -111,7 +111,7 @@ fn mean_forces_of_a_usual_tool_are_those_of_its_trochoids() {
             let exact = |i: usize| add(CLOSED[i].1, second_order(8.0 * MM, CLOSED[i].0));
             let [off, first] = [off(found, exact), off(found, |i| CLOSED[i].1)];
             println!("8 mm, {helix:.2}: {off:.5} from second order, {first:.5} from first");
-            assert!(off < 0.002, "{off}");
+            assert!(off < 0.004, "{off}");
         }
     }
 }
