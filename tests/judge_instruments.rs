@@ -100,10 +100,11 @@ fn intervals_of_sensors_hold_the_truth() {
     at_least(0.9, held("sensor", sensor, 20).conclude("sensor"));
 }
 
-/// 24 files: 138 of 163 (runout 10 of 19, the others 128 of 144), below what is asked.
+/// 88 files that were not looked at while the fit was mended (seeds 1, 3, 5): 557 of 603, runout 70 of 75; 40 files that
+/// it was mended on (seed 7): 245 of 274, runout 28 of 34.
 #[test]
 fn intervals_of_cutting_forces_hold_the_truth() {
-    at_least(0.6, held("force", force, 4).conclude("force"));
+    at_least(0.75, held("force", force, 4).conclude("force"));
 }
 
 /// 13 files that were read: 150 of 158.

@@ -9,6 +9,15 @@
 use crate::ground::dual::Scalar;
 use std::f64::consts::TAU;
 
+/// The tip of a tooth as the spindle's axis sees it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tip<S: Scalar = f64> {
+    /// Its distance from the spindle's axis, m.
+    pub radius: S,
+    /// How far it stands ahead of its tooth angle, rad: runout moves a tip aside as well as outwards.
+    pub aside: S,
+}
+
 /// Where stock stands beside the tool: the half plane on one side of a line along the feed, or both.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stock<S: Scalar = f64> {
@@ -38,6 +47,9 @@ pub struct Steady<S: Scalar = f64> {
     pub feed_per_radian: f64,
     /// The stock.
     pub stock: Stock<S>,
+    /// Share of a ray before the border that counts as chip all the same: 0 by geometry; up to 1 where the
+    /// chip gives way towards the free face of the stock before it is cut.
+    pub before: S,
 }
 
 /// Least cosine with which a chip is taken to grow over the angle.
@@ -51,63 +63,86 @@ pub struct Bite<S: Scalar = f64> {
     /// How far the tooth is within the cut, as an angle, rad: negative outside. To first order; it
     /// spreads an entry or exit over an edge that lags within its disc.
     pub depth_rad: S,
+    /// 1 where the tooth is nearest to its entry, −1 where to its exit.
+    pub side: f64,
 }
 
 impl<S: Scalar> Bite<S> {
-    /// The part of it behind a border.
-    fn within(self, own: S, border: S, into: S, sin: S) -> Self {
+    /// The part of it behind a border of which teeth enter (1) or leave (−1), and `share` of what lies before it.
+    fn within(self, [own, sin]: [S; 2], [border, into]: [S; 2], side: f64, share: S) -> Self {
         let ahead = own * into - border;
         let across = (own * sin).value().abs().max(FLAT * own.value());
-        let before = match into.value() > 0.0 && border.value() > 0.0 {
-            true => ahead / into,
+        let behind = match into.value() > 0.0 && border.value() > 0.0 {
+            true => self.thickness.min(ahead / into),
             false => self.thickness,
         };
+        let depth_rad = ahead / across;
         Self {
-            thickness: self.thickness.min(before),
-            depth_rad: self.depth_rad.min(ahead / across),
+            thickness: behind + (self.thickness - behind) * share,
+            side: match depth_rad.value() < self.depth_rad.value() {
+                true => side,
+                false => self.side,
+            },
+            depth_rad: self.depth_rad.min(depth_rad),
         }
     }
 }
 
 impl<S: Scalar> Steady<S> {
-    /// What tooth `tooth` meets at tooth angle φ (`[sin φ, cos φ]`), all teeth with their real radii.
+    /// What tooth `tooth` meets at tooth angle φ (`[sin φ, cos φ]`), all tips where they really are.
     /// An edge cuts while its tip is in the stock; what of its ray lies before the border is no chip.
-    pub fn bite(&self, direction: [S; 2], tooth: usize, radii: &[S]) -> Bite<S> {
-        let [sin, cos] = direction;
-        let own = radii[tooth];
-        let surface = self.surface(direction, tooth, radii);
-        let feed = self.feed_per_radian * TAU / radii.len() as f64;
+    pub fn bite(&self, direction: [S; 2], tooth: usize, tips: &[Tip<S>]) -> Bite<S> {
+        let Tip { radius: own, aside } = tips[tooth];
+        let ray = turned(direction, aside);
+        let [sin, cos] = ray;
+        let surface = self.surface(ray, tooth, tips);
+        let feed = self.feed_per_radian * TAU / tips.len() as f64;
         let slope = feed * cos.value().abs().max(FLAT);
         let bite = Bite {
             thickness: own - surface,
             depth_rad: (own - surface) / slope.max(f64::MIN_POSITIVE),
+            side: 1.0_f64.copysign(cos.value()),
+        };
+        let side = match self.stock {
+            Stock::Right(_) => 1.0,
+            _ => -1.0,
         };
         match self.stock.border(cos) {
             None => bite,
-            Some([border, into]) => bite.within(own, border, into, sin),
+            Some(border) => bite.within([own, sin], border, side, self.before),
         }
     }
 
     /// Distance along the ray to the surface that all earlier teeth left, m.
-    fn surface(&self, direction: [S; 2], tooth: usize, radii: &[S]) -> S {
-        let teeth = radii.len();
-        let left = |k: usize| self.left_by(direction, k, teeth, radii[(tooth + k) % teeth]);
+    fn surface(&self, ray: [S; 2], tooth: usize, tips: &[Tip<S>]) -> S {
+        let teeth = tips.len();
+        let left = |k: usize| {
+            let tip = tips[(tooth + k) % teeth];
+            let turn = tip.aside - tips[tooth].aside + TAU * k as f64 / teeth as f64;
+            self.left_by(ray, turn, tip.radius)
+        };
         (2..=teeth).fold(left(1), |far, k| far.max(left(k)))
     }
 
-    /// Distance along the ray to the surface that the tooth k pitches earlier left, m.
-    fn left_by(&self, [sin, cos]: [S; 2], k: usize, teeth: usize, radius: S) -> S {
+    /// Distance along the ray to the surface that a tip left which the spindle's turn carried there by
+    /// `turn` (rad) earlier, m.
+    fn left_by(&self, [sin, cos]: [S; 2], turn: S, radius: S) -> S {
         let q = self.feed_per_radian;
-        let turn = TAU * k as f64 / teeth as f64;
         let lean = radius + cos * q;
-        let first = cos * (q * turn) / lean;
+        let first = cos * turn * q / lean;
         // R sin ε = q (turn - ε) cos φ; sin ε to third order, exact to ε⁵
         let angle = first + radius * first * first * first / 6.0 / lean;
-        let behind = (S::constant(turn) - angle) * q;
+        let behind = (turn - angle) * q;
         let square = angle * angle;
         let fall = square * 0.5 - square * square / 24.0;
         radius - radius * fall - behind * sin
     }
+}
+
+/// A direction across the axis turned by a small angle, to second order.
+fn turned<S: Scalar>([sin, cos]: [S; 2], by: S) -> [S; 2] {
+    let near = S::constant(1.0) - by * by * 0.5;
+    [sin * near + cos * by, cos * near - sin * by]
 }
 
 #[cfg(test)]
@@ -117,8 +152,59 @@ mod tests {
 
     const R: f64 = 8e-3;
 
+    fn tips(radii: &[f64]) -> Vec<Tip> {
+        let tip = |radius: &f64| Tip {
+            radius: *radius,
+            aside: 0.0,
+        };
+        radii.iter().map(tip).collect()
+    }
+
     fn bite(steady: &Steady, phi: f64, radii: &[f64]) -> f64 {
-        steady.bite([phi.sin(), phi.cos()], 0, radii).thickness
+        steady
+            .bite([phi.sin(), phi.cos()], 0, &tips(radii))
+            .thickness
+    }
+
+    /// The chip along the ray of a tip from the tool's own axis, every place straight from the motion.
+    fn chip_of_a_shifted_axis(q: f64, runout: [f64; 2], teeth: usize, phi: f64) -> f64 {
+        let place = |tooth: usize, turn: f64| {
+            let at = phi + turn;
+            let own = at + TAU * tooth as f64 / teeth as f64;
+            let (ahead, aside) = (at, at + 0.5 * PI);
+            let x = q * turn + R * own.sin() + runout[0] * ahead.sin() + runout[1] * aside.sin();
+            let y = R * own.cos() + runout[0] * ahead.cos() + runout[1] * aside.cos();
+            [x, y]
+        };
+        let ([sin, cos], own) = ([phi.sin(), phi.cos()], place(0, 0.0));
+        let left = |tooth: usize| {
+            let mut turn = -TAU * tooth as f64 / teeth as f64;
+            for _ in 0..20 {
+                let [x, y] = place(tooth, turn);
+                turn -= ((x - own[0]) * cos - (y - own[1]) * sin) / R;
+            }
+            let [x, y] = place(tooth, turn);
+            (own[0] - x) * sin + (own[1] - y) * cos
+        };
+        (1..teeth).map(left).fold(f64::MAX, f64::min)
+    }
+
+    #[test]
+    fn runout_moves_tips_outwards_and_aside() {
+        let (q, teeth, runout) = (0.1e-3 * 3.0 / TAU, 3, [9e-6, -14e-6]);
+        let steady = Steady::<f64> {
+            feed_per_radian: q,
+            stock: Stock::Full,
+            before: 0.0,
+        };
+        let tool = crate::cutting::Tool::square(R, teeth, 0.0);
+        let disc = tool.discs(1e-3)[0];
+        let tips: Vec<Tip> = (0..teeth).map(|j| tool.tip(&disc, j, runout)).collect();
+        for phi in [0.4_f64, 1.1, 2.0, 2.7] {
+            let exact = chip_of_a_shifted_axis(q, runout, teeth, phi);
+            let found = steady.bite([phi.sin(), phi.cos()], 0, &tips).thickness;
+            assert!((found - exact).abs() < 1e-8, "{phi}: {found} {exact}");
+        }
     }
 
     #[test]
@@ -127,6 +213,7 @@ mod tests {
         let steady = Steady {
             feed_per_radian: c * 2.0 / TAU,
             stock: Stock::Full,
+            before: 0.0,
         };
         for phi in [0.3, 1.2, 2.5] {
             let h = bite(&steady, phi, &[R, R]);
@@ -141,8 +228,9 @@ mod tests {
         let steady = Steady::<f64> {
             feed_per_radian: q,
             stock: Stock::Full,
+            before: 0.0,
         };
-        let rho = steady.left_by([phi.sin(), phi.cos()], 2, 3, R);
+        let rho = steady.left_by([phi.sin(), phi.cos()], TAU * k / teeth, R);
         let point = [rho * phi.sin(), rho * phi.cos()];
         let nearest = (0..2_000_000)
             .map(|i| {
@@ -159,13 +247,14 @@ mod tests {
         let steady = Steady {
             feed_per_radian: 0.1e-3 * 2.0 / TAU,
             stock: Stock::Full,
+            before: 0.0,
         };
         let radii = [R + 5e-6, R - 5e-6];
-        let of = |tooth: usize| steady.bite([1.0, 0.0], tooth, &radii).thickness;
+        let of = |tooth: usize| steady.bite([1.0, 0.0], tooth, &tips(&radii)).thickness;
         assert!((of(0) - 110e-6).abs() < 1e-9 && (of(1) - 90e-6).abs() < 1e-9);
         let deep = [R + 80e-6, R - 80e-6];
-        assert!((steady.bite([1.0, 0.0], 0, &deep).thickness - 200e-6).abs() < 1e-9);
-        assert!(steady.bite([1.0, 0.0], 1, &deep).thickness < 0.0);
+        assert!((steady.bite([1.0, 0.0], 0, &tips(&deep)).thickness - 200e-6).abs() < 1e-9);
+        assert!(steady.bite([1.0, 0.0], 1, &tips(&deep)).thickness < 0.0);
     }
 
     #[test]
@@ -174,9 +263,11 @@ mod tests {
         let left = Steady {
             feed_per_radian: q,
             stock: Stock::Left(R - 2e-3),
+            before: 0.0,
         };
         let right = Steady {
             stock: Stock::Right(-(R - 2e-3)),
+            before: 0.0,
             ..left
         };
         let reach = (0.75_f64).acos();

@@ -1,5 +1,6 @@
 //! The milling tool: its teeth, their helix, the round of its end, its runout; cut into discs.
 
+use super::chip::Tip;
 use super::law::Direction;
 use crate::ground::dual::Scalar;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -43,7 +44,7 @@ pub struct Disc {
 }
 
 /// Largest angle of the surface normal and of the lag within a disc, rad.
-const FINE: f64 = 0.05;
+const FINE: f64 = 0.03;
 
 impl Tool {
     /// A square end without runout.
@@ -159,6 +160,18 @@ impl Tool {
     pub fn tooth_radius_of<S: Scalar>(&self, disc: &Disc, tooth: usize, runout: [S; 2]) -> S {
         let (sin, cos) = (tooth as f64 * self.pitch_rad() - disc.lag_rad).sin_cos();
         runout[0] * cos + runout[1] * sin + disc.radius_m
+    }
+
+    /// Where the tip of a tooth really is: the tool's axis stands off the spindle's by the runout, so the
+    /// tip is farther out and, by the part across, ahead of its tooth angle.
+    pub fn tip<S: Scalar>(&self, disc: &Disc, tooth: usize, runout: [S; 2]) -> Tip<S> {
+        let (sin, cos) = (tooth as f64 * self.pitch_rad() - disc.lag_rad).sin_cos();
+        let across = runout[1] * cos - runout[0] * sin;
+        Tip {
+            radius: self.tooth_radius_of(disc, tooth, runout)
+                + across * across / (2.0 * disc.radius_m),
+            aside: across / disc.radius_m,
+        }
     }
 
     /// Whether the corner is no larger than the tool.

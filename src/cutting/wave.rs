@@ -3,7 +3,7 @@
 //! Both families of sums that the linear law needs are gathered once: forces for any coefficients, and
 //! their derivatives, are then products.
 
-use super::chip::{Steady, Stock};
+use super::chip::{Steady, Stock, Tip};
 use super::law::Direction;
 use super::tool::{Disc, Tool};
 use crate::ground::dual::Scalar;
@@ -69,8 +69,8 @@ pub struct Wave<'a, S: Scalar> {
     pub tool: &'a Tool,
     /// Its discs in the cut.
     pub discs: Vec<Disc>,
-    /// Radii of all teeth, disc by disc.
-    radii: Vec<Vec<S>>,
+    /// Tips of all teeth, disc by disc.
+    tips: Vec<Vec<Tip<S>>>,
     steady: Steady<S>,
 }
 
@@ -79,28 +79,32 @@ impl<'a, S: Scalar> Wave<'a, S> {
     /// given apart from what the tool and the cut say.
     pub fn new(tool: &'a Tool, cut: &Cut, runout: [S; 2], width: S) -> Self {
         let discs = tool.discs(cut.depth_m);
-        let all = |disc: &Disc| {
-            (0..tool.teeth)
-                .map(|j| tool.tooth_radius_of(disc, j, runout))
-                .collect()
-        };
+        let all = |disc: &Disc| (0..tool.teeth).map(|j| tool.tip(disc, j, runout)).collect();
         Self {
             tool,
-            radii: discs.iter().map(all).collect(),
+            tips: discs.iter().map(all).collect(),
             discs,
             steady: Steady {
                 feed_per_radian: cut.feed_per_radian(),
                 stock: cut.stock(tool.radius_m, width),
+                before: S::constant(0.0),
             },
         }
+    }
+
+    /// The same where this share of a ray before the border of the stock counts as chip.
+    #[must_use]
+    pub fn before_the_border(mut self, share: S) -> Self {
+        self.steady.before = share;
+        self
     }
 
     /// The same with teeth shorter by these lengths (m; none given: unchanged) along their whole edge.
     #[must_use]
     pub fn shorter(mut self, by: &[f64]) -> Self {
-        for radii in &mut self.radii {
-            for (radius, by) in radii.iter_mut().zip(by) {
-                *radius += S::constant(-by);
+        for tips in &mut self.tips {
+            for (tip, by) in tips.iter_mut().zip(by) {
+                tip.radius += S::constant(-by);
             }
         }
         self
@@ -110,27 +114,39 @@ impl<'a, S: Scalar> Wave<'a, S> {
     /// which an entry or exit is spread: the distance of the samples if the wave is to be filtered.
     pub fn basis(&self, spindle: S, blur: f64) -> Basis<S> {
         let mut sums = [[S::constant(0.0); 3]; 6];
-        for (disc, radii) in self.discs.iter().zip(&self.radii) {
+        for (disc, tips) in self.discs.iter().zip(&self.tips) {
             for tooth in 0..self.tool.teeth {
                 let lag = tooth as f64 * self.tool.pitch_rad() - disc.lag_rad;
-                self.add(&mut sums, disc, spindle + lag, tooth, radii, blur);
+                self.add(&mut sums, disc, spindle + lag, tooth, tips, blur);
             }
         }
         sums
     }
 
-    fn add(&self, sums: &mut Basis<S>, disc: &Disc, phi: S, tooth: usize, radii: &[S], blur: f64) {
-        let direction = [phi.sin(), phi.cos()];
+    fn add(
+        &self,
+        sums: &mut Basis<S>,
+        disc: &Disc,
+        phi: S,
+        tooth: usize,
+        tips: &[Tip<S>],
+        blur: f64,
+    ) {
+        let mut direction = [phi.sin(), phi.cos()];
         if direction[0].value() < OUTSIDE {
             return;
         }
-        let bite = self.steady.bite(direction, tooth, radii);
-        let spread = (disc.lag_width_rad + blur).max(SHARP);
-        let share = (bite.depth_rad / spread + 0.5)
-            .max(S::constant(0.0))
-            .min(S::constant(1.0));
+        let mut bite = self.steady.bite(direction, tooth, tips);
+        let lag = disc.lag_width_rad;
+        let share = passed(bite.depth_rad, lag.max(SHARP), blur);
         if share.value() <= 0.0 {
             return;
+        }
+        if share.value() < 1.0 && lag > 0.0 {
+            // the middle of that part of the edge that is in
+            let middle = phi + (-share + 1.0) * (0.5 * lag * bite.side);
+            direction = [middle.sin(), middle.cos()];
+            bite = self.steady.bite(direction, tooth, tips);
         }
         let length = share * disc.edge_m;
         let area = bite.thickness.max(S::constant(0.0)) * disc.normal[0] * length;
@@ -145,6 +161,23 @@ impl<'a, S: Scalar> Wave<'a, S> {
             }
         }
     }
+}
+
+/// Share of an edge that has passed a border by `depth` when it is spread evenly over one width, and
+/// that over another.
+fn passed<S: Scalar>(depth: S, one: f64, other: f64) -> S {
+    let (wide, narrow) = (one.max(other), one.min(other));
+    let away = 0.5 * (wide + narrow) - depth.value().abs();
+    if away <= 0.0 {
+        return S::constant(if depth.value() > 0.0 { 1.0 } else { 0.0 });
+    }
+    if away >= narrow {
+        return depth / wide + 0.5;
+    }
+    let positive = depth.value() > 0.0;
+    let left = if positive { -depth } else { depth } + 0.5 * (wide + narrow);
+    let rest = left * left / (2.0 * wide * narrow);
+    if positive { -rest + 1.0 } else { rest }
 }
 
 /// sin φ below which no tooth of a sensible feed cuts: behind the tool.

@@ -14,8 +14,9 @@ use std::sync::Arc;
 
 /// Unknowns of one cut, in the order of the slopes: six coefficients (Ktc, Krc, Kac, Kte, Kre, Kae; SI),
 /// runout along tooth 1 and a quarter turn on (m), logarithm of the bandwidth, angle of tooth 1 at the
-/// first sample (rad), relative error of the spindle speed, width (m).
-pub const UNKNOWNS: usize = 12;
+/// first sample (rad), relative error of the spindle speed, width (m), share of the ray before the border of
+/// the stock that counts as chip.
+pub const UNKNOWNS: usize = 13;
 /// Place of the first part of the runout.
 pub const RUNOUT: usize = 6;
 /// Place of the logarithm of the bandwidth.
@@ -27,8 +28,14 @@ pub const SPEED: usize = 10;
 /// Place of the width.
 pub const WIDTH: usize = 11;
 
-/// Samples of a revolution that is low-passed.
+/// Place of the share of the ray before the border of the stock that counts as chip.
+pub const BORDER: usize = 12;
+
+/// Fewest samples of a revolution that is low-passed, and how many there are to an oscillation at the corner.
 const GRID: usize = 1440;
+const PER_OSCILLATION: f64 = 32.0;
+/// Most doublings of the samples.
+const DOUBLINGS: u32 = 3;
 
 /// One cut with its samples.
 #[derive(Debug, Clone)]
@@ -74,7 +81,7 @@ pub fn cut(facts: &CutFacts) -> Cut {
     }
 }
 
-type D = Dual<4>;
+type D = Dual<5>;
 
 impl CutScene {
     /// Forces and slopes at `p`, in the order of [`UNKNOWNS`].
@@ -93,7 +100,9 @@ impl CutScene {
 
     fn wave(&self, p: &[f64; UNKNOWNS]) -> Wave<'_, D> {
         let runout = [0, 1].map(|k| D::variable(p[RUNOUT + k], k));
-        Wave::new(&self.tool, &self.cut, runout, D::variable(p[WIDTH], 2)).shorter(&self.shorter)
+        Wave::new(&self.tool, &self.cut, runout, D::variable(p[WIDTH], 2))
+            .before_the_border(D::variable(p[BORDER], 4))
+            .shorter(&self.shorter)
     }
 
     fn ideal(&self, p: &[f64; UNKNOWNS]) -> Predicted {
@@ -112,18 +121,19 @@ impl CutScene {
 
     fn filtered(&self, p: &[f64; UNKNOWNS]) -> Predicted {
         let wave = self.wave(p);
-        let step = TAU / GRID as f64;
-        let mut around = Predicted::zeros(GRID);
-        for i in 0..GRID {
+        let hertz = self.cut.spindle_rad_s / TAU;
+        let grid = samples_around(hertz, p[BANDWIDTH].exp());
+        let step = TAU / grid as f64;
+        let mut around = Predicted::zeros(grid);
+        for i in 0..grid {
             let basis = wave.basis(D::constant(i as f64 * step), step);
             around.set(i, &basis, &force(&basis, &p[..6]));
         }
-        let hertz = self.cut.spindle_rad_s / TAU;
-        let passed = LowPass::new(hertz, p[BANDWIDTH].exp()).pass(&around);
+        let passed = LowPass::new(grid, hertz, p[BANDWIDTH].exp()).pass(&around);
         let rate = self.cut.spindle_rad_s;
         let mut predicted = Predicted::zeros(self.time.len());
         for (i, angle) in self.angles(p).into_iter().enumerate() {
-            let place = Place::of(angle);
+            let place = Place::of(angle, grid);
             predicted.force[i] = place.read(&passed.force);
             for (own, from) in predicted.slopes.iter_mut().zip(&passed.slopes) {
                 own[i] = place.read(from);
@@ -133,6 +143,13 @@ impl CutScene {
         }
         predicted
     }
+}
+
+/// Samples of a revolution that show what passes a corner (Hz).
+fn samples_around(spindle_hz: f64, corner_hz: f64) -> usize {
+    let fewest = PER_OSCILLATION * corner_hz / spindle_hz;
+    let doubled = (0..DOUBLINGS).take_while(|k| ((GRID << k) as f64) < fewest);
+    GRID << doubled.count()
 }
 
 impl Predicted {
@@ -152,12 +169,14 @@ impl Predicted {
             self.slopes[RUNOUT][i][k] = f[k].eps[0];
             self.slopes[RUNOUT + 1][i][k] = f[k].eps[1];
             self.slopes[WIDTH][i][k] = f[k].eps[2];
+            self.slopes[BORDER][i][k] = f[k].eps[4];
         }
     }
 }
 
 /// The second-order low pass of the dynamometer on what repeats with every revolution.
 struct LowPass {
+    grid: usize,
     forward: Arc<dyn Fft<f64>>,
     back: Arc<dyn Fft<f64>>,
     spindle_hz: f64,
@@ -165,18 +184,19 @@ struct LowPass {
 }
 
 impl LowPass {
-    fn new(spindle_hz: f64, corner_hz: f64) -> Self {
+    fn new(grid: usize, spindle_hz: f64, corner_hz: f64) -> Self {
         let mut planner = FftPlanner::new();
         Self {
-            forward: planner.plan_fft_forward(GRID),
-            back: planner.plan_fft_inverse(GRID),
+            grid,
+            forward: planner.plan_fft_forward(grid),
+            back: planner.plan_fft_inverse(grid),
             spindle_hz,
             corner_hz,
         }
     }
 
     fn pass(&self, around: &Predicted) -> Predicted {
-        let mut passed = Predicted::zeros(GRID);
+        let mut passed = Predicted::zeros(self.grid);
         for k in 0..3 {
             let lines = self.spectrum(&around.force, k);
             let through = |h: &dyn Fn(f64, Complex64) -> Complex64| self.turned(&lines, h);
@@ -184,12 +204,12 @@ impl LowPass {
             let plain = through(&|f, _| butterworth2(f, corner));
             let slower = through(&|f, _| butterworth2_slope(f, corner));
             let turned = through(&|f, order| order * butterworth2(f, corner));
-            for i in 0..GRID {
+            for i in 0..self.grid {
                 passed.force[i][k] = plain[i];
                 passed.slopes[BANDWIDTH][i][k] = slower[i];
                 passed.slopes[PHASE][i][k] = turned[i];
             }
-            for j in [0, 1, 2, 3, 4, 5, RUNOUT, RUNOUT + 1, WIDTH] {
+            for j in [0, 1, 2, 3, 4, 5, RUNOUT, RUNOUT + 1, WIDTH, BORDER] {
                 let lines = self.spectrum(&around.slopes[j], k);
                 let own = self.turned(&lines, &|f, _| butterworth2(f, corner));
                 for (slope, value) in passed.slopes[j].iter_mut().zip(own) {
@@ -212,22 +232,32 @@ impl LowPass {
         lines: &[Complex64],
         factor: &dyn Fn(f64, Complex64) -> Complex64,
     ) -> Vec<f64> {
-        let half = GRID / 2;
+        let half = self.grid / 2;
         let of = |(i, line): (usize, &Complex64)| {
             let order = if i < half {
                 i as f64
             } else {
-                i as f64 - GRID as f64
+                i as f64 - self.grid as f64
             };
             match i == half {
                 true => Complex64::new(0.0, 0.0),
-                false => line * factor(order * self.spindle_hz, Complex64::new(0.0, order)),
+                // entries and exits are spread over a sample: undone here
+                false => {
+                    line * factor(order * self.spindle_hz, Complex64::new(0.0, order))
+                        / sinc(order / self.grid as f64)
+                }
             }
         };
         let mut lines: Vec<Complex64> = lines.iter().enumerate().map(of).collect();
         self.back.process(&mut lines);
-        lines.iter().map(|c| c.re / GRID as f64).collect()
+        lines.iter().map(|c| c.re / self.grid as f64).collect()
     }
+}
+
+/// sin(πx) / πx.
+fn sinc(x: f64) -> f64 {
+    let y = std::f64::consts::PI * x;
+    if y.abs() < 1e-6 { 1.0 } else { y.sin() / y }
 }
 
 /// Where an angle lies between the samples of a revolution.
@@ -237,11 +267,11 @@ struct Place {
 }
 
 impl Place {
-    fn of(angle: f64) -> Self {
-        let at = angle.rem_euclid(TAU) / TAU * GRID as f64;
+    fn of(angle: f64, grid: usize) -> Self {
+        let at = angle.rem_euclid(TAU) / TAU * grid as f64;
         let (first, u) = (at.floor() as usize, at.fract());
         Self {
-            around: [GRID - 1, 0, 1, 2].map(|k| (first + k) % GRID),
+            around: [grid - 1, 0, 1, 2].map(|k| (first + k) % grid),
             // Catmull and Rom 1974
             weight: [
                 0.5 * u * (-1.0 + u * (2.0 - u)),
@@ -280,7 +310,7 @@ mod tests {
         let k = [800e6, 300e6, 100e6, 20e3, 25e3, 3e3];
         let mut p = [0.0; UNKNOWNS];
         p[..6].copy_from_slice(&k);
-        p[RUNOUT..].copy_from_slice(&[6e-6, -4e-6, 900.0_f64.ln(), 0.4, 1e-4, 5e-3]);
+        p[RUNOUT..].copy_from_slice(&[6e-6, -4e-6, 900.0_f64.ln(), 0.4, 1e-4, 5e-3, 0.5]);
         (scene, p)
     }
 
@@ -290,7 +320,7 @@ mod tests {
             let (scene, p) = scene(low_pass);
             let at = scene.predict(&p);
             let steps = [
-                1e6, 1e6, 1e6, 1e2, 1e2, 1e2, 1e-8, 1e-8, 1e-4, 1e-5, 1e-7, 1e-7,
+                1e6, 1e6, 1e6, 1e2, 1e2, 1e2, 1e-8, 1e-8, 1e-4, 1e-5, 1e-7, 1e-7, 1e-2,
             ];
             for j in 0..UNKNOWNS {
                 let moved = |s: f64| {

@@ -71,7 +71,7 @@ impl Bite {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cutting::chip::{Steady, Stock};
+    use crate::cutting::chip::{Steady, Stock, Tip};
 
     #[test]
     fn a_steady_way_takes_the_chip_of_its_trochoids() {
@@ -80,13 +80,15 @@ mod tests {
         let steady = Steady::<f64> {
             feed_per_radian: q,
             stock: Stock::Full,
+            before: 0.0,
         };
+        let tips = radii.map(|radius| Tip { radius, aside: 0.0 });
         let way = |m: usize| [q * TAU * m as f64 / teeth as f64, 0.0, 0.0];
         let ways = [way(3), way(2), way(1)];
         for tooth in 0..teeth {
             for phi in [0.2_f64, 0.8, 1.6, 2.4, 3.0] {
                 let direction = [phi.sin(), phi.cos()];
-                let exact = steady.bite(direction, tooth, &radii).thickness;
+                let exact = steady.bite(direction, tooth, &tips).thickness;
                 let bite = Bite {
                     direction,
                     normal: [1.0, 0.0],

@@ -67,6 +67,14 @@ impl Grid {
 
     /// Takes a solid away.
     pub fn remove(&mut self, solid: &Solid) {
+        match solid.upright() {
+            Some(k) => self.remove_upright(solid, k),
+            None => self.remove_one_by_one(solid),
+        }
+    }
+
+    /// Takes a solid away, each ray for itself.
+    pub(super) fn remove_one_by_one(&mut self, solid: &Solid) {
         let [w, u, v] = self.axes;
         let (low, high) = solid.bounds();
         let columns = self.between(0, low[u], high[u]);

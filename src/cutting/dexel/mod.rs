@@ -10,6 +10,7 @@ mod ray;
 pub mod rings;
 pub mod solid;
 pub mod stock;
+mod upright;
 
 pub use engagement::Engagement;
 pub use rings::rings;

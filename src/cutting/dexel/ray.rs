@@ -51,7 +51,25 @@ impl Ray {
             }
             return;
         }
-        self.split(low, high);
+        if !self.trim(low, high) {
+            self.split(low, high);
+        }
+    }
+
+    /// Shortens pieces at their ends where that is all it takes; tells whether it was.
+    fn trim(&mut self, low: f64, high: f64) -> bool {
+        let others = self.rest.iter_mut().flat_map(|rest| rest.iter_mut());
+        for [a, b] in std::iter::once(&mut self.first).chain(others) {
+            if high <= *a || low >= *b {
+                continue;
+            }
+            match (low > *a, high < *b) {
+                (true, false) => *b = low,
+                (false, true) => *a = high,
+                _ => return false,
+            }
+        }
+        true
     }
 
     #[cold]

@@ -4,7 +4,7 @@ use super::descent::{Descent, Optimum};
 use super::layout::Layout;
 use super::start::{improve_teeth, start};
 use super::whitening::Whitening;
-use super::{Averaged, CutData, averaged, cuts, remarks};
+use super::{Averaged, CutData, averaged, cuts, remarks, repeated};
 use crate::cutting::LINEAR_EDGE;
 use crate::experiments::milling_force::{BANDWIDTH, PHASE, RUNOUT, SPEED, UNKNOWNS, WIDTH};
 use crate::fit::parameter::{Identified, Status, Z95};
@@ -62,8 +62,7 @@ const FIXED_ANGLE: f64 = 0.6;
 pub fn identify(files: &[MillingForce]) -> Account {
     let cuts = cuts(files);
     let layout = Layout::of(&cuts);
-    let fitted = descend(&cuts, &layout);
-    let covariance = covariance(&fitted, &layout);
+    let (fitted, covariance) = descend(&cuts, &layout);
     let p = name_teeth(&cuts, &layout, fitted.p.clone());
     let answer = Answer {
         cuts: &cuts,
@@ -103,7 +102,8 @@ pub fn identify(files: &[MillingForce]) -> Account {
     account
 }
 
-fn descend(cuts: &[CutData], layout: &Layout) -> Optimum {
+/// Where the fit ends, and its covariance in SI.
+fn descend(cuts: &[CutData], layout: &Layout) -> (Optimum, DMatrix<f64>) {
     let mut p = start(cuts, layout);
     let size = rms(&cuts.iter().map(|c| c.force.clone()).collect::<Vec<_>>());
     let rough = 0.05 * size.iter().fold(0.0_f64, |m, v| m.max(*v)).max(1e-9);
@@ -118,7 +118,8 @@ fn descend(cuts: &[CutData], layout: &Layout) -> Optimum {
         let found = descent.from(&p);
         round += 1;
         if round == ROUNDS {
-            return found;
+            let covariance = repeated::widened(covariance(&found, layout), &descent, &found.p);
+            return (found, covariance);
         }
         p = found.p;
         if round == 1 && improve_teeth(cuts, layout, &mut p) {

@@ -35,6 +35,18 @@ struct Linear {
     residuals: Vec<Vec<V3>>,
 }
 
+/// One cut in standard deviations of the noise: x of all samples, then y, then z.
+pub struct Whitened {
+    /// Which unknowns the columns belong to.
+    pub places: Vec<usize>,
+    /// Slopes in scaled unknowns.
+    pub jacobian: DMatrix<f64>,
+    /// What is left.
+    pub left: DVector<f64>,
+    /// What is left, N.
+    residual: Vec<V3>,
+}
+
 struct OneCut {
     places: Vec<usize>,
     normal: DMatrix<f64>,
@@ -99,6 +111,18 @@ impl Descent<'_> {
     }
 
     fn one(&self, i: usize, p: &[f64]) -> OneCut {
+        let white = self.whitened(i, p);
+        OneCut {
+            places: white.places,
+            normal: white.jacobian.tr_mul(&white.jacobian),
+            gradient: white.jacobian.tr_mul(&white.left),
+            chi2: white.left.norm_squared(),
+            residual: white.residual,
+        }
+    }
+
+    /// What is left of one cut and its slopes, in standard deviations of the noise.
+    pub fn whitened(&self, i: usize, p: &[f64]) -> Whitened {
         let data = &self.cuts[i];
         let predicted = data.scene.predict(&self.layout.of_one(i, p));
         let left = |(m, f): (&V3, &V3)| std::array::from_fn(|k| m[k] - f[k]);
@@ -116,11 +140,10 @@ impl Descent<'_> {
             slope.iter_mut().for_each(|s| *s *= scale);
             jacobian.column_mut(column).copy_from_slice(&slope);
         }
-        OneCut {
+        Whitened {
             places: used.into_iter().map(|(_, place)| place).collect(),
-            normal: jacobian.tr_mul(&jacobian),
-            gradient: jacobian.tr_mul(&white),
-            chi2: white.norm_squared(),
+            jacobian,
+            left: white,
             residual,
         }
     }

@@ -2,7 +2,7 @@
 
 use super::CutData;
 use crate::cutting::wave::Side;
-use crate::experiments::milling_force::{BANDWIDTH, PHASE, RUNOUT, SPEED, UNKNOWNS, WIDTH};
+use crate::experiments::milling_force::{BANDWIDTH, BORDER, PHASE, RUNOUT, SPEED, UNKNOWNS, WIDTH};
 
 /// Spread of the logarithm of a stated bandwidth.
 const BANDWIDTH_STD: f64 = 0.2;
@@ -12,6 +12,10 @@ const SPEED_STD: f64 = 1e-3;
 pub(super) const RUNOUT_STD: f64 = 5e-5;
 /// Spread of a stated width of cut, m.
 const WIDTH_STD: f64 = 2e-5;
+
+/// Share of the ray before the border of the stock that counts as chip: none by geometry, all of it where the
+/// free face gives way; which of both is not known beforehand.
+const BORDER_SHARE: [f64; 2] = [0.5, 0.5];
 
 /// What is known of an unknown beforehand, and how large its steps are.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,8 +37,15 @@ pub struct Layout {
     fixed: Vec<[f64; UNKNOWNS]>,
 }
 
+/// Where the unknowns stand that all cuts share besides the coefficients.
+struct Common {
+    runout: [Option<usize>; 2],
+    bandwidth: Option<usize>,
+    border: Option<usize>,
+}
+
 const SCALES: [f64; UNKNOWNS] = [
-    1e8, 1e8, 1e8, 1e4, 1e4, 1e4, 1e-6, 1e-6, 0.1, 1e-2, 1e-4, 1e-5,
+    1e8, 1e8, 1e8, 1e4, 1e4, 1e4, 1e-6, 1e-6, 0.1, 1e-2, 1e-4, 1e-5, 0.1,
 ];
 
 impl Layout {
@@ -51,8 +62,17 @@ impl Layout {
         let second = (teeth > 1).then(|| layout.add(part()));
         let stated = cuts.iter().find_map(|c| c.bandwidth_hz);
         let bandwidth = stated.map(|hz| layout.add(known(BANDWIDTH, hz.ln(), BANDWIDTH_STD)));
+        let [share, spread] = BORDER_SHARE;
+        let bordered = |c: &CutData| c.scene.cut.side != Side::Slot;
+        let border = cuts.iter().any(bordered);
+        let border = border.then(|| layout.add(known(BORDER, share, spread)));
+        let common = Common {
+            runout: [runout, second],
+            bandwidth,
+            border,
+        };
         for cut in cuts {
-            layout.add_cut(cut, [runout, second], bandwidth);
+            layout.add_cut(cut, &common);
         }
         layout
     }
@@ -62,16 +82,17 @@ impl Layout {
         self.unknowns.len() - 1
     }
 
-    fn add_cut(&mut self, cut: &CutData, runout: [Option<usize>; 2], bandwidth: Option<usize>) {
+    fn add_cut(&mut self, cut: &CutData, common: &Common) {
         let width = cut.scene.cut.width_m;
         let mut places = [None; UNKNOWNS];
         (0..6).for_each(|k| places[k] = Some(k));
-        (places[RUNOUT], places[RUNOUT + 1]) = (runout[0], runout[1]);
-        places[BANDWIDTH] = bandwidth.filter(|_| cut.scene.low_pass);
+        (places[RUNOUT], places[RUNOUT + 1]) = (common.runout[0], common.runout[1]);
+        places[BANDWIDTH] = common.bandwidth.filter(|_| cut.scene.low_pass);
         places[PHASE] = Some(self.add(free(PHASE)));
         places[SPEED] = Some(self.add(known(SPEED, 0.0, SPEED_STD)));
         if cut.scene.cut.side != Side::Slot {
             places[WIDTH] = Some(self.add(known(WIDTH, width, WIDTH_STD)));
+            places[BORDER] = common.border;
         }
         let mut fixed = [0.0; UNKNOWNS];
         fixed[WIDTH] = width;

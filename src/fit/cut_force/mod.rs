@@ -10,6 +10,7 @@ mod averaged;
 mod descent;
 mod layout;
 mod remarks;
+mod repeated;
 mod start;
 mod whitening;
 
