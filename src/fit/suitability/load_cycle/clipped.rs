@@ -13,8 +13,6 @@ pub const RULE: Rule = Rule {
 
 /// Fewer equal readings in a row than this make no plateau.
 const PLATEAU: usize = 4;
-/// Levels between its ends at which a channel must stand too for being moved in steps.
-const LEVELS: usize = 2;
 /// Share of its range by which the other channel goes on meanwhile.
 const GOES_ON: f64 = 0.03;
 /// Steps of the converter by which the other channel's change would have moved this one.
@@ -51,7 +49,7 @@ pub fn clipped(channel: &[f64], other: &[f64]) -> Option<(usize, &'static str)> 
     let (low, high) = range(channel);
     let span = extent(other);
     let scale = span / (high - low);
-    if !scale.is_finite() || scale <= 0.0 || rests_elsewhere(channel, (low, high)) {
+    if !scale.is_finite() || scale <= 0.0 {
         return None;
     }
     let any = [high, low].map(|end| plateaus(channel, other, end, GOES_ON * span));
@@ -65,17 +63,6 @@ pub fn clipped(channel: &[f64], other: &[f64]) -> Option<(usize, &'static str)> 
     ends.into_iter()
         .max_by_key(|end| end.0)
         .filter(|end| end.0 >= PLATEAU)
-}
-
-/// Whether a channel stands at levels between its ends nearly as long as at these: dead weights do, while
-/// noise alone moves the other channel.
-fn rests_elsewhere(channel: &[f64], (low, high): (f64, f64)) -> bool {
-    let runs: Vec<&[f64]> = channel.chunk_by(|a, b| a == b).collect();
-    let at_end = |run: &&&[f64]| run[0] == low || run[0] == high;
-    let longest = runs.iter().filter(at_end).map(|run| run.len()).max();
-    let long = PLATEAU.max(longest.unwrap_or(0) / 2);
-    let between = runs.iter().filter(|run| !at_end(run));
-    between.filter(|run| run.len() >= long).count() >= LEVELS
 }
 
 /// Rows in plateaus at `end` during which the other channel goes on by at least `by`.
@@ -105,31 +92,4 @@ fn step(channel: &[f64], extent: f64) -> f64 {
         .filter(|d| *d > 1e-9 * extent)
         .fold(f64::INFINITY, f64::min);
     if least.is_finite() { least } else { 0.0 }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn triangle(i: usize) -> f64 {
-        1.0 - (2.0 * (i % 100) as f64 / 100.0 - 1.0).abs()
-    }
-
-    #[test]
-    fn dead_weights_rest_and_are_not_clipped() {
-        // a fine converter: its smallest step is far below those of the weights
-        let flicker = |i: usize| if i % 100 == 8 { 0.01 } else { 0.0 };
-        let level = |i: usize| (triangle(i) * 5.0 + 0.5).floor() + flicker(i);
-        let load: Vec<f64> = (0..200).map(level).collect();
-        let noise = |i: usize| [0.2, -0.3, 0.1, -0.2, 0.3, -0.1, 0.0][i % 7];
-        let other: Vec<f64> = (0..200).map(|i| load[i] + noise(i)).collect();
-        assert_eq!(clipped(&load, &other), None);
-    }
-
-    #[test]
-    fn a_flat_top_is_clipped() {
-        let other: Vec<f64> = (0..200).map(triangle).collect();
-        let load: Vec<f64> = other.iter().map(|v| v.min(0.8)).collect();
-        assert_eq!(clipped(&load, &other), Some((42, "upper end")));
-    }
 }
