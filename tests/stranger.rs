@@ -107,6 +107,40 @@ impl Count {
     }
 }
 
+/// Classes of stated probability.
+const CLASSES: [(f64, f64); 6] = [
+    (0.0, 0.5),
+    (0.5, 0.7),
+    (0.7, 0.85),
+    (0.85, 0.95),
+    (0.95, 0.98),
+    (0.98, 1.0),
+];
+
+/// How often a cause that is named alone is true, by the probability that was stated for it. What is named
+/// beside something outside the library counts: nobody who reads the file knows that it is.
+fn reliability(judged: &[(Case, Diagnosis)]) {
+    let each = judged.iter().flat_map(|(case, found)| {
+        let own = found.causes.iter();
+        own.map(|c| (c.probability, case.truths.contains(&c.effect)))
+    });
+    let stated: Vec<(f64, bool)> = each.collect();
+    println!("stated     mean   true  of");
+    for (low, high) in CLASSES {
+        let own: Vec<&(f64, bool)> = stated
+            .iter()
+            .filter(|(p, _)| low <= *p && *p < high)
+            .collect();
+        let (n, right) = (own.len(), own.iter().filter(|(_, t)| *t).count());
+        let share = |sum: f64| sum / n.max(1) as f64;
+        println!(
+            "{low:.2}-{high:.2} {:6.3} {:6.3} {n:3}",
+            share(own.iter().map(|(p, _)| p).sum()),
+            share(right as f64)
+        );
+    }
+}
+
 #[test]
 fn data_by_strangers_are_judged_rightly() {
     let base = number("IDENT_STRANGER_SEED").unwrap_or(1) * 100_000;
@@ -131,8 +165,14 @@ fn data_by_strangers_are_judged_rightly() {
         own.all += 1;
         own.good += usize::from(good);
         own.wrong += usize::from(score.wrong && kind(case) != "outside");
-        if !good && std::env::var("IDENT_DEBUG").is_ok() {
+        if (!good || score.wrong) && std::env::var("IDENT_DEBUG").is_ok() {
             println!("{}", describe(case, found));
+            for doubt in &found.doubts {
+                println!("      {doubt:?}");
+            }
+            for (names, p, nats) in found.candidates.iter().take(5) {
+                println!("      {p:.3} {nats:7.1} {}", names.join(" + "));
+            }
         }
     }
     let of = |name: &str| counts.get(name).copied().unwrap_or_default();
@@ -140,6 +180,7 @@ fn data_by_strangers_are_judged_rightly() {
     let wrong = named.iter().map(|c| c.wrong).sum::<usize>() as f64
         / named.iter().map(|c| c.all).sum::<usize>().max(1) as f64;
     println!("{counts:?} wrong {wrong:.3}");
+    reliability(&judged);
     assert!(of("single").rate() >= SINGLES, "single causes");
     assert!(of("clean").rate() >= CLEAN, "clean files");
     assert!(wrong <= WRONG, "wrong or invented causes");

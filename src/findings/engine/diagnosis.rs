@@ -4,7 +4,7 @@ use super::bank::{Bank, Fit};
 use super::judgement::Judgement;
 use super::materiality::{explained_rms, is_material, raw_parts};
 use super::posterior::Posterior;
-use super::rest::{Rest, Span};
+use super::rest::{Rest, Span, explained};
 use super::search::{Scored, search};
 use super::statement::{Blamed, Experiment, Statement};
 use super::unseen::gain;
@@ -92,7 +92,10 @@ fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgeme
         .map(|s| evidence_of(&bank, s, judgement))
         .collect();
     let story = compared.first().cloned();
-    let posterior = Posterior::of(material(statement, &bank, compared, judgement), judgement);
+    let sets = material(statement, &bank, compared, judgement);
+    let rough = experiment.has_rough_laws();
+    let nats = sets.first().filter(|_| rough).map(|s| worth(&bank, &s.fit));
+    let posterior = Posterior::of(sets, judgement.exponent(nats));
     let span = Span::of(statement);
     let mut set = choose(&posterior, judgement);
     let mut gains = drop_unreal(statement, &bank, &posterior, &mut set, judgement);
@@ -157,6 +160,12 @@ fn unnamed(
         },
         false => rest,
     }
+}
+
+/// Nats that all a set explains is worth beside the noise that it leaves.
+fn worth(bank: &Bank, fit: &Fit) -> f64 {
+    let rows = bank.whitened().len() as f64;
+    0.5 * rows * explained(bank, fit).powi(2) / fit.posterior.noise_variance
 }
 
 fn evidence_of(

@@ -1,6 +1,5 @@
 //! Probabilities of sets and of causes, and who can stand in for whom.
 
-use super::judgement::Judgement;
 use super::search::Scored;
 use crate::ground::stats::log_sum_exp;
 
@@ -13,9 +12,8 @@ pub struct Posterior {
 }
 
 impl Posterior {
-    /// Of sets, best first: the empty one is among them.
-    pub fn of(sets: Vec<Scored>, judgement: &Judgement) -> Self {
-        let temper = judgement.temper;
+    /// Of sets, best first: the empty one is among them. `temper`: exponent of their probabilities.
+    pub fn of(sets: Vec<Scored>, temper: f64) -> Self {
         let total = log_sum_exp(sets.iter().map(|s| temper * s.score));
         let probable = |s: Scored| {
             let p = (temper * s.score - total).exp();

@@ -143,7 +143,7 @@ impl Beside<'_> {
 }
 
 /// Rms of what a set explains, whitened.
-fn explained(bank: &Bank, fit: &Fit) -> f64 {
+pub(super) fn explained(bank: &Bank, fit: &Fit) -> f64 {
     let mut at = 0;
     let mut sum = DVector::zeros(bank.whitened().len());
     for member in &fit.members {

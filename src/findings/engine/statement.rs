@@ -178,6 +178,11 @@ pub trait Experiment: Sync {
     fn is_linear(&self) -> bool {
         true
     }
+    /// Whether laws are only nearly right, so that a small misfit of a large effect does not tell which of
+    /// them is at work.
+    fn has_rough_laws(&self) -> bool {
+        false
+    }
     /// The parameters of a named cause: name, value SI, unit.
     fn parameters(&self, blamed: &Blamed) -> Vec<(&'static str, f64, &'static str)>;
     /// What would tell these rivals (effect, site) apart: a phrase.

@@ -196,6 +196,11 @@ impl Experiment for Record<'_> {
         }
     }
 
+    /// Contacts, joints and creep follow nobody's formula.
+    fn has_rough_laws(&self) -> bool {
+        true
+    }
+
     /// Told by the named law, which is fitted after the choice.
     fn parameters(&self, _blamed: &Blamed) -> Vec<(&'static str, f64, &'static str)> {
         Vec::new()
