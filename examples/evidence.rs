@@ -69,6 +69,12 @@ const SUITES: &[Suite] = &[
         shows: "Screws, force sensors, cutting forces and cubes by a judge of the physics alone",
     },
     Suite {
+        test: "milled_part",
+        cases: "IDENT_PART_CASES",
+        times: 1,
+        shows: "Milled parts of plants that are not the model",
+    },
+    Suite {
         test: "compensate_interval",
         cases: "IDENT_COVERAGE_PLANTS",
         times: 12,

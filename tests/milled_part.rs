@@ -2,7 +2,8 @@
 //!
 //! The plant is milled with the cause in it, feedback and all, where the diagnosis takes columns of first
 //! order; datum, tool, growth and corners are by formulas of this file. `IDENT_BLIND_SEED` draws others,
-//! `IDENT_DEBUG=1` prints every case: `cargo test --test suite milled_part:: -- --nocapture`.
+//! `IDENT_DEBUG=1` prints every case, `IDENT_PART_CASES=1` takes all of them instead of every second:
+//! `cargo test --test suite milled_part:: -- --nocapture`.
 
 use crate::part_bench::{job, ready};
 use ident::findings::kinds;
@@ -226,8 +227,13 @@ fn single_causes_are_named_and_sound_parts_are_left_alone() {
     let z = Random::new(seed).normal().clamp(-1.0, 1.0);
     let mut right = 0;
     let mut wrong = 0;
-    let hidden = singles(&setup, &planned, folder.path(), z);
+    let whole = std::env::var_os("IDENT_PART_CASES").is_some();
+    let mut hidden = singles(&setup, &planned, folder.path(), z);
+    if !whole {
+        hidden = hidden.into_iter().step_by(2).collect();
+    }
     let all = hidden.len();
+    let cleans = if whole { 3 } else { 1 };
     for (i, (effect, site, plant, facts)) in hidden.into_iter().enumerate() {
         let answer = diagnosed(
             folder.path(),
@@ -242,7 +248,7 @@ fn single_causes_are_named_and_sound_parts_are_left_alone() {
         }
     }
     let mut alarms = 0;
-    for i in 0..3 {
+    for i in 0..cleans {
         let clean = Plant::new(&setup).probed(&setup, 100 * seed + 50 + i, "");
         let answer = diagnosed(folder.path(), &clean);
         alarms += usize::from(!answer.causes.is_empty() || answer.verdict != Verdict::Sufficient);
@@ -262,7 +268,7 @@ fn single_causes_are_named_and_sound_parts_are_left_alone() {
         }
     }
     println!(
-        "milled parts: right {right} of {all}, wrong {wrong}, alarms {alarms} of 3, outside flagged {flagged} of 2"
+        "milled parts: right {right} of {all}, wrong {wrong}, alarms {alarms} of {cleans}, outside flagged {flagged} of 2"
     );
-    assert!(right >= all - 2 && wrong <= 1 && alarms == 0);
+    assert!(right + 1 + usize::from(whole) >= all && wrong == 0 && alarms == 0);
 }

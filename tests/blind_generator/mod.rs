@@ -14,7 +14,7 @@ mod line;
 mod noise;
 mod outside;
 mod physics;
-mod random;
+pub mod random;
 mod schedule;
 
 use case::{Wanted, build};

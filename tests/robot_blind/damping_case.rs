@@ -7,8 +7,8 @@ use super::family::{self, Spread};
 use super::hammer::{Plan, Scene};
 use super::hammer_case::{note, text};
 use super::poses::random_pose;
-use super::random::Random;
 use super::robot::{M3, Robot};
+use crate::blind_generator::random::Random;
 use nalgebra::DMatrix;
 
 /// Dampings off by up to a factor of three either way.

@@ -1,7 +1,7 @@
 //! Robots to draw from: like the KR 210-2, like the KR 300 R2500, and scaled at random.
 
-use super::random::Random;
 use super::robot::{Body, Extra, Joint, M3, Robot, Spring, V3};
+use crate::blind_generator::random::Random;
 use nalgebra::Rotation3;
 
 /// Lengths a1, a2, c1, c2, c3, c4 of a wrist-partitioned arm, m; springs, N·m/rad.

@@ -5,8 +5,8 @@ use super::instrument::{filter, on_mount};
 use super::noise::Noise;
 use super::poses::Angles;
 use super::propagator::{Propagator, Softening};
-use super::random::Random;
 use super::robot::{M3, Robot, V3};
+use crate::blind_generator::random::Random;
 
 /// What was done and with what.
 #[derive(Clone)]

@@ -6,8 +6,8 @@ use super::hammer::{Bench, Hit, Plan, Scene};
 use super::hammer_effects::{Drawn, EFFECTS, OUTSIDE, draw};
 use super::hammer_strength::{Before, spread};
 use super::poses::random_pose;
-use super::random::Random;
 use super::robot::Robot;
+use crate::blind_generator::random::Random;
 use std::fmt::Write;
 
 /// A file with the named effect, `clean`, `pair`, or an effect outside the library.

@@ -2,10 +2,10 @@
 
 use super::case::between;
 use super::hammer::{Plan, Scene, Second};
-use super::random::Random;
 use super::robot::V3;
 use super::structure;
 use super::workspace_effects::gain;
+use crate::blind_generator::random::Random;
 use nalgebra::{Rotation3, Unit};
 use std::f64::consts::TAU;
 

@@ -4,8 +4,8 @@
 use super::dynamics::{C3, Dynamics};
 use super::family::{self, Spread};
 use super::hammer::{Plan, Scene};
-use super::random::Random;
 use super::robot::{M3, Robot};
+use crate::blind_generator::random::Random;
 use nalgebra::{Complex, Matrix3};
 use std::f64::consts::TAU;
 

@@ -19,8 +19,6 @@ mod law;
 mod noise;
 mod poses;
 mod propagator;
-#[path = "../blind_generator/random.rs"]
-mod random;
 mod robot;
 mod robot_text;
 pub mod score;

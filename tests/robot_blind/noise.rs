@@ -1,6 +1,6 @@
 //! Noise of displacement sensors and accelerometers, made in the time domain.
 
-use super::random::Random;
+use crate::blind_generator::random::Random;
 
 /// White, or a first-order autoregression with coefficient `rho`; standard deviation `size`.
 #[derive(Clone, Copy)]

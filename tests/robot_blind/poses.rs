@@ -1,7 +1,7 @@
 //! Joint angles: a plan of three by three points, and poses at random.
 
-use super::random::Random;
 use super::robot::{Robot, V3};
+use crate::blind_generator::random::Random;
 use nalgebra::Matrix3;
 
 pub type Angles = [f64; 6];

@@ -3,8 +3,8 @@
 
 use super::case::between;
 use super::family::turning;
-use super::random::Random;
 use super::robot::{Robot, Spring, V3, across};
+use crate::blind_generator::random::Random;
 
 /// Changes the robot by a size of 0..1 and says how.
 pub type Change = Box<dyn Fn(&mut Robot, f64) -> String>;

@@ -3,8 +3,8 @@
 use super::law::Law;
 use super::noise::Noise;
 use super::poses::Angles;
-use super::random::Random;
 use super::robot::{M3, Robot, V3};
+use crate::blind_generator::random::Random;
 use nalgebra::DMatrix;
 
 /// What was done and with what.

@@ -3,11 +3,11 @@
 use super::case::{Case, STRONGEST, Truth, WEAKEST, size_for};
 use super::family::{self, Spread};
 use super::poses::nine_points;
-use super::random::Random;
 use super::robot::{Robot, V3};
 use super::workspace::{Plan, Scene};
 use super::workspace_effects::{EFFECTS, OUTSIDE, draw, wants_both_signs};
 use super::workspace_strength::Before;
+use crate::blind_generator::random::Random;
 use std::fmt::Write;
 
 /// A file with the named effect, `clean`, `pair`, or an effect outside the library.

@@ -2,10 +2,10 @@
 
 use super::case::between;
 use super::law::Law;
-use super::random::Random;
 use super::robot::{M3, V3};
 use super::structure;
 use super::workspace::{Plan, Scene, Spoilt};
+use crate::blind_generator::random::Random;
 use nalgebra::{Rotation3, Unit};
 
 pub const EFFECTS: [&str; 11] = [
