@@ -3,43 +3,15 @@
 //! With y ~ N(Φz, I + N P Nᵀ) the inner product is aᵀb − (Ua)·(Ub), U = L⁻¹Nᵀ, LLᵀ = NᵀN + P⁻¹
 //! (Woodbury 1950): every product of columns is taken so, and nuisances are never seen again.
 
-use super::statement::{Member, Nuisance, Statement, Suspect};
+use super::entry::{Entry, entries};
+use super::nuisances::Nuisances;
+use super::statement::{Member, Statement, Suspect};
 use crate::inference::gaussian::{Posterior, Products, Reading, Size, limited, update};
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
-use statrs::distribution::{ContinuousCDF, Normal};
+use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeMap;
-use std::ops::Range;
-
-/// What is merely uncertain, and alone, may be off by so many of its standard deviations; beyond, something
-/// is wrong.
-const ALLOWED: f64 = 2.5;
-
-/// How far each of many nuisances may be off, in standard deviations: a sound file has one of them beyond as
-/// seldom as a single one is beyond [`ALLOWED`] (Bonferroni).
-pub(super) fn allowed(nuisances: &[Nuisance]) -> f64 {
-    let normal = Normal::standard();
-    let count = nuisances.iter().filter(|n| n.spread.is_finite()).count();
-    -normal.inverse_cdf(normal.cdf(-ALLOWED) / count.max(1) as f64)
-}
 
 /// A set of members (indices into the bank), ascending by suspect.
 pub type Members = Vec<usize>;
-
-/// One member in the bank.
-pub(super) struct Entry {
-    /// Its suspect.
-    pub suspect: usize,
-    /// Which of the suspect's members.
-    pub member: usize,
-    /// Its columns in the bank.
-    pub columns: Range<usize>,
-    /// Its size in units of the bank's columns.
-    pub size: Size,
-    /// Factor from the kind's columns to those of the bank.
-    pub scale: f64,
-    /// Products of its columns with one another.
-    own: DMatrix<f64>,
-}
 
 /// All columns of all suspects.
 pub struct Bank<'a> {
@@ -64,67 +36,6 @@ pub struct Fit {
     pub posterior: Posterior,
     /// Nats that the limits of the nuisances cost, in the evidence already.
     pub beyond: f64,
-}
-
-/// Columns that are integrated out.
-struct Nuisances {
-    columns: DMatrix<f64>,
-    root: Option<Cholesky<f64, Dyn>>,
-    /// NᵀN + P⁻¹ of the scaled columns.
-    inner: DMatrix<f64>,
-    /// By which the columns were divided.
-    lengths: Vec<f64>,
-    /// How far each may be off, in units of the scaled columns; infinite without prior.
-    most: Vec<f64>,
-    /// How many are without prior.
-    flat: usize,
-}
-
-impl Nuisances {
-    fn of(statement: &Statement) -> Self {
-        let rows = statement.reading.len();
-        let white = |c: &[f64]| DVector::from_vec(statement.noise.whiten(c));
-        let columns: Vec<DVector<f64>> = statement
-            .nuisances
-            .iter()
-            .map(|n| white(&n.column))
-            .collect();
-        // scaled to unit length, so that the products are well conditioned
-        let lengths: Vec<f64> = columns.iter().map(|c| c.norm().max(1e-300)).collect();
-        let each = columns.iter().zip(&lengths);
-        let scaled: Vec<DVector<f64>> = each.map(|(c, length)| c / *length).collect();
-        let matrix = match scaled.is_empty() {
-            true => DMatrix::zeros(rows, 0),
-            false => DMatrix::from_columns(&scaled),
-        };
-        let mut inner = matrix.tr_mul(&matrix);
-        let mut flat = 0;
-        let allowed = allowed(&statement.nuisances);
-        let mut most = Vec::new();
-        for (k, nuisance) in statement.nuisances.iter().enumerate() {
-            let spread = nuisance.spread * lengths[k];
-            flat += usize::from(spread.is_infinite());
-            most.push(allowed * spread);
-            inner[(k, k)] += (spread * spread).recip().max(1e-12);
-        }
-        Self {
-            root: inner.clone().cholesky(),
-            inner,
-            columns: matrix,
-            lengths,
-            most,
-            flat,
-        }
-    }
-
-    /// U of columns, nuisances × columns.
-    fn seen(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut cross = self.columns.tr_mul(columns);
-        if let Some(root) = &self.root {
-            root.l_dirty().solve_lower_triangular_mut(&mut cross);
-        }
-        cross
-    }
 }
 
 impl<'a> Bank<'a> {
@@ -205,16 +116,7 @@ impl<'a> Bank<'a> {
         }
         let columns = self.columns.select_columns(&own);
         let (k, p) = (held.most.len(), own.len());
-        let mut hessian = DMatrix::zeros(k + p, k + p);
-        let cross = held.columns.tr_mul(&columns);
-        hessian.view_mut((0, 0), (k, k)).copy_from(&held.inner);
-        hessian.view_mut((0, k), (k, p)).copy_from(&cross);
-        hessian
-            .view_mut((k, 0), (p, k))
-            .copy_from(&cross.transpose());
-        hessian
-            .view_mut((k, k), (p, p))
-            .copy_from(&columns.tr_mul(&columns));
+        let mut hessian = held.beside(&columns);
         let sizes = self.blocks(members).into_iter().zip(&posterior.sizes);
         let sizes = sizes.flat_map(|((count, _), size)| std::iter::repeat_n(*size, count));
         sizes
@@ -376,49 +278,4 @@ impl<'a> Bank<'a> {
             .copy_from(&(extra.tr_mul(y) - seen.tr_mul(known)));
         Products { gram, right }
     }
-}
-
-/// The members in a row; columns of free size are scaled to one noise deviation rms each reading (in the
-/// mean over the member's columns), so that a size is the effect's own.
-fn entries(
-    suspects: &[Suspect],
-    columns: &mut DMatrix<f64>,
-    marginal: &mut DMatrix<f64>,
-) -> Vec<Entry> {
-    let rows = columns.nrows().max(1) as f64;
-    let mut entries = Vec::new();
-    let mut at = 0;
-    for (suspect, own) in suspects.iter().enumerate() {
-        for (member, m) in own.members.iter().enumerate() {
-            let range = at..at + m.columns.len();
-            at = range.end;
-            let product = |c: &DMatrix<f64>, u: &DMatrix<f64>| {
-                let (c, u) = (
-                    c.columns(range.start, range.len()),
-                    u.columns(range.start, range.len()),
-                );
-                c.tr_mul(&c) - u.tr_mul(&u)
-            };
-            let square = product(columns, marginal).trace() / (rows * range.len().max(1) as f64);
-            let scale = match m.size {
-                Size::Free if square > 0.0 => square.sqrt().recip(),
-                _ => 1.0,
-            };
-            columns
-                .columns_mut(range.start, range.len())
-                .scale_mut(scale);
-            marginal
-                .columns_mut(range.start, range.len())
-                .scale_mut(scale);
-            entries.push(Entry {
-                suspect,
-                member,
-                size: m.size,
-                scale,
-                own: product(columns, marginal),
-                columns: range,
-            });
-        }
-    }
-    entries
 }

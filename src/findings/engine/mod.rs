@@ -17,10 +17,13 @@
 //! Every number that decides stands in [`Judgement`], with its reason.
 
 pub mod bank;
+mod choice;
 pub mod diagnosis;
+mod entry;
 pub mod judgement;
 pub mod materiality;
-pub mod posterior;
+mod nuisances;
+mod posterior;
 pub mod rest;
 pub mod search;
 pub mod statement;

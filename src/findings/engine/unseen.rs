@@ -1,6 +1,7 @@
 //! What a cause gains on rows that were not fitted.
 
-use super::bank::{Bank, Fit, allowed};
+use super::bank::{Bank, Fit};
+use super::nuisances::allowed;
 use super::statement::Statement;
 use crate::findings::gain::Gain;
 use crate::ground::stats::{Z95, mean, t95};

@@ -1,0 +1,143 @@
+//! Which set of causes is named: what matters, is needed, is real on unseen data, and beats structure of any
+//! kind.
+
+use super::bank::Bank;
+use super::judgement::Judgement;
+use super::materiality::is_material;
+use super::posterior::Posterior;
+use super::rest::Span;
+use super::search::Scored;
+use super::statement::Statement;
+use super::unseen::gain;
+use crate::findings::gain::Gain;
+
+/// Sets below the best that matters by more than this are not tried, nats.
+const HOPELESS: f64 = 60.0;
+
+/// Sets whose every cause matters; the empty one always does. What is hopeless is measured by the best set
+/// that matters: one with a further cause too small to be named may lead by what laws miss of large ones.
+pub(super) fn material(
+    statement: &Statement,
+    bank: &Bank,
+    sets: Vec<Scored>,
+    judgement: &Judgement,
+) -> Vec<Scored> {
+    let mut best = f64::NEG_INFINITY;
+    let mut holds = |s: &Scored| {
+        let matters = s.score > best - HOPELESS && is_material(statement, bank, &s.fit, judgement);
+        if matters {
+            best = best.max(s.score);
+        }
+        matters || s.suspects.is_empty()
+    };
+    sets.into_iter().filter(|s| holds(s)).collect()
+}
+
+pub(super) fn nothing(posterior: &Posterior) -> Scored {
+    let empty = posterior.set(&[]).or(posterior.sets.first().map(|s| &s.0));
+    empty
+        .cloned()
+        .unwrap_or_else(|| unreachable!("the empty set is always compared"))
+}
+
+/// The best set, less companions that are not probable enough.
+pub(super) fn choose(posterior: &Posterior, judgement: &Judgement) -> Scored {
+    let mut set = posterior
+        .sets
+        .first()
+        .map_or_else(|| nothing(posterior), |s| s.0.clone());
+    while set.suspects.len() > 1 {
+        let probability = |s: &usize| {
+            let swapped: f64 = posterior.stand_ins(&set, *s).iter().map(|r| r.1).sum();
+            let own = posterior.inclusion(*s);
+            // what a stand-in takes is not lost: some companion is there
+            (own * (1.0 + swapped)).min(1.0)
+        };
+        let weakest = set
+            .suspects
+            .iter()
+            .min_by(|a, b| probability(a).total_cmp(&probability(b)));
+        let Some(weakest) = weakest
+            .copied()
+            .filter(|s| probability(s) < judgement.companion_needed)
+        else {
+            break;
+        };
+        let Some(less) = without(posterior, &set, weakest) else {
+            break;
+        };
+        set = less;
+    }
+    set
+}
+
+fn without(posterior: &Posterior, set: &Scored, suspect: usize) -> Option<Scored> {
+    let rest: Vec<usize> = set
+        .suspects
+        .iter()
+        .copied()
+        .filter(|s| *s != suspect)
+        .collect();
+    posterior.set(&rest).cloned()
+}
+
+/// Gains of all causes of the set, after those were dropped that gain nothing on unseen rows.
+pub(super) fn drop_unreal(
+    statement: &Statement,
+    bank: &Bank,
+    posterior: &Posterior,
+    set: &mut Scored,
+    judgement: &Judgement,
+) -> Vec<Gain> {
+    loop {
+        let gains: Vec<Gain> = set
+            .fit
+            .members
+            .iter()
+            .map(|m| gain(statement, bank, &set.fit, *m))
+            .collect();
+        let least = match gains.len() {
+            1 => 0.0,
+            _ => judgement.companion_gain,
+        };
+        let unreal = gains
+            .iter()
+            .enumerate()
+            .filter(|(_, g)| !g.is_real() || g.reduction_percent < least);
+        let worst = unreal.min_by(|a, b| a.1.reduction_percent.total_cmp(&b.1.reduction_percent));
+        let Some((at, _)) = worst else {
+            return gains;
+        };
+        let mut members = set.fit.members.clone();
+        members.remove(at);
+        let suspects = members
+            .iter()
+            .map(|m| bank.entries[*m].suspect)
+            .collect::<Vec<_>>();
+        *set = match (posterior.set(&suspects), bank.fit(&members)) {
+            (Some(less), _) => less.clone(),
+            (None, Some(fit)) => Scored {
+                suspects,
+                fit,
+                score: 0.0,
+            },
+            (None, None) => nothing(posterior),
+        };
+    }
+}
+
+/// Several causes must be worth their price beside structure of any kind: else that is the better story.
+pub(super) fn loses_to_structure(
+    bank: &Bank,
+    posterior: &Posterior,
+    set: &Scored,
+    span: Option<&Span>,
+) -> bool {
+    let Some(span) = span.filter(|_| set.suspects.len() > 1) else {
+        return false;
+    };
+    let empty = nothing(posterior).fit;
+    let price = set.fit.posterior.ln_evidence - empty.posterior.ln_evidence - set.score;
+    let with = span.best(bank, &set.fit) - set.fit.beyond;
+    with - price < span.best(bank, &empty) - empty.beyond
+}

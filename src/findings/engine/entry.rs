@@ -1,0 +1,67 @@
+//! One member's place in the bank.
+
+use super::statement::Suspect;
+use crate::inference::gaussian::Size;
+use nalgebra::DMatrix;
+use std::ops::Range;
+
+/// One member in the bank.
+pub(super) struct Entry {
+    /// Its suspect.
+    pub suspect: usize,
+    /// Which of the suspect's members.
+    pub member: usize,
+    /// Its columns in the bank.
+    pub columns: Range<usize>,
+    /// Its size in units of the bank's columns.
+    pub size: Size,
+    /// Factor from the kind's columns to those of the bank.
+    pub scale: f64,
+    /// Products of its columns with one another.
+    pub own: DMatrix<f64>,
+}
+
+/// The members in a row; columns of free size are scaled to one noise deviation rms each reading (in the
+/// mean over the member's columns), so that a size is the effect's own.
+pub(super) fn entries(
+    suspects: &[Suspect],
+    columns: &mut DMatrix<f64>,
+    marginal: &mut DMatrix<f64>,
+) -> Vec<Entry> {
+    let rows = columns.nrows().max(1) as f64;
+    let mut entries = Vec::new();
+    let mut at = 0;
+    for (suspect, own) in suspects.iter().enumerate() {
+        for (member, m) in own.members.iter().enumerate() {
+            let range = at..at + m.columns.len();
+            at = range.end;
+            let product = |c: &DMatrix<f64>, u: &DMatrix<f64>| {
+                let (c, u) = (
+                    c.columns(range.start, range.len()),
+                    u.columns(range.start, range.len()),
+                );
+                c.tr_mul(&c) - u.tr_mul(&u)
+            };
+            let square = product(columns, marginal).trace() / (rows * range.len().max(1) as f64);
+            let scale = match m.size {
+                Size::Free if square > 0.0 => square.sqrt().recip(),
+                _ => 1.0,
+            };
+            columns
+                .columns_mut(range.start, range.len())
+                .scale_mut(scale);
+            marginal
+                .columns_mut(range.start, range.len())
+                .scale_mut(scale);
+            entries.push(Entry {
+                suspect,
+                member,
+                size: m.size,
+                scale,
+                own: product(columns, marginal),
+                columns: range,
+            });
+        }
+    }
+    entries
+}

@@ -1,0 +1,93 @@
+//! What is uncertain although nothing is wrong: whitened columns that are integrated out, and how far each may
+//! be off.
+
+use super::statement::{Nuisance, Statement};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use statrs::distribution::{ContinuousCDF, Normal};
+
+/// What is merely uncertain, and alone, may be off by so many of its standard deviations; beyond, something
+/// is wrong.
+const ALLOWED: f64 = 2.5;
+
+/// How far each of many nuisances may be off, in standard deviations: a sound file has one of them beyond as
+/// seldom as a single one is beyond [`ALLOWED`] (Bonferroni).
+pub(super) fn allowed(nuisances: &[Nuisance]) -> f64 {
+    let normal = Normal::standard();
+    let count = nuisances.iter().filter(|n| n.spread.is_finite()).count();
+    -normal.inverse_cdf(normal.cdf(-ALLOWED) / count.max(1) as f64)
+}
+
+/// Columns that are integrated out.
+pub(super) struct Nuisances {
+    pub columns: DMatrix<f64>,
+    pub root: Option<Cholesky<f64, Dyn>>,
+    /// NᵀN + P⁻¹ of the scaled columns.
+    pub inner: DMatrix<f64>,
+    /// By which the columns were divided.
+    pub lengths: Vec<f64>,
+    /// How far each may be off, in units of the scaled columns; infinite without prior.
+    pub most: Vec<f64>,
+    /// How many are without prior.
+    pub flat: usize,
+}
+
+impl Nuisances {
+    /// Of a statement.
+    pub fn of(statement: &Statement) -> Self {
+        let rows = statement.reading.len();
+        let white = |c: &[f64]| DVector::from_vec(statement.noise.whiten(c));
+        let columns: Vec<DVector<f64>> = statement
+            .nuisances
+            .iter()
+            .map(|n| white(&n.column))
+            .collect();
+        // scaled to unit length, so that the products are well conditioned
+        let lengths: Vec<f64> = columns.iter().map(|c| c.norm().max(1e-300)).collect();
+        let each = columns.iter().zip(&lengths);
+        let scaled: Vec<DVector<f64>> = each.map(|(c, length)| c / *length).collect();
+        let matrix = match scaled.is_empty() {
+            true => DMatrix::zeros(rows, 0),
+            false => DMatrix::from_columns(&scaled),
+        };
+        let mut inner = matrix.tr_mul(&matrix);
+        let mut flat = 0;
+        let allowed = allowed(&statement.nuisances);
+        let mut most = Vec::new();
+        for (k, nuisance) in statement.nuisances.iter().enumerate() {
+            let spread = nuisance.spread * lengths[k];
+            flat += usize::from(spread.is_infinite());
+            most.push(allowed * spread);
+            inner[(k, k)] += (spread * spread).recip().max(1e-12);
+        }
+        Self {
+            root: inner.clone().cholesky(),
+            inner,
+            columns: matrix,
+            lengths,
+            most,
+            flat,
+        }
+    }
+
+    /// U of columns, nuisances × columns.
+    pub fn seen(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut cross = self.columns.tr_mul(columns);
+        if let Some(root) = &self.root {
+            root.l_dirty().solve_lower_triangular_mut(&mut cross);
+        }
+        cross
+    }
+
+    /// Products of the nuisances, their priors in it, beside those of other columns.
+    pub fn beside(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
+        let (k, p) = (self.most.len(), columns.ncols());
+        let cross = self.columns.tr_mul(columns);
+        let mut all = DMatrix::zeros(k + p, k + p);
+        all.view_mut((0, 0), (k, k)).copy_from(&self.inner);
+        all.view_mut((0, k), (k, p)).copy_from(&cross);
+        all.view_mut((k, 0), (p, k)).copy_from(&cross.transpose());
+        all.view_mut((k, k), (p, p))
+            .copy_from(&columns.tr_mul(columns));
+        all
+    }
+}
