@@ -36,7 +36,9 @@ fn campaign() -> tempfile::TempDir {
     let folder = bench.path().join("measurements/kr210");
     std::fs::create_dir_all(&folder).unwrap();
     for entry in std::fs::read_dir(from).unwrap().flatten() {
-        std::fs::copy(entry.path(), folder.join(entry.file_name())).unwrap();
+        if entry.path().is_file() {
+            std::fs::copy(entry.path(), folder.join(entry.file_name())).unwrap();
+        }
     }
     let mut command = Command::new(env!("CARGO_BIN_EXE_ident"));
     let out = command
