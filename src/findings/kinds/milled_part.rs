@@ -44,16 +44,10 @@ impl Measured for Case {
         let mut chart = Chart::new(
             format!("{}-part", self.test.stem()),
             "The part along the path",
-            "Deviation across the feed as probed, as it was simulated, and with the named causes.",
+            "Deviation across the feed as probed, as it was simulated, and with the named causes; what is merely uncertain is at its most probable there.",
         )
         .synthetic(self.test.facts.synthetic);
         for (label, left) in [("Left of the feed", true), ("Along the spindle", false)] {
-            let named: Vec<f64> = self
-                .simulated
-                .iter()
-                .zip(&found.explained)
-                .map(|(s, e)| s + e)
-                .collect();
             let panel = Panel::new(Axis::new("Path", "mm"), Axis::new(label, "µm"))
                 .with(Series::points(
                     "probed",
@@ -65,7 +59,7 @@ impl Measured for Case {
                 ))
                 .with(Series::line(
                     "with the named causes",
-                    self.over(left, |i, _| named[i]),
+                    self.over(left, |i, row| row.measured - found.left[i]),
                 ));
             chart = chart.with(panel);
         }
