@@ -11,7 +11,7 @@ pub enum Kind {
     Stiffness,
     /// A direction of the mass matrix.
     Mass,
-    /// What weight does: [`Weight`].
+    /// What weight does: `Weight`.
     Weight,
     /// A combination of uncertain numbers of the bodies, in standard deviations.
     Body,

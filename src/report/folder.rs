@@ -12,7 +12,7 @@ pub fn write(folder: &Path, page: &Page) -> Outcome<Vec<PathBuf>> {
     write_as(folder, "index.html", page)
 }
 
-/// [`write`] with another name for the page.
+/// `write` with another name for the page.
 pub fn write_as(folder: &Path, name: &str, page: &Page) -> Outcome<Vec<PathBuf>> {
     let mut written = Vec::new();
     for (path, content) in inked(folder, name, page)? {

@@ -12,7 +12,7 @@ use rustfft::num_complex::Complex64;
 /// the series of the modes above it, even powers for their stiffness, odd ones for their damping.
 const RESIDUALS: [i32; 4] = [0, 2, 3, 4];
 
-/// FRFs made ready: weighted, without the part that the terms of [`RESIDUALS`] explain.
+/// FRFs made ready: weighted, without the part that the terms of `RESIDUALS` explain.
 pub struct Task<'a> {
     /// The FRFs.
     pub channels: &'a Channels,

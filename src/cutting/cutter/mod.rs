@@ -3,7 +3,7 @@
 //! The chip of a tooth is its way since an earlier tooth stood at the same angle, along the outward
 //! normal: the feed and the regenerative term in one (source 001, eq. 3), h = (u(t) − u(t − mτ))·n, the
 //! least over the teeth before it, so that one that left the cut leaves its share to the next.
-//! Along the ray that the tooth stands on, as the trochoids have it: [`bite`].
+//! Along the ray that the tooth stands on, as the trochoids have it: `bite`.
 
 mod bite;
 mod load;

@@ -4,44 +4,44 @@ use serde::Serialize;
 
 /// What the engine asks of causes before it names them.
 ///
-/// Sources: [F] the ablations of a prototype on two generators by strangers, checked on a third (house
-/// note "families"); [S] Schwarz (1978); [M] Miller and Dunson (2019), coarsened likelihoods: the evidence is
+/// Sources: (F) the ablations of a prototype on two generators by strangers, checked on a third (house
+/// note "families"); (S) Schwarz (1978); (M) Miller and Dunson (2019), coarsened likelihoods: the evidence is
 /// raised to a power where laws are only nearly right.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Judgement {
     /// Price of naming a cause, nats: prior odds of three in a hundred.
     pub name: f64,
-    /// Price of every further cause beside the first, nats [F]: two faults in one file are rare.
+    /// Price of every further cause beside the first, nats (F): two faults in one file are rare.
     pub companion: f64,
-    /// Price of every further amount of a cause, nats: what its free size does not pay [S].
+    /// Price of every further amount of a cause, nats: what its free size does not pay (S).
     pub amount: f64,
-    /// Price of two causes of one mechanism, nats [F]: mostly one law of another shape.
+    /// Price of two causes of one mechanism, nats (F): mostly one law of another shape.
     pub same_mechanism: f64,
     /// Peak (99 %) of a cause's own part, in noise deviations of one reading, below which it is too small to
-    /// be named [F].
+    /// be named (F).
     pub peak: f64,
-    /// Its rms as a share of all that is named, below which it does not matter [F] ...
+    /// Its rms as a share of all that is named, below which it does not matter (F) ...
     pub share: f64,
     /// ... and beside one of its own mechanism.
     pub share_beside_kin: f64,
-    /// Exponent of probabilities [M], fitted to reliability: stated 0.95 is right in 95 % [F].
+    /// Exponent of probabilities (M), fitted to reliability: stated 0.95 is right in 95 % (F).
     pub temper: f64,
     /// The same where laws are only nearly right, while an effect is no larger than the noise; fitted, with
     /// [`Judgement::law_error`], to 240 cases of `tests/stranger.rs` (seeds 5 and 6), where 0.45 to 0.8 with
     /// 0.025 to 0.035 choose alike.
     pub temper_of_laws: f64,
     /// Share of its own size by which such a law misses nature. Nats that so large a misfit is worth say
-    /// nothing of which law is right, so the exponent is divided by one and their number [M].
+    /// nothing of which law is right, so the exponent is divided by one and their number (M).
     pub law_error: f64,
     /// Odds against the named cause above which a stand-in cannot be ruled out.
     pub ambiguous: f64,
-    /// Probability below which a companion is not named [F].
+    /// Probability below which a companion is not named (F).
     pub companion_needed: f64,
     /// A companion that lowers the error on unseen rows by less than this, percent, is not named: what laws
     /// miss of the first cause gains as much. Set on five cutting forces that had such companions (three of
     /// `tests/judge`, two of `tests/blind_milling_force.rs`), so neither judges this number.
     pub companion_gain: f64,
-    /// Highest probability that is stated: no generator has shown more [F].
+    /// Highest probability that is stated: no generator has shown more (F).
     pub certain: f64,
     /// A law may miss nature by this share of its own size before something else is called left.
     pub formula_error: f64,

@@ -21,7 +21,7 @@ use crate::process::setup::{Setup, Support};
 pub use stations::{Row, Station};
 use stations::{compliances, grouped, placed, rows, spreads, still};
 
-/// Effects beside the causes of the whole robot ([`robot`]).
+/// Effects beside the causes of the whole robot (`robot`).
 pub const EFFECTS: &[Effect<Case>] = &[
     cutting_coefficients::EFFECT,
     backlash::EFFECT,

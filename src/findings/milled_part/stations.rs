@@ -34,7 +34,7 @@ pub struct Station {
     pub force: V3,
     /// Simulated deviation of the tool, m, workpiece frame.
     pub deviation: V3,
-    /// By how much that differs over [`NEAR`], m.
+    /// By how much that differs over `NEAR`, m.
     pub steep: f64,
     /// Measured deviation, m; NaN where a component was not probed.
     pub measured: V3,

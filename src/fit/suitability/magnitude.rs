@@ -15,7 +15,7 @@ const CONFUSIONS: &[(i32, &str)] = &[
     (6, "µm for m, or two units a thousand times off each"),
 ];
 
-/// The power of ten that a ratio is, to within [`NEAR`]; `None` for 1 and for anything between.
+/// The power of ten that a ratio is, to within `NEAR`; `None` for 1 and for anything between.
 pub fn power_of_ten(ratio: f64) -> Option<i32> {
     let decades = ratio.abs().log10();
     let whole = decades.round();
