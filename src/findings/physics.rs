@@ -2,11 +2,12 @@
 //! and the readings show the difference. What they do not show adds nothing and is left out.
 
 use crate::causes::contract::Cause;
+use crate::causes::places::soften;
 use crate::causes::{CAUSES, Sight};
 use crate::effects::Family;
-use crate::findings::engine::{Blamed, Member, Suspect};
+use crate::findings::engine::{Blamed, Member, Nuisance, Suspect};
 use crate::inference::gaussian::Size;
-use crate::robot::Robot;
+use crate::robot::{Robot, Spring};
 
 /// A kind whose readings follow from a robot.
 pub trait OnRobot {
@@ -97,6 +98,27 @@ fn column(case: &dyn OnRobot, cause: &dyn Cause, site: &str, scale: &[f64], k: u
     let mut robot = case.robot().clone();
     cause.alter(&mut robot, site, &amounts);
     case.change(&robot).iter().map(|x| x / TRIED).collect()
+}
+
+/// Relative standard deviation of a stiffness, or of a coefficient of the cut, that states none. A choice, no
+/// measurement: an axis test with its levers knows 0.3 %, a data sheet hardly 5 %.
+pub const USUAL: f64 = 0.02;
+/// Relative compliance at which a spring is tried: small, so that what it adds is linear.
+const SOFTER: f64 = 0.01;
+
+/// Every spring within what is known of it; those that the readings hardly show are left out.
+pub fn springs(case: &dyn OnRobot) -> Vec<Nuisance> {
+    let nuisance = |(site, spring): (String, &Spring)| {
+        let mut robot = case.robot().clone();
+        soften(&mut robot, &site, SOFTER);
+        let column: Vec<f64> = case.change(&robot).iter().map(|x| x / SOFTER).collect();
+        let shown = column.iter().any(|x| x.abs() > UNSEEN * case.noise());
+        shown.then(|| Nuisance {
+            spread: spring.relative_std().unwrap_or(USUAL),
+            column,
+        })
+    };
+    case.robot().springs().filter_map(nuisance).collect()
 }
 
 /// Parameters of a named cause; none for those of other tables.

@@ -1,17 +1,12 @@
 //! The statement of a cubes test for the engine.
 
 use super::{Case, EFFECTS};
-use crate::causes::places::soften;
 use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, White};
-use crate::findings::physics::{self, OnRobot};
+use crate::findings::physics;
 use crate::findings::table;
 
-/// Relative standard deviation of a stiffness whose interval the robot does not state.
-const USUAL: f64 = 0.02;
 /// Readings that a stated noise is worth.
 const WORTH: f64 = 60.0;
-/// Relative compliance at which a nuisance is tried.
-const TRIED: f64 = 0.01;
 
 impl Experiment for Case {
     fn unit(&self) -> &'static str {
@@ -28,7 +23,10 @@ impl Experiment for Case {
                 spread: vec![self.noise; self.rows.len()],
                 rows: if stated { WORTH } else { 0.0 },
             }),
-            nuisances: self.springs().into_iter().chain(self.frame()).collect(),
+            nuisances: physics::springs(self)
+                .into_iter()
+                .chain(self.frame())
+                .collect(),
             suspects,
             span: self.span(),
             splits: self.splits(),
@@ -88,27 +86,6 @@ impl Experiment for Case {
 }
 
 impl Case {
-    /// Every stiffness within what is known of it.
-    fn springs(&self) -> Vec<Nuisance> {
-        let nuisance = |(site, rel): (String, f64)| {
-            let mut robot = self.robot.clone();
-            soften(&mut robot, &site, TRIED);
-            let column: Vec<f64> = self.change(&robot).iter().map(|x| x / TRIED).collect();
-            column
-                .iter()
-                .any(|x| x.abs() > 1e-3 * self.noise)
-                .then_some(Nuisance {
-                    column,
-                    spread: rel,
-                })
-        };
-        let known = self
-            .robot
-            .springs()
-            .map(|(site, spring)| (site, spring.relative_std().unwrap_or(USUAL)));
-        known.filter_map(nuisance).collect()
-    }
-
     /// One translation of the frame per test and direction.
     fn frame(&self) -> Vec<Nuisance> {
         let Some(spread) = self.test.facts.frame_std.filter(|s| *s > 0.0) else {

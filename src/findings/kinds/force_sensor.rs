@@ -19,11 +19,7 @@ pub fn diagnosed(path: &Path) -> Outcome<Box<dyn Diagnosed>> {
 
 impl Measured for Case {
     fn source(&self) -> Source<'_> {
-        Source {
-            path: &self.test.path,
-            sha256: &self.test.sha256,
-            synthetic: self.test.facts.synthetic,
-        }
+        Source::of(&self.test, self.test.facts.synthetic)
     }
 
     fn about(&self) -> String {

@@ -22,6 +22,7 @@ use crate::findings::belief::Belief;
 use crate::ground::problem::Outcome;
 use crate::measurement::hammer_uff::is_universal;
 use crate::measurement::leading::front_of;
+use crate::measurement::test::{Kind, Test};
 use crate::robot::Robot;
 use crate::sheet::chart::Chart;
 use serde_json::{Map, Value};
@@ -36,6 +37,17 @@ pub struct Source<'a> {
     pub sha256: &'a str,
     /// Simulated, not measured.
     pub synthetic: bool,
+}
+
+impl<'a> Source<'a> {
+    /// Of a file whose rows are single readings.
+    pub fn of<F: Kind>(test: &'a Test<F>, synthetic: bool) -> Self {
+        Self {
+            path: &test.path,
+            sha256: &test.sha256,
+            synthetic,
+        }
+    }
 }
 
 /// A diagnosed measurement, as the verb prints and draws it.

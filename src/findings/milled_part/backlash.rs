@@ -2,10 +2,10 @@
 //! back, or where the load on it changes its sign.
 
 use super::Case;
-use super::stations::{levers, times};
+use super::stations::levers;
 use crate::findings::engine::Member;
 use crate::findings::table::{Effect, Place};
-use crate::ground::spatial::V3;
+use crate::ground::spatial::{V3, scale};
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "backlash",
@@ -30,14 +30,14 @@ fn members(case: &Case, joint: usize, site: &str) -> Vec<Member> {
         return Vec::new();
     };
     let speeds: Vec<f64> = case.stations.iter().map(|s| -s.speeds[joint]).collect();
-    let cut: Vec<f64> = levers.iter().map(|l| l.1).collect();
-    let loaded: Vec<f64> = levers.iter().map(|l| l.1 + l.2).collect();
+    let cut: Vec<f64> = levers.iter().map(|l| l.cut).collect();
+    let loaded: Vec<f64> = levers.iter().map(|l| l.cut + l.weight).collect();
     let by_flank = |(form, drive): (usize, &Vec<f64>)| {
         let side = flanks(drive)?;
         let moved: Vec<V3> = levers
             .iter()
             .zip(&side)
-            .map(|(l, side)| times(l.0, 0.5 * side))
+            .map(|(l, side)| scale(0.5 * side, l.motion))
             .collect();
         Some(
             Member::free(case.seen(&moved))

@@ -1,19 +1,14 @@
 //! The statement of a milled part for the engine.
 
 use super::{Case, EFFECTS};
-use crate::causes::places::soften;
 use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, White};
-use crate::findings::physics::{self, OnRobot};
+use crate::findings::physics;
 use crate::findings::table;
 
-/// Relative standard deviation of a stiffness or coefficient that states none.
-const USUAL: f64 = 0.02;
 /// Standard deviation of a datum that states none, m.
 const DATUM: f64 = 10e-6;
 /// Readings that a stated noise is worth.
 const WORTH: f64 = 60.0;
-/// Relative compliance at which a spring is tried.
-const TRIED: f64 = 0.01;
 /// Waves of what nobody knows, over the path and over the time.
 const WAVES: [usize; 2] = [10, 5];
 /// Stretches of the path that are held out, one after the other.
@@ -95,28 +90,20 @@ impl Experiment for Case {
 impl Case {
     /// Springs and coefficients within what is known of them, and the datum.
     fn uncertain(&self) -> Vec<Nuisance> {
-        let spring = |(site, rel): (String, Option<f64>)| {
-            let mut robot = self.robot().clone();
-            soften(&mut robot, &site, TRIED);
-            let column: Vec<f64> = self.change(&robot).iter().map(|x| x / TRIED).collect();
-            Nuisance {
-                column,
-                spread: rel.unwrap_or(USUAL),
-            }
-        };
-        let springs = self.robot().springs();
-        let springs = springs.map(|(site, s)| (site, s.relative_std()));
         let stds = self.planned.coefficient_stds();
         let coefficient = |(i, column): (usize, &Vec<f64>)| Nuisance {
             column: column.clone(),
-            spread: stds.get(i).copied().flatten().unwrap_or(USUAL),
+            spread: stds.get(i).copied().flatten().unwrap_or(physics::USUAL),
         };
         let datum = (0..3).map(|k| Nuisance {
             column: self.column(|_, row| row.across[k]),
             spread: self.test.facts.datum_std.unwrap_or(DATUM).max(1e-9),
         });
         let coefficients = self.coefficients.iter().enumerate().map(coefficient);
-        let all = springs.map(spring).chain(coefficients).chain(datum);
+        let all = physics::springs(self)
+            .into_iter()
+            .chain(coefficients)
+            .chain(datum);
         all.filter(|n| n.column.iter().any(|x| x.abs() > 1e-12))
             .collect()
     }

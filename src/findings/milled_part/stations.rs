@@ -2,7 +2,7 @@
 //! surface shows, and how well a simulation knows them.
 
 use crate::ground::problem::{Outcome, Problem};
-use crate::ground::spatial::{M3, V3, cross, dot, norm, scale, sub, unit};
+use crate::ground::spatial::{M3, V3, cross, dot, norm, sub, unit};
 use crate::measurement::milled_part::{At, PartTest, Reading};
 use crate::motion::elastic;
 use crate::process::pose::Carrier;
@@ -236,24 +236,29 @@ pub(super) fn compliances(setup: &Setup, robot: &Robot, stations: &[Station]) ->
     stations.iter().map(at).collect()
 }
 
-/// Motion of the tool per radian of each driven joint with a spring at every station, m, with the torque of
-/// the cut about it, N·m: by joint, in the order of the robot.
-pub(super) fn levers(
-    setup: &Setup,
-    stations: &[Station],
-    site: &str,
-) -> Option<Vec<(V3, f64, f64)>> {
+/// One spring at a station.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Lever {
+    /// Motion of the tool per radian of it, m/rad, workpiece frame.
+    pub motion: V3,
+    /// Torque of the cut on it, N·m.
+    pub cut: f64,
+    /// Torque of the weight on it, N·m.
+    pub weight: f64,
+}
+
+/// A spring at every station; none where the robot has no such site.
+pub(super) fn levers(setup: &Setup, stations: &[Station], site: &str) -> Option<Vec<Lever>> {
     let mut carrier = setup.carrier();
     let at = |s: &Station| {
         let held = carrier.held(&s.joints).ok()?;
         let own = held.linear.names.iter().position(|name| name == site)?;
-        let lever = held.linear.tool[own];
-        Some((lever, dot(lever, s.force), held.weight[own]))
+        let motion = held.linear.tool[own];
+        Some(Lever {
+            motion,
+            cut: dot(motion, s.force),
+            weight: held.weight[own],
+        })
     };
     stations.iter().map(at).collect()
-}
-
-/// A displacement times a number.
-pub(super) fn times(v: V3, by: f64) -> V3 {
-    scale(by, v)
 }
