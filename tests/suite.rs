@@ -65,6 +65,7 @@ mod job_files;
 mod judge_instruments;
 mod killed;
 mod lobes_reference;
+mod mill_cli;
 mod mill_coupled;
 mod milled_part;
 mod next_measured;

@@ -5,6 +5,7 @@
 //!
 //! A force law is one file and one line in [`LAWS`].
 
+mod carried;
 mod chebyshev;
 pub mod chip;
 pub mod cutter;
@@ -17,6 +18,7 @@ pub mod tool;
 pub mod wave;
 
 mod kienzle;
+mod krylov;
 mod linear_edge;
 
 pub use law::{CuttingLaw, Material};

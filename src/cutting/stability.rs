@@ -5,10 +5,12 @@
 //! such a stretch by collocation of their own equation, over idle stretches exactly. Spectral accuracy
 //! needs about 4.5 nodes per oscillation of the fastest mode and, for the teeth, a dozen more (Butcher and others 2009; Bobrenkov and others 2010).
 
-use super::chebyshev::{Stretch, differentiation, nodes};
+use super::carried::{Carried, carried, places};
+use super::chebyshev::Stretch;
 use super::directional::Directional;
+use super::krylov;
 use crate::ground::spatial::V3;
-use nalgebra::{Complex, DMatrix};
+use nalgebra::{Complex, DMatrix, DVector, Dyn, LU};
 use std::f64::consts::TAU;
 
 /// One mode of the tool tip against the workpiece.
@@ -24,9 +26,6 @@ pub struct TipMode {
     pub stiffness: f64,
 }
 
-/// Nodes per oscillation of the fastest mode, and nodes besides.
-const PER_OSCILLATION: f64 = 4.5;
-const BESIDES: f64 = 14.0;
 /// A mode that swings more often than this within a tooth passing answers as a spring.
 const QUASI_STATIC: f64 = 60.0;
 
@@ -54,11 +53,34 @@ pub struct Multiplier {
     pub frequency_hz: f64,
 }
 
-/// What is carried along one mode: its two states and its answers, as functions of the states at the start
-/// and of the forces at all nodes.
-struct Carried {
-    state: DMatrix<f64>,
-    answers: DMatrix<f64>,
+/// No answer.
+const UNSTABLE: Multiplier = Multiplier {
+    radius: f64::INFINITY,
+    frequency_hz: 0.0,
+};
+
+/// What one tooth passing does at one depth.
+struct Map<'a> {
+    passing: &'a Passing,
+    depth_m: f64,
+    own: DMatrix<f64>,
+    solved: LU<f64, Dyn, Dyn>,
+}
+
+impl Map<'_> {
+    /// Displacements at the nodes and the state at the end, from those of the passing before.
+    fn after(&self, before: &DVector<f64>) -> DVector<f64> {
+        let n = self.own.nrows();
+        let (nodes, state) = (before.rows(0, n), before.rows(n, before.len() - n));
+        let mut now = &self.passing.start * state - &self.own * nodes;
+        self.solved.solve_mut(&mut now);
+        let kick = &self.passing.kick * ((&now - nodes) * self.depth_m);
+        let end = &self.passing.carry * state + kick;
+        let mut after = DVector::zeros(before.len());
+        after.rows_mut(0, n).copy_from(&now);
+        after.rows_mut(n, end.len()).copy_from(&end);
+        after
+    }
 }
 
 impl Passing {
@@ -159,42 +181,26 @@ impl Passing {
         }
     }
 
-    /// The map from one tooth passing to the next at a depth of cut, m.
-    pub fn map(&self, depth_m: f64) -> Option<DMatrix<f64>> {
-        let (n, s) = (self.nodes.nrows(), self.carry.nrows());
+    /// The map from one tooth passing to the next at a depth of cut, m; `None`: the cut has no answer there.
+    fn map(&self, depth_m: f64) -> Option<Map<'_>> {
+        let n = self.nodes.nrows();
         let own = &self.nodes * depth_m;
         let solved = (DMatrix::identity(n, n) - &own).lu();
-        let from_before = solved.solve(&(-&own))?;
-        let from_start = solved.solve(&self.start)?;
-        let kick = &self.kick * depth_m;
-        let mut map = DMatrix::zeros(n + s, n + s);
-        let last = &kick * (&from_before - DMatrix::identity(n, n));
-        let carried = &self.carry + &kick * &from_start;
-        map.view_mut((0, 0), (n, n)).copy_from(&from_before);
-        map.view_mut((0, n), (n, s)).copy_from(&from_start);
-        map.view_mut((n, 0), (s, n)).copy_from(&last);
-        map.view_mut((n, n), (s, s)).copy_from(&carried);
-        Some(map)
+        let possible = own.iter().all(|v| v.is_finite()) && solved.is_invertible();
+        possible.then_some(Map {
+            passing: self,
+            depth_m,
+            own,
+            solved,
+        })
     }
 
     /// The multiplier that decides at a depth of cut, m. A map that cannot be made counts as unstable.
     pub fn multiplier(&self, depth_m: f64) -> Multiplier {
-        let unstable = Multiplier {
-            radius: f64::INFINITY,
-            frequency_hz: 0.0,
-        };
-        let Some(map) = self
-            .map(depth_m)
-            .filter(|m| m.iter().all(|v| v.is_finite()))
-        else {
-            return unstable;
-        };
-        let values = map.complex_eigenvalues();
-        let largest = values
-            .iter()
-            .copied()
-            .max_by(|a, b| a.norm().total_cmp(&b.norm()).then(a.im.total_cmp(&b.im)));
-        largest.map_or(unstable, |value| Multiplier {
+        let size = self.nodes.nrows() + self.carry.nrows();
+        let map = self.map(depth_m);
+        let value = map.and_then(|map| krylov::largest(size, |before| map.after(before)));
+        value.map_or(UNSTABLE, |value| Multiplier {
             radius: value.norm(),
             frequency_hz: self.frequency(value),
         })
@@ -221,84 +227,6 @@ fn drive(mode: &TipMode, column: &V3) -> f64 {
     (0..3).map(|k| mode.direction[k] * column[k]).sum()
 }
 
-fn places(stretch: &Stretch, fastest: f64, refine: f64) -> Vec<f64> {
-    if !stretch.cutting {
-        return Vec::new();
-    }
-    let swings = fastest * stretch.length_s / TAU;
-    let count = (refine * (PER_OSCILLATION * swings + BESIDES)).ceil() as usize;
-    let start = stretch.middle_s - 0.5 * stretch.length_s;
-    let at = |u: f64| start + stretch.length_s * u;
-    nodes(count).into_iter().map(at).collect()
-}
-
-/// One mode through the whole tooth passing.
-fn carried(mode: &TipMode, grid: &[(Stretch, Vec<f64>)], total: usize) -> Carried {
-    let mut state = DMatrix::zeros(2, 2 + total);
-    (state[(0, 0)], state[(1, 1)]) = (1.0, 1.0);
-    let mut answers = DMatrix::zeros(total, 2 + total);
-    let mut first = 0;
-    for (stretch, times) in grid {
-        if times.is_empty() {
-            state = free(mode, stretch.length_s) * state;
-            continue;
-        }
-        let solved = collocated(mode, stretch.length_s, times.len());
-        let n = times.len();
-        let mut from = DMatrix::zeros(2 + n, 2 + total);
-        from.view_mut((0, 0), (2, 2 + total)).copy_from(&state);
-        (0..n).for_each(|j| from[(2 + j, 2 + first + j)] = 1.0);
-        let all = solved * from;
-        answers
-            .view_mut((first, 0), (n, 2 + total))
-            .copy_from(&all.view((0, 0), (n, 2 + total)));
-        state.row_mut(0).copy_from(&all.row(n - 1));
-        state.row_mut(1).copy_from(&all.row(2 * n - 1));
-        first += n;
-    }
-    Carried { state, answers }
-}
-
-/// The mode without a force over a time, states η and η'/ω.
-fn free(mode: &TipMode, time_s: f64) -> DMatrix<f64> {
-    let (z, turn) = (mode.damping_ratio, mode.omega * time_s);
-    let root = (1.0 - z * z).abs().sqrt().max(1e-7);
-    let (s, c) = match z < 1.0 {
-        true => {
-            let decay = (-z * turn).exp();
-            let (sin, cos) = (root * turn).sin_cos();
-            (decay * sin / root, decay * cos)
-        }
-        false => {
-            let [slow, fast] = [(root - z) * turn, (-root - z) * turn].map(f64::exp);
-            (0.5 * (slow - fast) / root, 0.5 * (slow + fast))
-        }
-    };
-    DMatrix::from_row_slice(2, 2, &[c + z * s, s, -s, c - z * s])
-}
-
-/// η at all nodes, then η'/ω, as functions of both at the first node and of the modal force at the nodes.
-fn collocated(mode: &TipMode, length_s: f64, n: usize) -> DMatrix<f64> {
-    let slope = differentiation(n);
-    let w = mode.omega * length_s;
-    let mut system = DMatrix::zeros(2 * n, 2 * n);
-    let mut right = DMatrix::zeros(2 * n, 2 + n);
-    for i in 1..n {
-        for j in 0..n {
-            system[(i, j)] = slope[(i, j)];
-            system[(n + i, n + j)] = slope[(i, j)];
-        }
-        system[(i, n + i)] -= w;
-        system[(n + i, i)] += w;
-        system[(n + i, n + i)] += 2.0 * mode.damping_ratio * w;
-        right[(n + i, 2 + i)] = w / mode.stiffness;
-    }
-    (system[(0, 0)], system[(n, n)]) = (1.0, 1.0);
-    (right[(0, 0)], right[(n, 1)]) = (1.0, 1.0);
-    let fallback = DMatrix::zeros(2 * n, 2 + n);
-    system.lu().solve(&right).unwrap_or(fallback)
-}
-
 /// The first depth, m, from `least` up to `most`, at which chatter no longer dies out; `None`: not up to there.
 pub fn limit(radius: impl Fn(f64) -> f64, least: f64, most: f64) -> Option<f64> {
     let steps = ((most / least).ln() / STEP.ln()).ceil().max(1.0) as usize;
@@ -322,26 +250,3 @@ pub fn limit(radius: impl Fn(f64) -> f64, least: f64, most: f64) -> Option<f64> 
 const STEP: f64 = 1.25;
 /// Halvings of the interval found: 0.1 % of the depth.
 const BISECTIONS: usize = 8;
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_mode_swings_on_freely_as_collocation_says() {
-        for damping_ratio in [0.01, 0.5, 1.7] {
-            let mode = TipMode {
-                direction: [1.0, 0.0, 0.0],
-                omega: 300.0,
-                damping_ratio,
-                stiffness: 2e6,
-            };
-            let (exact, n) = (free(&mode, 0.02), 40);
-            let nodes = collocated(&mode, 0.02, n);
-            for s in 0..2 {
-                assert!((nodes[(n - 1, s)] - exact[(0, s)]).abs() < 1e-9);
-                assert!((nodes[(2 * n - 1, s)] - exact[(1, s)]).abs() < 1e-9);
-            }
-        }
-    }
-}

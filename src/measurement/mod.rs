@@ -20,6 +20,7 @@ pub mod milled_part;
 pub mod milling_force;
 pub mod modal;
 pub mod pitch_table;
+pub mod recorded_joints;
 pub mod rig;
 pub mod screw;
 pub mod stl;

@@ -158,6 +158,20 @@ impl Path {
         self.spans[after.max(1) - 1].at(s, &self.programme.elements)
     }
 
+    /// Direction of the feed at the arc length `s` (m).
+    pub fn direction(&self, s: f64) -> V3 {
+        self.piece(s).direction(s, &self.programme.elements)
+    }
+
+    /// Whether a rapid motion runs at the arc length `s` (m).
+    pub fn is_rapid(&self, s: f64) -> bool {
+        let elements = &self.programme.elements;
+        match self.piece(s).part {
+            Part::Element(k, _) => elements[k].rapid,
+            Part::Blend(k, _) => elements[k].rapid && elements[k + 1].rapid,
+        }
+    }
+
     /// The line of the file that asks for the place at the arc length `s` (m).
     pub fn line(&self, s: f64) -> usize {
         let (Part::Element(k, _) | Part::Blend(k, _)) = self.piece(s).part;

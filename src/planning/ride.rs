@@ -7,7 +7,6 @@ use super::plan::{Row, Unreached};
 use super::spin::SpinLaw;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::job::Job;
-use crate::path::build::Part;
 use crate::path::double_s::{Limits, Phase};
 use crate::path::profile::{Step, lower};
 use crate::path::timeline::Stage;
@@ -101,16 +100,8 @@ impl Ride<'_> {
     }
 
     fn caps(&self, demand: &Demand, rows: &[Row]) -> Option<Vec<Step>> {
-        let may = |s: f64| self.job.adapt || self.is_rapid(s);
+        let may = |s: f64| self.job.adapt || self.path.is_rapid(s);
         caps(demand, rows, self.job.cycle, self.path.length, may)
-    }
-
-    fn is_rapid(&self, s: f64) -> bool {
-        let elements = &self.path.programme.elements;
-        match self.path.piece(s).part {
-            Part::Element(k, _) => elements[k].rapid,
-            Part::Blend(k, _) => elements[k].rapid && elements[k + 1].rapid,
-        }
     }
 
     fn run(

@@ -8,12 +8,14 @@ pub mod course;
 pub mod oscillator;
 pub mod planned;
 pub mod pose;
+pub mod recorded;
 pub mod rigid;
 pub mod run;
 pub mod setup;
 pub mod springs;
 pub mod structure;
 pub mod swinging;
+pub mod tip_modes;
 pub mod uncertainty;
 pub mod way;
 

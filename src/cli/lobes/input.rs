@@ -6,13 +6,11 @@ use crate::cutting::wave::Side;
 use crate::cutting::{Material, Tool};
 use crate::ground::files::read_bytes;
 use crate::ground::problem::{Outcome, Problem};
-use crate::ground::vector::{M3, V3, cross, dot, scale, sub};
 use crate::measurement::job::{self, Cutter, Job};
 use crate::measurement::milling_force::CutSide;
 use crate::measurement::modal::{Modal, SIDES};
-use crate::motion::kinematics::tcp;
-use crate::motion::modes::modal;
-use crate::motion::{Work, elastic, linearise};
+use crate::process::Planned;
+use crate::process::tip_modes::{Station, carrier};
 use crate::robot::check;
 use crate::robot::load::{Loaded, load};
 use std::f64::consts::TAU;
@@ -25,8 +23,22 @@ pub fn read(arguments: &Arguments) -> Outcome<Case> {
     let text = String::from_utf8_lossy(&bytes);
     let table = text.parse::<toml::Table>().unwrap_or_default();
     match table.get("kind").and_then(toml::Value::as_str) {
-        Some("modal") => Ok(of_modal(path, &Modal::read(path)?)),
-        _ => of_job(arguments, &Job::read(path)?),
+        Some("modal") => modal(arguments, path),
+        _ => match arguments.station {
+            Some(mm) => at_station(arguments, mm),
+            None => at_start(arguments),
+        },
+    }
+}
+
+fn modal(arguments: &Arguments, path: &Path) -> Outcome<Case> {
+    match arguments.station.is_some() {
+        true => Err(Problem::new(
+            "a file of kind modal has no path",
+            "give a job, or leave --station out",
+        )
+        .in_file(path)),
+        false => Ok(of_modal(path, &Modal::read(path)?)),
     }
 }
 
@@ -89,105 +101,90 @@ fn round_end(cutter: &Cutter) -> Vec<String> {
     }
 }
 
-fn of_job(arguments: &Arguments, job: &Job) -> Outcome<Case> {
+/// The job planned, and the cut at each of its places, without modes yet.
+pub fn planned(arguments: &Arguments) -> Outcome<(Case, Planned)> {
+    let planned = Planned::read(&arguments.file)?;
+    let robot = &planned.plan.cell.robot;
+    check::dynamics(robot).map_err(|p| p.in_file(&planned.job.path))?;
+    let case = of_job(arguments, &planned.job, planned.inputs.clone())?;
+    Ok((case, planned))
+}
+
+/// The cut of a job, what vibrates left open.
+fn of_job(arguments: &Arguments, job: &Job, inputs: Vec<(String, String)>) -> Outcome<Case> {
     let cutter = job.cutter()?;
+    let found = SIDES.iter().find(|(word, _)| *word == arguments.cut);
+    Ok(Case {
+        inputs,
+        name: name(&job.path),
+        modes: Vec::new(),
+        tool: tool(cutter),
+        material: material(job.material()?),
+        width_m: width(arguments.width_mm, cutter)?,
+        side: side(found.map_or(CutSide::Slot, |s| s.1)),
+        spindle_rad_s: cutter.spindle,
+        remarks: round_end(cutter),
+    })
+}
+
+fn at_station(arguments: &Arguments, mm: f64) -> Outcome<Case> {
+    let (mut case, planned) = planned(arguments)?;
+    let length_mm = 1e3 * planned.plan.path.length;
+    if !(0.0..=length_mm).contains(&mm) {
+        return Err(Problem::new(
+            format!("is {mm}"),
+            format!("give an arc length of the path: 0 to {length_mm:.3} mm"),
+        )
+        .in_column("--station"));
+    }
+    let station = Station::at(&planned.plan, 1e-3 * mm);
+    case.modes = station.modes(&mut carrier(&planned.job, &planned.plan.cell.robot))?;
+    case.remarks.push(format!(
+        "The robot stands where the tool is after {mm} mm of the path, the feed goes along it."
+    ));
+    Ok(case)
+}
+
+fn at_start(arguments: &Arguments) -> Outcome<Case> {
+    let job = Job::read(&arguments.file)?;
     let loaded = load(&job.robot, Some(&job.path))?;
     check::dynamics(&loaded.robot).map_err(|p| p.in_text(Path::new(&loaded.path)))?;
-    let width_m = match arguments.width_mm {
-        Some(mm) if mm > 0.0 && 1e-3 * mm <= cutter.diameter * (1.0 + 1e-9) => 1e-3 * mm,
-        Some(mm) => {
-            return Err(Problem::new(
-                format!("is {mm}"),
-                "give a width above zero, at most the diameter of the tool",
-            )
-            .in_column("--width-mm"));
-        }
-        None => cutter.diameter,
-    };
-    let found = SIDES.iter().find(|(word, _)| *word == arguments.cut);
+    let named = job.inputs.iter();
     let mut inputs = vec![
         (job.path.display().to_string(), job.sha256.clone()),
         loaded.input(),
     ];
-    let further = job.inputs.iter();
-    inputs.extend(further.map(|(p, hash)| (p.display().to_string(), hash.clone())));
-    let mut remarks = vec![
-        "The robot stands at start_joints_deg of the job; the feed goes along x of the workpiece."
-            .to_string(),
-    ];
-    remarks.extend(round_end(cutter));
-    Ok(Case {
-        inputs,
-        name: name(&job.path),
-        modes: robot_modes(job, &loaded)?,
-        tool: tool(cutter),
-        material: material(job.material()?),
-        width_m,
-        side: side(found.map_or(CutSide::Slot, |s| s.1)),
-        spindle_rad_s: cutter.spindle,
-        remarks,
-    })
+    inputs.extend(named.map(|(p, hash)| (p.display().to_string(), hash.clone())));
+    let mut case = of_job(arguments, &job, inputs)?;
+    case.modes = start(&mut case, &job, &loaded)?;
+    Ok(case)
 }
 
-/// The robot's modes at the start pose, cut frame.
-fn robot_modes(job: &Job, loaded: &Loaded) -> Outcome<Vec<TipMode>> {
-    let robot = &loaded.robot;
-    let joints = job.start_joints.clone().unwrap_or_default();
-    if joints.len() != robot.joints.len() {
-        return Err(Problem::new(
-            format!(
-                "has {} angles, the robot {} joints",
-                joints.len(),
-                robot.joints.len()
-            ),
-            "write one angle per joint in the job: the pose at which the lobes are asked for",
+fn width(width_mm: Option<f64>, cutter: &Cutter) -> Outcome<f64> {
+    match width_mm {
+        None => Ok(cutter.diameter),
+        Some(mm) if mm > 0.0 && 1e-3 * mm <= cutter.diameter * (1.0 + 1e-9) => Ok(1e-3 * mm),
+        Some(mm) => Err(Problem::new(
+            format!("is {mm}"),
+            "give a width above zero, at most the diameter of the tool",
         )
-        .at_key(&job.path, "start_joints_deg"));
+        .in_column("--width-mm")),
     }
-    let chain = elastic(robot);
-    let mut work = Work::new(&chain);
-    let q = chain.spread(&joints);
-    let linear = linearise(&chain, &mut work, &q)?;
-    let modal = modal(&linear)?;
-    let pose = tcp(&chain, &work);
-    let axes = cut_frame(job, loaded, &pose.rotation);
-    let mode = |i: usize| {
-        let tau = modal.inertia[i].sqrt();
-        TipMode {
-            direction: std::array::from_fn(|k| dot(axes[k], modal.tool[i])),
-            omega: 1.0 / tau,
-            damping_ratio: 0.5 * modal.damping[i * modal.n + i] / tau,
-            stiffness: 1.0,
-        }
-    };
-    Ok((0..modal.n).map(mode).collect())
 }
 
-/// Axes of the cut frame in the base frame: feed along x of the workpiece, z the spindle axis.
-fn cut_frame(job: &Job, loaded: &Loaded, rotation: &M3) -> [V3; 3] {
-    let tool = &loaded.robot.tool;
-    let unit = |v: V3| scale(1.0 / dot(v, v).sqrt().max(1e-12), v);
-    let own = unit(sub(tool.flange, tool.tcp));
-    let at_zero = transpose_times(&tool.rotation, own);
-    let z = times(rotation, at_zero);
-    let feed = feed(job);
-    let across = cross(z, feed);
-    let y = match dot(across, across) > 1e-6 {
-        true => unit(across),
-        false => unit(cross(z, [0.0, 1.0, 0.0])),
-    };
-    [cross(y, z), y, z]
+/// The robot's modes at the start pose.
+fn start(case: &mut Case, job: &Job, loaded: &Loaded) -> Outcome<Vec<TipMode>> {
+    if job.start_joints.is_none() {
+        return Err(Problem::new(
+            "states no start_joints_deg",
+            "add the pose at which the lobes are asked for, or ask with --station or --along",
+        )
+        .in_file(&job.path));
+    }
+    case.remarks.push(START.into());
+    let (station, robot) = Station::start(job, &loaded.robot)?;
+    station.modes(&mut carrier(job, &robot))
 }
 
-/// The x axis of the workpiece.
-fn feed(job: &Job) -> V3 {
-    times(&job.workpiece.frame.rotation, [1.0, 0.0, 0.0])
-}
-
-fn times(m: &M3, v: V3) -> V3 {
-    m.map(|row| dot(row, v))
-}
-
-fn transpose_times(m: &M3, v: V3) -> V3 {
-    std::array::from_fn(|k| (0..3).map(|i| m[i][k] * v[i]).sum())
-}
+const START: &str =
+    "The robot stands at start_joints_deg of the job; the feed goes along x of the workpiece.";

@@ -1,6 +1,7 @@
 //! `ident lobes`: how deep one may cut at which speed before chatter starts.
 
 mod account;
+mod along;
 mod input;
 
 use super::output::{print, print_result};
@@ -12,6 +13,7 @@ use crate::cutting::wave::{Cut, Side};
 use crate::cutting::{Material, Tool};
 use crate::ground::problem::{Outcome, Problem};
 use crate::report::folder;
+use crate::sheet::page::Page;
 use clap::{ArgMatches, Args};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -38,6 +40,12 @@ struct Arguments {
     /// Deepest cut that is looked at, mm [default: the flute, else the diameter]
     #[arg(long, value_name = "MM")]
     depth_mm: Option<f64>,
+    /// The least depth at the stations of a job's path, at the tool's speed or over --rpm
+    #[arg(long, conflicts_with_all = ["at", "station"])]
+    along: bool,
+    /// The robot where the tool is after this arc length of the job's path [default: the start pose]
+    #[arg(long, value_name = "MM")]
+    station: Option<f64>,
     /// Side of the stock for a job: slot, up or down
     #[arg(long, default_value = "slot", value_parser = ["slot", "up", "down"])]
     cut: String,
@@ -53,6 +61,7 @@ struct Arguments {
 }
 
 /// What vibrates and what cuts.
+#[derive(Clone)]
 struct Case {
     inputs: Vec<(String, String)>,
     name: String,
@@ -78,6 +87,9 @@ const CHIP: f64 = 5e-5;
 const SHALLOWEST: f64 = 1e-4;
 /// Most that the limit may move when nodes are added.
 const CONVERGED: f64 = 5e-3;
+/// Factor from number of nodes to number of nodes, and the largest that is tried.
+const FINER: f64 = 1.3;
+const FINEST: f64 = 4.0;
 
 impl Case {
     /// The cut at a depth.
@@ -119,20 +131,23 @@ impl Case {
 
     /// How many times the usual nodes it takes until the limit stands still at some of the speeds.
     fn refinement(&self, speeds: &[f64], deepest_m: f64) -> f64 {
-        let probes = [0, speeds.len() / 2].map(|i| speeds[i]);
-        let mut refine = 1.0;
-        while refine < 4.0 {
-            let moved = |rpm: &f64| {
-                let [a, b] = [refine, 1.3 * refine].map(|r| self.limit(*rpm, deepest_m, r).depth_m);
-                match (a, b) {
-                    (Some(a), Some(b)) => (a / b - 1.0).abs() > CONVERGED,
-                    (a, b) => a.is_some() != b.is_some(),
-                }
-            };
-            if !probes.iter().any(moved) {
+        let mut probes = vec![speeds[0], speeds[speeds.len() / 2]];
+        probes.dedup();
+        let at = |refine: f64| -> Vec<Option<f64>> {
+            let limit = |rpm: &f64| self.limit(*rpm, deepest_m, refine).depth_m;
+            probes.iter().map(limit).collect()
+        };
+        let stands = |pair: (&Option<f64>, &Option<f64>)| match pair {
+            (Some(a), Some(b)) => (a / b - 1.0).abs() <= CONVERGED,
+            (a, b) => a.is_some() == b.is_some(),
+        };
+        let (mut refine, mut before) = (1.0, at(1.0));
+        while refine < FINEST {
+            let finer = at(FINER * refine);
+            if before.iter().zip(&finer).all(stands) {
                 break;
             }
-            refine *= 1.3;
+            (refine, before) = (FINER * refine, finer);
         }
         refine
     }
@@ -140,6 +155,9 @@ impl Case {
 
 fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let arguments: Arguments = parsed(matches);
+    if arguments.along {
+        return along::run(&arguments);
+    }
     let case = input::read(&arguments)?;
     let deepest = deepest(&arguments, &case.tool)?;
     if let Some(at) = &arguments.at {
@@ -157,19 +175,22 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
         deepest_m: deepest,
         refine,
     };
-    let written = match arguments.dry_run {
-        true => Vec::new(),
-        false => {
-            let place = crate::measurement::workspace::Place::of(&arguments.file);
-            let name = format!("lobes-{}.html", case.name);
-            folder::write_as(&place.reports(), &name, &lobes.page())?
-        }
-    };
+    let report = written(&arguments, &format!("lobes-{}", case.name), || lobes.page())?;
     match arguments.json {
         true => print_result("lobes", &case.inputs, lobes.json())?,
-        false => print(&lobes.text(written.last().map(PathBuf::as_path)))?,
+        false => print(&lobes.text(report.as_deref()))?,
     }
     Ok(Ending::Done)
+}
+
+/// The report, unless none is wanted.
+fn written(arguments: &Arguments, name: &str, page: impl Fn() -> Page) -> Outcome<Option<PathBuf>> {
+    if arguments.dry_run {
+        return Ok(None);
+    }
+    let place = crate::measurement::workspace::Place::of(&arguments.file);
+    let written = folder::write_as(&place.reports(), &format!("{name}.html"), &page())?;
+    Ok(written.last().cloned())
 }
 
 fn one(arguments: &Arguments, case: &Case, at: &str) -> Outcome<Ending> {

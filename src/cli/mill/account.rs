@@ -1,6 +1,6 @@
 //! What `ident mill` says in words.
 
-use super::{Result, Written};
+use super::{Driven, Result, Written};
 use crate::ground::spatial::norm;
 use crate::process::setup::Support;
 use crate::sheet::number::{significant, with_interval};
@@ -25,13 +25,21 @@ pub fn sentences(result: &Result) -> Vec<String> {
         significant(milled.peak_n, 4),
         significant(norm(milled.mean_n), 4),
     )];
+    said.extend(result.driven.as_ref().map(driven));
     said.extend(deviation(result));
     said.push(steps(result));
     said
 }
 
+fn driven(driven: &Driven) -> String {
+    let [max, rms] = driven.recorded.off_path().map(|x| significant(1e3 * x, 3));
+    format!(
+        "Recorded joint angles lead the tool beside the path by {max} mm at most, {rms} mm root mean square; that counts as deviation, and the robot bends beside it."
+    )
+}
+
 fn deviation(result: &Result) -> Option<String> {
-    if result.support == Support::Rigid {
+    if result.support == Support::Rigid && result.driven.is_none() {
         return Some("The robot counts as rigid: no deviation.".into());
     }
     let worst = result.worst.as_ref()?;
@@ -84,6 +92,12 @@ pub fn remarks(result: &Result) -> Vec<String> {
             "neither the robot nor the material states how well it is known: no interval"
                 .to_string(),
         );
+    }
+    let left_out = result.driven.as_ref().map_or(0, |d| d.joints.left_out);
+    if left_out > 0 {
+        said.push(format!(
+            "{left_out} rows of the recorded joint angles are left out for an empty cell"
+        ));
     }
     let gaps = result
         .setup

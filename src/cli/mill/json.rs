@@ -1,6 +1,6 @@
 //! The JSON of `ident mill`.
 
-use super::{Result, Written};
+use super::{Driven, Result, Written};
 use crate::ground::spatial::norm;
 use crate::ground::stats::Z95;
 use crate::report::json::{number, numbers};
@@ -18,6 +18,7 @@ pub fn body(result: &Result, written: &Written) -> Value {
         "peak_force_N": number(milled.peak_n),
         "mean_force_N": numbers(&milled.mean_n),
         "deviation_mm": deviation(result),
+        "joints": result.driven.as_ref().map(driven),
         "steps": milled.steps,
         "step_us": number(milled.step_s * 1e6),
         "energy": energy(result),
@@ -32,6 +33,16 @@ pub fn body(result: &Result, written: &Written) -> Value {
 fn named(path: &Option<PathBuf>) -> Value {
     path.as_ref()
         .map_or(Value::Null, |path| json!(path.display().to_string()))
+}
+
+fn driven(driven: &Driven) -> Value {
+    let [max, rms] = driven.recorded.off_path();
+    json!({
+        "file": driven.joints.path.display().to_string(),
+        "rows": driven.joints.rows.len(),
+        "left_out": driven.joints.left_out,
+        "off_path_mm": {"max": number(1e3 * max), "rms": number(1e3 * rms)},
+    })
 }
 
 fn deviation(result: &Result) -> Value {

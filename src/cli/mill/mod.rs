@@ -13,16 +13,19 @@ use crate::cutting::cutter::Cutter;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::norm;
 use crate::ground::stats::Z95;
+use crate::measurement::recorded_joints::RecordedJoints;
 use crate::measurement::workspace::job_results;
+use crate::planning::Plan;
 use crate::process::Planned;
 use crate::process::course;
+use crate::process::recorded::Recorded;
 use crate::process::run::{Cut, Outcome as Milled};
 use crate::process::setup::{Setup, Support};
 use crate::process::uncertainty::{self, Doubt};
 use crate::report::folder;
 use clap::{ArgMatches, Args};
 use std::cell::Cell;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The verb.
 pub const VERB: Verb = Verb {
@@ -45,6 +48,9 @@ struct Arguments {
     /// Springs only: deflection is compliance times force (default: robot and cut coupled in time)
     #[arg(long = "static", conflicts_with = "rigid")]
     springs: bool,
+    /// Recorded joint angles (kind trajectory or joint-motion) drive the robot instead of the plan
+    #[arg(long, value_name = "FILE")]
+    joints: Option<PathBuf>,
     /// Step of time in the cut, µs (default: 3 degrees of the spindle)
     #[arg(long, value_name = "US")]
     step_us: Option<f64>,
@@ -88,8 +94,30 @@ struct Result {
     left: Cutter,
     worst: Option<Worst>,
     doubts: Vec<Doubt>,
+    driven: Option<Driven>,
     /// Whether an interval was asked for.
     asked: bool,
+}
+
+/// The joint angles that drove the robot in the place of the plan.
+struct Driven {
+    joints: RecordedJoints,
+    recorded: Recorded,
+}
+
+impl Driven {
+    fn of(plan: &Plan, file: &Path) -> Outcome<Self> {
+        let joints = RecordedJoints::read(file)?;
+        Ok(Self {
+            recorded: Recorded::of(plan, &joints)?,
+            joints,
+        })
+    }
+
+    fn input(&self) -> (String, String) {
+        let path = self.joints.path.display().to_string();
+        (path, self.joints.sha256.clone())
+    }
 }
 
 /// What was written.
@@ -125,12 +153,20 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
 
 fn act(arguments: &Arguments) -> Outcome<Result> {
     let step_s = step(arguments.step_us)?;
-    let planned = Planned::read(&arguments.job)?;
-    let setup = planned.setup(step_s)?;
+    let mut planned = Planned::read(&arguments.job)?;
+    let mut setup = planned.setup(step_s)?;
+    let driven = arguments.joints.as_deref();
+    let driven = driven
+        .map(|file| Driven::of(&planned.plan, file))
+        .transpose()?;
+    if let Some(driven) = &driven {
+        planned.inputs.push(driven.input());
+        setup.way = driven.recorded.way.clone();
+    }
     let support = arguments.support();
     let progress = Progress::new(PARTS, arguments.progress);
     let told = Cell::new(0);
-    let (milled, left) = setup
+    let (mut milled, left) = setup
         .run(support, |share| {
             let part = (share * PARTS as f64) as usize;
             while told.get() < part.min(PARTS) {
@@ -140,6 +176,9 @@ fn act(arguments: &Arguments) -> Outcome<Result> {
         })
         .map_err(|problem| problem.in_file(&planned.job.path))?;
     progress.finish();
+    if let Some(driven) = &driven {
+        driven.recorded.add_to(&mut milled);
+    }
     let doubts = match arguments.no_interval || support == Support::Rigid {
         true => Vec::new(),
         false => uncertainty::doubts(&setup.robot, &setup, &planned.coefficient_stds()),
@@ -153,6 +192,7 @@ fn act(arguments: &Arguments) -> Outcome<Result> {
         left,
         worst,
         doubts,
+        driven,
         asked: !arguments.no_interval,
     })
 }

@@ -1,0 +1,149 @@
+//! `ident mill` and `ident lobes` on a job, as typed: recorded joint angles, limits along the path.
+
+use serde_json::Value;
+use std::path::Path;
+use std::process::{Command, Output};
+
+const JOB: &str = r#"kind = "job"
+synthetic = true
+robot = "kr210"
+path = "slot.csv"
+feed_mm_min = 3000.0
+blend_radius_mm = 2.0
+cycle_ms = 4.0
+start_joints_deg = [0, -90, 90, 0, 0, 0]
+[workpiece]
+origin_m = [1.5, -0.12, 0.8]
+stock_min_mm = [0.0, -30.0, -10.0]
+stock_max_mm = [30.0, 30.0, 0.0]
+[tool]
+diameter_mm = 16.0
+teeth = 2
+helix_deg = 30.0
+flute_mm = 32.0
+spindle_rpm = 10000.0
+[material]
+Ktc_N_mm2 = 1319.41
+Krc_N_mm2 = 788.83
+Kac_N_mm2 = 48.75
+Kte_N_mm = 19.65
+Kre_N_mm = 26.77
+Kae_N_mm = 2.05
+[limits]
+path_acceleration_m_s2 = 1.0
+path_jerk_m_s3 = 20.0
+"#;
+
+/// A slot with a corner, two millimetres deep.
+const PATH: &str = "# kind = \"path\"\nx_mm,y_mm,z_mm,i,j,k,rapid\n\
+    -12,0,-2,0,0,1,0\n20,0,-2,0,0,1,0\n20,20,-2,0,0,1,0\n20,45,-2,0,0,1,1\n";
+
+fn ident(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_ident"))
+        .current_dir(folder)
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn json(folder: &Path, arguments: &[&str]) -> Value {
+    let output = ident(folder, &[arguments, &["--json"]].concat());
+    let said = String::from_utf8_lossy(&output.stderr);
+    serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{said}"))
+}
+
+fn job() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("job.toml"), JOB).unwrap();
+    std::fs::write(folder.path().join("slot.csv"), PATH).unwrap();
+    folder
+}
+
+fn near(a: &Value, b: &Value, share: f64) {
+    let [a, b] = [a, b].map(|x| x.as_f64().unwrap());
+    assert!((a - b).abs() <= share * b.abs(), "{a} {b}");
+}
+
+#[test]
+fn the_plans_own_joint_angles_mill_the_plans_part() {
+    let folder = job();
+    let here = folder.path();
+    let plan = json(here, &["plan", "job.toml"]);
+    let trajectory = plan["trajectory"].as_str().unwrap();
+    let mill = ["mill", "job.toml", "--static", "--dry-run"];
+    let planned = json(here, &mill);
+    let driven = json(here, &[&mill[..], &["--joints", trajectory]].concat());
+    assert!(planned["joints"].is_null());
+    assert!(driven["joints"]["off_path_mm"]["max"].as_f64().unwrap() < 1e-4);
+    for key in ["removed_mm3", "peak_force_N", "duration_s"] {
+        near(&driven[key], &planned[key], 1e-3);
+    }
+    for key in ["max", "rms", "max_normal"] {
+        near(
+            &driven["deviation_mm"][key],
+            &planned["deviation_mm"][key],
+            3e-3,
+        );
+    }
+}
+
+/// Half a millimetre beside the path everywhere but at the foot: A1 is 0.02 degrees off.
+#[test]
+fn a_controller_that_leads_beside_the_path_is_in_the_deviation() {
+    let folder = job();
+    let here = folder.path();
+    let plan = json(here, &["plan", "job.toml"]);
+    let trajectory = here.join(plan["trajectory"].as_str().unwrap());
+    let text = std::fs::read_to_string(&trajectory).unwrap();
+    let turned = |by: f64| -> String {
+        let mut rows = text.lines().filter(|line| !line.starts_with('#'));
+        let mut out = "time_s,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n".to_string();
+        assert!(rows.next().unwrap().starts_with("time_s,x_mm"));
+        for row in rows {
+            let cells: Vec<&str> = row.split(',').collect();
+            let first = cells[7].parse::<f64>().unwrap() + by;
+            out += &format!("{},{first},{}\n", cells[0], cells[8..13].join(","));
+        }
+        out
+    };
+    std::fs::write(here.join("turned.csv"), turned(0.02)).unwrap();
+    let mill = ["mill", "job.toml", "--rigid", "--dry-run", "--joints"];
+    let driven = json(here, &[&mill[..], &["turned.csv"]].concat());
+    // the way of the tool from A1: 1.5 m, of which the part across the feed counts
+    let off = driven["joints"]["off_path_mm"]["max"].as_f64().unwrap();
+    assert!((0.5..0.56).contains(&off), "{off}");
+    let deviation = driven["deviation_mm"]["max"].as_f64().unwrap();
+    assert!((0.5..0.56).contains(&deviation), "{deviation}");
+    std::fs::write(here.join("other.csv"), turned(3.0)).unwrap();
+    let output = ident(here, &[&mill[..], &["other.csv"]].concat());
+    let said = String::from_utf8_lossy(&output.stderr).to_string();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(
+        said.contains("other.csv") && said.contains("help:"),
+        "{said}"
+    );
+}
+
+#[test]
+fn limits_along_the_path_are_those_of_its_stations() {
+    let folder = job();
+    let here = folder.path();
+    let along = json(here, &["lobes", "job.toml", "--along", "--dry-run"]);
+    let stations = along["stations"].as_array().unwrap();
+    assert!(stations.len() > 50, "{}", stations.len());
+    let last = stations.last().unwrap()["s_mm"].as_f64().unwrap();
+    // the way of 25 mm at the end is a rapid motion
+    assert!((50.0..53.0).contains(&last), "{last}");
+    let depth = |s: &Value| s["limit_depth_mm"].as_f64().unwrap_or(f64::INFINITY);
+    let least = stations.iter().map(depth).fold(f64::INFINITY, f64::min);
+    assert_eq!(depth(&along["least"]), least);
+    let third = &stations[stations.len() / 3];
+    let place = third["s_mm"].as_f64().unwrap().to_string();
+    let at = ["lobes", "job.toml", "--dry-run", "--rpm", "10000:10000:1"];
+    let one = json(here, &[&at[..], &["--station", &place]].concat());
+    assert_eq!(one["limit_depth_mm"][0], third["limit_depth_mm"]);
+    for wrong in ["-1", "500"] {
+        let output = ident(here, &[&at[..], &[&format!("--station={wrong}")]].concat());
+        assert_eq!(output.status.code(), Some(2));
+    }
+}
