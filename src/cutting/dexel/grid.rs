@@ -11,12 +11,16 @@ pub(super) struct Grid {
     pub axes: [usize; 3],
     /// Lower corner, m.
     pub min: V3,
+    /// Lower and upper end of the box along the rays, m.
+    pub reach: [f64; 2],
     /// Width of the cells across, m.
     pub width: [f64; 2],
     /// Number of rays across.
     pub count: [usize; 2],
     /// The rays, the first of the axes across running fastest.
     pub rays: Vec<Ray>,
+    /// The upright end that was taken last: what it covered is gone already.
+    pub taken: Option<Solid>,
 }
 
 impl Grid {
@@ -28,9 +32,11 @@ impl Grid {
         Self {
             axes,
             min,
+            reach: [min[axis], max[axis]],
             width: [0, 1].map(|k| extent[k] / count[k] as f64),
             count,
             rays: vec![Ray::new(&[]); count[0] * count[1]],
+            taken: None,
         }
     }
 
@@ -51,6 +57,7 @@ impl Grid {
 
     /// Fills every ray with pieces.
     pub fn fill(&mut self, pieces: impl Fn(usize, usize) -> Vec<[f64; 2]>) {
+        self.taken = None;
         for j in 0..self.count[1] {
             for i in 0..self.count[0] {
                 self.rays[j * self.count[0] + i] = Ray::new(&pieces(i, j));

@@ -3,6 +3,7 @@
 
 use super::grid::Grid;
 use super::solid::Solid;
+use std::ops::Range;
 
 impl Solid {
     /// The coordinate axis along which a square end stands, if it does.
@@ -15,6 +16,13 @@ impl Solid {
     fn span(&self, k: usize) -> [f64; 2] {
         let top = self.tip[k] + self.length * self.axis[k];
         [self.tip[k].min(top), self.tip[k].max(top)]
+    }
+
+    /// Whether this end, standing along axis `k`, reaches as low and as high as another within the box.
+    fn covers(&self, other: &Self, k: usize, [bottom, top]: [f64; 2]) -> bool {
+        let ([low, high], [lowest, highest]) = (self.span(k), other.span(k));
+        let upright = [self, other].iter().all(|s| s.upright() == Some(k));
+        upright && low <= lowest.max(bottom) && high >= highest.min(top)
     }
 
     /// Half the chord across the axis at a distance from it.
@@ -39,13 +47,20 @@ impl Grid {
         let [w, u, v] = self.axes;
         let [low, high] = solid.span(w);
         let (middle, r) = (solid.tip[v], solid.radius);
+        let before = self.taken.replace(*solid);
+        let before = before.filter(|before| before.covers(solid, w, self.reach));
         for j in self.within(1, middle - r, middle + r) {
-            let off = self.min[v] + (j as f64 + 0.5) * self.width[1] - middle;
-            let Some(half) = solid.half_chord(off) else {
+            let place = self.min[v] + (j as f64 + 0.5) * self.width[1];
+            let Some(half) = solid.half_chord(place - middle) else {
                 continue;
             };
             let row = j * self.count[0];
-            for i in self.within(0, solid.tip[u] - half, solid.tip[u] + half) {
+            let all = self.within(0, solid.tip[u] - half, solid.tip[u] + half);
+            let gone = before.and_then(|before| {
+                let half = before.half_chord(place - before.tip[v])?;
+                Some(self.within(0, before.tip[u] - half, before.tip[u] + half))
+            });
+            for i in without(all, gone).into_iter().flatten() {
                 self.rays[row + i].subtract(low, high);
             }
         }
@@ -78,6 +93,20 @@ impl Grid {
     }
 }
 
+/// What of a range lies outside of another, below and above it.
+fn without(all: Range<usize>, gone: Option<Range<usize>>) -> [Range<usize>; 2] {
+    match gone.filter(|g| !g.is_empty()) {
+        None => [all, 0..0],
+        Some(gone) => {
+            let (below, above) = (
+                all.start..all.end.min(gone.start),
+                all.start.max(gone.end)..all.end,
+            );
+            [below, above]
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -97,7 +126,14 @@ mod tests {
                 rows.fill(|_, _| vec![[0.0, 30.0]]);
                 let mut rays = rows.clone();
                 let before = rays.volume();
-                for tip in [[5.03, 4.07, 3.11], [19.9, 16.2, 8.8], [-2.0, 9.0, 1.0_f64]] {
+                let near = [
+                    [5.03, 4.07, 3.11],
+                    [5.33, 4.47, 3.11],
+                    [5.33, 3.1, 3.6],
+                    [8.1, 3.4, 3.6],
+                ];
+                let far = [[8.1, 3.4, 2.9], [19.9, 16.2, 8.8], [-2.0, 9.0, 1.0_f64]];
+                for tip in near.into_iter().chain(far) {
                     let tip: V3 = tip;
                     let solid = Solid {
                         radius: 4.1,
