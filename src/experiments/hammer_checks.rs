@@ -30,9 +30,8 @@ pub fn remarks(frf: &HammerFrf, band_hz: f64) -> Vec<String> {
 /// A channel that never moves.
 fn silent(frf: &HammerFrf) -> Option<String> {
     let moves = |o: usize| {
-        let hits = frf.inputs.iter().flat_map(|input| &input.hits);
-        let lines = hits.flat_map(|hit| &hit.responses[o]);
-        lines.into_iter().any(|line| line.norm_sqr() > 0.0)
+        let lines = frf.inputs.iter().flat_map(|input| &input.sums.lines[o]);
+        lines.into_iter().any(|line| line.xx > 0.0)
     };
     let names = frf.outputs.iter().enumerate();
     let dead: Vec<String> = names

@@ -1,6 +1,7 @@
 //! Hammer tests: from a record to frequency response functions with their scatter.
 
 use super::hammer_force::{ForceNoise, ForceWindow, force_noise};
+use super::hammer_given::{self, ScatterFrom};
 use super::hammer_screen::{ScreenedHit, directions, screen};
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::hammer::HammerRecord;
@@ -58,6 +59,8 @@ pub struct InputFrf {
     pub noise_power: Vec<f64>,
     /// What the noise of the force does where every hit has a force window.
     pub force_noise: Option<ForceNoise>,
+    /// Variance per output and line, `var(Re) + var(Im)`, where there are no hits to show it.
+    pub scatter: Option<Vec<Vec<f64>>>,
 }
 
 /// A hammer test as FRFs.
@@ -87,10 +90,15 @@ pub struct HammerFrf {
     pub for_modes: Option<Vec<InputFrf>>,
     /// What the user should know, each with its remedy.
     pub remarks: Vec<String>,
+    /// Where their scatter comes from.
+    pub scatter_from: ScatterFrom,
 }
 
-/// Screens the hits of `record` and estimates the FRFs from the good ones.
+/// Screens the hits of `record` and estimates the FRFs from the good ones, or takes those that it holds.
 pub fn estimate(record: &HammerRecord, settings: &Settings) -> Outcome<HammerFrf> {
+    if let Some(given) = &record.given {
+        return Ok(hammer_given::frf(record, given, settings));
+    }
     let mut screened = screen(record, settings.band_hz);
     if settings.keep_double {
         readmit_doubled(&mut screened);
@@ -126,6 +134,7 @@ pub fn estimate(record: &HammerRecord, settings: &Settings) -> Outcome<HammerFrf
             .then(|| inputs(Exponential { rate: 0.0 }, ForceWindow::Quiet)),
         screened: Vec::new(),
         remarks: Vec::new(),
+        scatter_from: ScatterFrom::Hits,
     };
     frf.remarks = remarks(&frf, &screened, settings);
     frf.screened = screened;
@@ -154,6 +163,7 @@ fn inputs(
             hits,
             noise_power: noise_power(&own, power),
             force_noise: force_noise(&own, window),
+            scatter: None,
         })
     });
     inputs.collect()

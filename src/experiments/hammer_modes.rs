@@ -1,6 +1,7 @@
 //! Hammer tests: modes of the structure.
 
 use super::hammer_frf::{HammerFrf, InputFrf};
+use super::hammer_given::ScatterFrom;
 use super::hammer_variance::variance;
 use crate::signal::frf::{CrossSpectra, Estimator, Line};
 use crate::signal::jackknife;
@@ -47,7 +48,10 @@ fn left_out(frf: &HammerFrf, lines: &[usize]) -> LeftOut {
         let output = |o| jackknife::left_out(&input.sums, &input.hits, o, Estimator::H1, lines);
         (0..frf.outputs.len()).map(output).collect()
     };
-    inputs(frf).iter().map(of).collect()
+    match frf.scatter_from {
+        ScatterFrom::Hits => inputs(frf).iter().map(of).collect(),
+        _ => LeftOut::new(),
+    }
 }
 
 /// H1 per output at `lines`.

@@ -25,7 +25,10 @@ pub fn variance(input: &InputFrf, output: usize, lines: &[usize]) -> Vec<f64> {
     let power = |k: &usize| input.sums.lines[output][*k].h1().norm_sqr();
     let size: Vec<f64> = lines.iter().map(power).collect();
     let level = mean(&size);
-    let smooth = if input.hits.len() > 1 {
+    let smooth = if let Some(scatter) = &input.scatter {
+        let scatter: Vec<f64> = lines.iter().map(|k| scatter[output][*k]).collect();
+        smoothed(&scatter, &size)
+    } else if input.hits.len() > 1 {
         let scatter = frf_variance(&input.sums, &input.hits, output, Estimator::H1, lines);
         smoothed(&scatter, &size)
     } else {

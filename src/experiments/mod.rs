@@ -6,6 +6,7 @@ pub mod hammer_checks;
 pub mod hammer_force;
 pub mod hammer_frf;
 pub mod hammer_functions;
+pub mod hammer_given;
 pub mod hammer_modes;
 pub mod hammer_screen;
 pub mod hammer_variance;

@@ -11,6 +11,7 @@ use super::frf_tuning::{Parameter, Residuals, Tuned, Tuning, solve};
 use super::frf_uncertain::uncertain;
 use super::parameter::Identified;
 use crate::experiments::hammer_frf::{HammerFrf, Settings, estimate};
+use crate::experiments::hammer_given::undecayed;
 use crate::experiments::hammer_modes::modes;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::hammer::HammerRecord;
@@ -99,10 +100,13 @@ pub const AXES: [&str; 3] = ["x", "y", "z"];
 /// # Errors
 /// No usable hit.
 pub fn test(path: &Path, record: HammerRecord, settings: &Settings) -> Outcome<Test> {
-    let frf = estimate(&record, settings).map_err(|problem| problem.in_text(path))?;
+    let mut frf = estimate(&record, settings).map_err(|problem| problem.in_text(path))?;
+    let modes = modes(&frf, settings.band_hz);
+    let lasting = undecayed(&frf, &modes);
+    frf.remarks.extend(lasting);
     Ok(Test {
         path: path.to_path_buf(),
-        modes: modes(&frf, settings.band_hz),
+        modes,
         record,
         frf,
     })
@@ -232,7 +236,7 @@ fn at_pose(
 fn joints<'a>(test: &'a Test, robot: &Robot) -> Outcome<&'a [f64]> {
     let (wanted, remedy) = (
         robot.dof(),
-        "write `# joint_angles_deg = [...]`, one angle per joint; for a universal file, add --joints-deg",
+        "write `# joint_angles_deg = [...]`, one angle per joint; for a universal file into STEM.ident.toml, or add --joints-deg",
     );
     match &test.record.joint_angles {
         Some(angles) if angles.len() == wanted => Ok(angles),

@@ -1,5 +1,6 @@
 //! Kind `hammer`: impulse-hammer tests, force and acceleration over time.
 
+use super::frf_uff::Given;
 use super::front::Front;
 use super::hammer_known::Known;
 use super::table::{Column, Table};
@@ -30,6 +31,8 @@ pub struct HammerRecord {
     pub outputs: Vec<String>,
     /// The records, in file order.
     pub runs: Vec<HammerRun>,
+    /// Frequency responses in place of the records, where the file holds those.
+    pub given: Option<Given>,
     /// True when the file says that nobody measured it.
     pub synthetic: bool,
     /// True when the file says `role = "comparison"`: it is taken only when it is named.
@@ -83,7 +86,18 @@ fn from_table(table: &Table) -> Outcome<HammerRecord> {
         .iter()
         .map(|span| run(table, hits, force, &outputs, span.clone()))
         .collect::<Outcome<_>>()?;
-    let front = &table.front;
+    Ok(HammerRecord {
+        interval_s,
+        outputs: outputs.into_iter().map(|(name, _)| name).collect(),
+        runs,
+        sha256: table.sha256.clone(),
+        ..stated(&table.front)?
+    })
+}
+
+/// What the facts say, without the records.
+pub(super) fn stated(front: &Front) -> Outcome<HammerRecord> {
+    check_kind(front)?;
     Ok(HammerRecord {
         robot: front.text("robot")?.map(str::to_string),
         joint_angles: joint_angles(front)?,
@@ -91,12 +105,9 @@ fn from_table(table: &Table) -> Outcome<HammerRecord> {
         nominal_rel_std: front.positive("nominal_stiffness_rel_std")?,
         known: Known::read(front)?,
         exponential_window_s: front.positive("exponential_window_s")?,
-        interval_s,
-        outputs: outputs.into_iter().map(|(name, _)| name).collect(),
-        runs,
         synthetic: front.synthetic(),
         comparison: comparison(front)?,
-        sha256: table.sha256.clone(),
+        ..HammerRecord::default()
     })
 }
 
@@ -133,8 +144,8 @@ fn numbers<'a>(
 }
 
 fn required<'a>(table: &'a Table, name: &str, dimension: Dimension) -> Outcome<&'a [f64]> {
-    let found = numbers(table, name, dimension)?.map(|(_, values)| values);
-    found.ok_or_else(|| {
+    let found = numbers(table, name, dimension)?;
+    found.map(|(_, values)| values).ok_or_else(|| {
         Problem::new("column is missing", format!("add the column `{name}`"))
             .in_column(name)
             .at_line(table.first_line - 1)
@@ -217,10 +228,9 @@ fn interval(table: &Table, time: &[f64], spans: &[Range<usize>]) -> Outcome<f64>
 fn snapped(interval: f64) -> f64 {
     let rate = (1.0 / interval).round();
     let near = (1.0 / interval - rate).abs() <= 1e-5 * rate;
-    if near && rate > 0.0 {
-        1.0 / rate
-    } else {
-        interval
+    match near && rate > 0.0 {
+        true => 1.0 / rate,
+        false => interval,
     }
 }
 
@@ -295,6 +305,6 @@ fn comparison(front: &Front) -> Outcome<bool> {
 
 /// Joint angles of the pose, rad.
 fn joint_angles(front: &Front) -> Outcome<Option<Vec<f64>>> {
-    let degrees = front.numbers("joint_angles_deg")?;
-    Ok(degrees.map(|degrees| degrees.iter().map(|d| d * DEGREE).collect()))
+    let rad = |degrees: Vec<f64>| degrees.iter().map(|d| d * DEGREE).collect();
+    Ok(front.numbers("joint_angles_deg")?.map(rad))
 }

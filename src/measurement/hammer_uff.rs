@@ -1,5 +1,8 @@
 //! Kind `hammer` from the time records of a universal file.
 
+use super::foreign::sidecar::place as sidecar;
+use super::frf_uff;
+use super::front::Front;
 use super::hammer::{self, HammerRecord, HammerRun};
 use super::uff::{self, Abscissa, Function, Kind, Quantity, Values};
 use crate::ground::files;
@@ -12,6 +15,11 @@ pub fn is_universal(path: &Path) -> bool {
     matches!(name.as_deref(), Some("uff" | "unv" | "ufb" | "58"))
 }
 
+/// Whether a file holds frequency responses without the hits behind them.
+pub fn without_hits(path: &Path) -> bool {
+    is_universal(path) && read_hammer(path).is_ok_and(|record| record.given.is_some())
+}
+
 /// Reads a hammer test of either form: universal file by its name, else CSV.
 pub fn read_any(path: &Path) -> Outcome<HammerRecord> {
     if is_universal(path) {
@@ -21,23 +29,35 @@ pub fn read_any(path: &Path) -> Outcome<HammerRecord> {
     }
 }
 
-/// Reads force and acceleration records. Those of one load case belong together where the load cases name
-/// the hits; else the k-th force belongs to the k-th record of each response.
+/// Reads force and acceleration records, or frequency responses where the file has those and no records
+/// of a force. Facts stand beside the file. Records of one load case belong together where the load cases
+/// name the hits; else the k-th force belongs to the k-th record of each response.
 pub fn read_hammer(path: &Path) -> Outcome<HammerRecord> {
     let file = uff::read(path)?;
-    let record = from_functions(&file.functions_si()).map_err(|problem| problem.in_text(path))?;
+    let front = frf_uff::front(path).map_err(|problem| problem.in_file(&sidecar(path)))?;
+    let functions = file.functions_si();
+    let record = match frf_uff::has_responses(&file) && forces(&functions).is_empty() {
+        true => frf_uff::record(&file, &front),
+        false => from_functions(&functions, &front),
+    };
     Ok(HammerRecord {
         sha256: files::sha256(&files::read_bytes(path)?),
-        ..record
+        ..record.map_err(|problem| problem.in_text(path))?
     })
 }
 
-fn from_functions(functions: &[Function]) -> Outcome<HammerRecord> {
+fn forces(functions: &[Function]) -> Vec<&Function> {
+    let wanted = [Quantity::ExcitationForce, Quantity::ReactionForce];
+    let fits = |f: &&Function| f.kind == Kind::Time && wanted.contains(&f.quantity());
+    functions.iter().filter(fits).collect()
+}
+
+fn from_functions(functions: &[Function], front: &Front) -> Outcome<HammerRecord> {
     let records = |wanted: &[Quantity]| -> Vec<&Function> {
         let fits = |f: &&Function| f.kind == Kind::Time && wanted.contains(&f.quantity());
         functions.iter().filter(fits).collect()
     };
-    let forces = records(&[Quantity::ExcitationForce, Quantity::ReactionForce]);
+    let forces = forces(functions);
     let accelerations = records(&[Quantity::Acceleration]);
     let first = forces.first().ok_or_else(no_force)?;
     let interval_s = interval(first)?;
@@ -65,7 +85,7 @@ fn from_functions(functions: &[Function]) -> Outcome<HammerRecord> {
         interval_s,
         outputs: outputs.into_iter().map(|(name, _)| name).collect(),
         runs,
-        ..HammerRecord::default()
+        ..hammer::stated(front)?
     })
 }
 

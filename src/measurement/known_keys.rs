@@ -1,7 +1,7 @@
 //! A key that nobody knows: an error that names the nearest known one.
 
 use super::test::Kind;
-use super::{cubes, force_sensor, front, hammer, joint_motion, load_cycle, milled_part};
+use super::{cubes, force_sensor, frf_uff, front, hammer, joint_motion, load_cycle, milled_part};
 use super::{milling_force, screw, toolpath, workspace_test};
 use crate::ground::nearest::nearest;
 use crate::ground::problem::Problem;
@@ -11,6 +11,7 @@ const KINDS: &[&[&str]] = &[
     front::COMMON,
     cubes::Facts::KEYS,
     force_sensor::Facts::KEYS,
+    frf_uff::FACTS,
     hammer::FACTS,
     joint_motion::FACTS,
     load_cycle::FACTS,

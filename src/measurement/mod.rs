@@ -6,6 +6,7 @@ pub mod cycles;
 mod facts;
 pub mod force_sensor;
 pub mod foreign;
+pub mod frf_uff;
 pub mod front;
 pub mod hammer;
 pub mod hammer_known;

@@ -2,6 +2,7 @@
 
 use super::foreign::binary::FORMATS;
 use super::foreign::sidecar;
+use super::hammer_uff::is_universal;
 use super::leading::kind_of;
 use crate::ground::nearest::nearest;
 use crate::ground::problem::{Outcome, Problem};
@@ -269,6 +270,7 @@ fn is_table(path: &Path) -> bool {
     match ending.as_str() {
         "csv" => true,
         "txt" | "dat" => sidecar::place(path).is_file(),
+        _ if is_universal(path) => sidecar::place(path).is_file(),
         ending => formats.copied().any(|known| known == ending),
     }
 }

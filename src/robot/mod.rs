@@ -4,7 +4,9 @@
 pub mod body;
 pub mod builtin;
 pub mod check;
+pub mod dh;
 pub mod file;
+pub mod guess;
 pub mod joint_effect;
 pub mod load;
 pub mod model;

@@ -53,7 +53,8 @@ impl LineNoise {
     }
 }
 
-fn correlation(x: f64, origin: f64, apart: f64) -> Complex64 {
+/// Correlation of lines that are `apart`, as [`LineNoise`] describes it.
+pub(super) fn correlation(x: f64, origin: f64, apart: f64) -> Complex64 {
     Complex64::cis(TAU * origin * apart) / Complex64::new(1.0, PI * apart / x)
 }
 

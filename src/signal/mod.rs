@@ -12,6 +12,7 @@ pub mod frf;
 pub mod jackknife;
 pub mod judge;
 pub mod line_noise;
+pub mod local_rational;
 pub mod low_pass;
 pub mod lscf;
 pub mod modal_fit;

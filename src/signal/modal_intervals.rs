@@ -7,11 +7,11 @@ use super::modal_model::damping;
 use nalgebra::{DMatrix, DVector};
 use rustfft::num_complex::Complex64;
 
-/// FRFs with one hit left out: `[input][output][hit][line]`.
+/// FRFs with one hit left out: `[input][output][hit][line]`; empty where the hits are not known.
 pub type LeftOut = Vec<Vec<Vec<Vec<Complex64>>>>;
 
 /// Half widths of the 95 % intervals of frequency (Hz) and damping ratio of every mode; not a number
-/// where a direction has fewer than two hits.
+/// where a direction has fewer than two hits. Where no hits are known, the rest of the fit speaks alone.
 ///
 /// Leaving out a hit moves the parameters by one step of Gauss and Newton, `(JᵀJ)⁻¹·Jᵀ·Δ`; the
 /// variance adds up over directions (jackknife of strata, Shao and Tu 1995). Fisher's information with
@@ -24,15 +24,21 @@ pub fn half_widths(task: &Task, fit: &Fit, left_out: &LeftOut) -> Vec<[f64; 2]> 
     let Some(inverse) = normal.inverse().filter(|_| enough) else {
         return vec![[f64::NAN; 2]; modes];
     };
-    let freedom: usize = left_out.iter().map(|outputs| hits(outputs) - 1).sum();
-    let jackknife = jackknife(task, fit, &inverse, left_out);
     let values = (task.values() - normal.matrix.nrows() as f64).max(1.0);
+    let freedom = match left_out.is_empty() {
+        true => values / task.correlated(),
+        false => left_out
+            .iter()
+            .map(|outputs| hits(outputs) - 1)
+            .sum::<usize>() as f64,
+    };
+    let jackknife = jackknife(task, fit, &inverse, left_out);
     let fisher = inverse * (fit.cost / values * task.correlated());
     let width = |r: usize| {
         let at = r * fit.structure.per_mode();
         gradients(fit.structure.poles[r]).map(|gradient| {
             let [a, b] = [&jackknife, &fisher].map(|matrix| spread(matrix, at, gradient));
-            a.max(b).sqrt() * t95(freedom as f64)
+            a.max(b).sqrt() * t95(freedom)
         })
     };
     (0..modes).map(width).collect()

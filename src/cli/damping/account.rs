@@ -1,7 +1,8 @@
 //! What `ident damping` tells on the terminal.
 
 use super::result::{Damped, file_name};
-use crate::fit::damping::Pair;
+use crate::experiments::hammer_given::ScatterFrom;
+use crate::fit::damping::{Pair, Test};
 use crate::fit::parameter::{Identified, Status};
 use crate::report::text::table;
 use crate::sheet::number::{engineering, fixed, significant};
@@ -36,12 +37,11 @@ fn hits(damped: &Damped) -> String {
     let mut out = String::new();
     for test in &damped.input.tests {
         let used = test.frf.screened.iter().filter(|hit| hit.used()).count();
-        let _ = writeln!(
-            out,
-            "{}: {used} of {} hits used",
-            file_name(&test.path),
-            test.frf.screened.len()
-        );
+        let (name, all) = (file_name(&test.path), test.frf.screened.len());
+        let _ = match test.frf.scatter_from {
+            ScatterFrom::Hits => writeln!(out, "{name}: {used} of {all} hits used"),
+            from => writeln!(out, "{name}: FRFs as given; scatter: {}", from.sentence()),
+        };
         for hit in &test.frf.screened {
             if let Some(why) = hit.why() {
                 let _ = writeln!(out, "  hit {} {} left out: {why}", hit.direction, hit.hit);
@@ -64,7 +64,11 @@ pub fn modes(damped: &Damped) -> Table {
             fixed(100.0 * mode.half_width[1], 3),
         ]);
     }
-    out.noted("95 % intervals by jackknife over hits")
+    let hits = |test: &Test| test.frf.scatter_from == ScatterFrom::Hits;
+    out.noted(match damped.input.tests.iter().all(hits) {
+        true => "95 % intervals by jackknife over hits",
+        false => "95 % intervals by jackknife over hits; of FRFs as given by what the fit leaves",
+    })
 }
 
 /// The tuned constants.

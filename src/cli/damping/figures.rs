@@ -120,6 +120,9 @@ fn coherence(frf: &HammerFrf, pair: &Pair) -> Panel {
 /// The driving-point FRF of every hit that was used, one over the other.
 pub fn hits(test: &Test, pair: &Pair, stem: &str) -> Option<Chart> {
     let (input, output) = channel(&test.frf, pair)?;
+    if input.hits.is_empty() {
+        return None;
+    }
     let top = *pair.measured.frequency_hz.last()?;
     let low = *pair.measured.frequency_hz.first()?;
     let mut panel = Panel::new(frequencies(), accelerance());

@@ -4,6 +4,7 @@ use super::input::Input;
 use crate::cli::Ending;
 use crate::cli::frf::mode;
 use crate::experiments::hammer_frf::HammerFrf;
+use crate::experiments::hammer_given::ScatterFrom;
 use crate::fit::damping::{Account, Pair, Request};
 use crate::fit::damping_statement::good;
 use crate::fit::damping_store::StoredProduct;
@@ -164,7 +165,11 @@ impl Damped {
         });
         let first = tests.first().map(|t| &t.frf);
         json!({
-            "estimator": "H1",
+            "estimator": match tests.iter().all(|t| t.frf.scatter_from == ScatterFrom::Hits) {
+                true => "H1",
+                false => "as given",
+            },
+            "scatter": tests.iter().map(|t| t.frf.scatter_from.sentence()).collect::<Vec<_>>(),
             "resolution_Hz": first.map(|f| number(1.0 / f.length_s)),
             "exponential_rate_1_s": first.map(|f: &HammerFrf| number(f.rate)),
             "hits_used": hits().filter(|(_, hit)| hit.used()).count(),

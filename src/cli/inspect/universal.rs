@@ -1,8 +1,11 @@
 //! The account of a universal file: its hammer test, if it holds one, and every data set in it.
 
 use super::{Account, hammer, title};
+use crate::fit::suitability::Doubt;
+use crate::fit::suitability::hammer::doubts;
 use crate::ground::files;
 use crate::ground::problem::Outcome;
+use crate::measurement::hammer::HammerRecord;
 use crate::measurement::hammer_uff::read_hammer;
 use crate::measurement::uff::{
     self, Abscissa, Dof, Function, Kind, Quantity, UniversalFile, Values,
@@ -18,6 +21,7 @@ const LISTED: usize = 30;
 pub fn account(path: &Path) -> Outcome<Account> {
     let file = uff::read(path)?;
     let mut account = match read_hammer(path) {
+        Ok(record) if record.given.is_some() => responses(path, &record),
         Ok(_) => hammer::account(path)?,
         Err(problem) => Account {
             lines: title(
@@ -40,6 +44,38 @@ pub fn account(path: &Path) -> Outcome<Account> {
     account.json.insert("nodes".into(), json!(file.nodes.len()));
     account.json.insert("skipped".into(), json!(file.skipped));
     Ok(account)
+}
+
+/// The frequency responses that a file holds in place of hits.
+fn responses(path: &Path, record: &HammerRecord) -> Account {
+    let given = record.given.clone().unwrap_or_default();
+    let mut json = json::head("inspect", &[(path, &record.sha256)]);
+    json.insert("inputs_of_frfs".into(), json!(given.inputs));
+    json.insert("responses".into(), json!(record.outputs));
+    json.insert("lines".into(), json!(given.frequency_hz.len()));
+    json.insert("averages".into(), json!(given.averages));
+    let mut lines = title(
+        path,
+        "frequency responses in a universal file",
+        record.synthetic,
+    );
+    let last = given.frequency_hz.last().copied().unwrap_or(0.0);
+    lines.push(format!(
+        "forces: {}; responses: {}; {} lines up to {last} Hz",
+        given.inputs.join(", "),
+        record.outputs.join(", "),
+        given.frequency_hz.len()
+    ));
+    let doubts = doubts(record);
+    Account {
+        lines,
+        json,
+        odd: given
+            .remarks
+            .into_iter()
+            .chain(doubts.iter().map(Doubt::sentence))
+            .collect(),
+    }
 }
 
 fn lines(file: &UniversalFile) -> Vec<String> {

@@ -1,6 +1,8 @@
 //! `ident new`: templates with their keys explained, to be filled in. A new one is one file and one line in
 //! [`TEMPLATES`].
 
+mod robot;
+
 use super::output::{print, print_result};
 use super::{Ending, Verb, arguments, parsed};
 use crate::ground::files;
@@ -8,7 +10,7 @@ use crate::ground::nearest::nearest;
 use crate::ground::problem::{Outcome, Problem};
 use clap::{ArgMatches, Args};
 use serde_json::json;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The verb.
 pub const VERB: Verb = Verb {
@@ -30,6 +32,8 @@ struct Arguments {
     /// Print the template and write nothing
     #[arg(long)]
     dry_run: bool,
+    #[command(flatten)]
+    robot: robot::FromFile,
 }
 
 /// A file to be filled in.
@@ -78,6 +82,9 @@ const TEMPLATES: &[Template] = &[
 fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let arguments: Arguments = parsed(matches);
     let template = template(&arguments.kind)?;
+    if arguments.robot.from.is_some() {
+        return robot::run(&arguments);
+    }
     let path = arguments
         .file
         .unwrap_or_else(|| PathBuf::from(template.file));
@@ -85,12 +92,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
         print(template.text)?;
         return Ok(Ending::Done);
     }
-    if path.exists() {
-        let remedy = "give another name, or move that file away";
-        return Err(
-            Problem::new("is there already; nothing is overwritten", remedy).in_file(&path),
-        );
-    }
+    absent(&path)?;
     if !arguments.dry_run {
         files::replace(&path, template.text.as_bytes())?;
     }
@@ -110,6 +112,18 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
         ))?,
     }
     Ok(Ending::Done)
+}
+
+/// Refuses a file that is there.
+fn absent(path: &Path) -> Outcome<()> {
+    match path.exists() {
+        false => Ok(()),
+        true => {
+            let remedy = "give another name, or move that file away";
+            let problem = Problem::new("is there already; nothing is overwritten", remedy);
+            Err(problem.in_file(path))
+        }
+    }
 }
 
 fn template(kind: &str) -> Outcome<Template> {

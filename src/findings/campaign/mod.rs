@@ -42,6 +42,7 @@ use super::{Group, Verdict};
 use crate::fit::axis_tests;
 use crate::fit::suitability::is_odd;
 use crate::ground::problem::{Outcome, Problem};
+use crate::measurement::hammer_uff::without_hits;
 use crate::measurement::leading::fact_of;
 use crate::measurement::workspace::Place;
 use crate::robot::Robot;
@@ -75,7 +76,7 @@ pub struct Campaign {
 
 impl Campaign {
     /// The files of a campaign that can be diagnosed, kind by kind; those measured only for comparison are
-    /// left out.
+    /// left out, and hammer tests without their hits.
     ///
     /// # Errors
     /// A file that cannot be read, or none at all.
@@ -84,7 +85,8 @@ impl Campaign {
         for (name, _) in KINDS {
             for path in place.files_of(name)? {
                 let role = fact_of(&path, "role").map_err(|problem| problem.in_file(&path))?;
-                paths.extend(role.is_none_or(|role| role != COMPARISON).then_some(path));
+                let compared = role.is_some_and(|role| role == COMPARISON);
+                paths.extend((!compared && !without_hits(&path)).then_some(path));
             }
         }
         if paths.is_empty() {

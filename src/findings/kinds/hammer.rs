@@ -27,6 +27,11 @@ struct HammerDiagnosis {
 /// The file is no hammer test, names no robot or no pose, or holds no usable hit.
 pub fn diagnosed(path: &Path) -> Outcome<Box<dyn Diagnosed>> {
     let record = read_any(path)?;
+    if record.given.is_some() {
+        let what = "holds frequency responses without the hits behind them";
+        let remedy = "diagnose the time records of the hits; `ident damping --frf` and `ident frf --modes` read this file";
+        return Err(Problem::new(what, remedy).in_file(path));
+    }
     let Some(name) = record.robot.clone() else {
         let problem = Problem::new("names no robot", "write `# robot = \"kr210\"`");
         return Err(problem.in_column("robot").in_file(path));

@@ -39,6 +39,8 @@ pub struct UniversalFile {
     pub nodes: Vec<Node>,
     /// Data sets 58, in the units of the file.
     pub functions: Vec<Function>,
+    /// The line on which each of them begins.
+    pub lines: Vec<usize>,
     /// Number of blocks skipped, by data set.
     pub skipped: BTreeMap<u32, usize>,
 }
@@ -66,11 +68,22 @@ pub fn parse(bytes: &[u8]) -> Outcome<UniversalFile> {
     Ok(file)
 }
 
+/// The line of the first record.
+fn first(records: &[fields::Record]) -> usize {
+    records.first().map_or(1, |record| record.line)
+}
+
 impl UniversalFile {
     fn take(&mut self, block: Block) -> Outcome<()> {
         match block {
-            Block::Binary(head, payload) => self.functions.push(read::binary(&head, payload)?),
-            Block::Text { set: 58, records } => self.functions.push(read::ascii(&records)?),
+            Block::Binary(head, payload) => {
+                self.lines.push(first(&head.records));
+                self.functions.push(read::binary(&head, payload)?);
+            }
+            Block::Text { set: 58, records } => {
+                self.lines.push(first(&records));
+                self.functions.push(read::ascii(&records)?);
+            }
             Block::Text { set: 151, records } => self.header = Some(header::parse(&records)),
             Block::Text { set: 164, records } => self.units = Some(units::parse(&records)?),
             Block::Text { set: 15, records } => self.nodes.extend(nodes::parse(&records)?),

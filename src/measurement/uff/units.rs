@@ -57,7 +57,7 @@ pub fn parse(records: &[Record]) -> Outcome<Units> {
 
 impl Units {
     /// Factor from SI to the file for an axis.
-    fn factor(&self, axis: &Axis) -> f64 {
+    pub fn factor(&self, axis: &Axis) -> f64 {
         let exponents = axis.effective_exponents();
         let powers = self.factors.iter().zip(exponents).filter(|(_, e)| *e != 0);
         powers.map(|(f, e)| f.powi(e.clamp(-9, 9) as i32)).product()

@@ -1,6 +1,7 @@
 //! The gate for hammer tests.
 
 mod dead;
+mod given;
 mod scale;
 mod short;
 mod twice;
@@ -23,13 +24,25 @@ pub const RULES: &[Rule] = &[
     twice::RULE,
 ];
 
+/// The rules for frequency responses without the hits behind them.
+pub const GIVEN: &[Rule] = &[given::RULE];
+
 /// What is odd about a record, the gravest first.
 pub fn doubts(record: &HammerRecord) -> Vec<Doubt> {
-    super::doubts(RULES, |look| look(record))
+    let rules = match record.given {
+        Some(_) => GIVEN,
+        None => RULES,
+    };
+    super::doubts(rules, |look| look(record))
 }
 
 /// Rules whose findings say that the file cannot mean what it says: nothing is computed then.
-const MEANINGLESS: &[&str] = &[short::RULE.name, dead::RULE.name, scale::RULE.name];
+const MEANINGLESS: &[&str] = &[
+    short::RULE.name,
+    dead::RULE.name,
+    scale::RULE.name,
+    given::RULE.name,
+];
 
 /// Refuses a record that cannot mean what it says.
 ///

@@ -1,10 +1,13 @@
 //! `ident frf`: frequency response functions of any structure from hammer tests.
 
+mod given;
+
 use super::output::{print, tell};
 use super::{Ending, Verb, arguments};
 use crate::experiments::hammer_force::ForceWindow;
 use crate::experiments::hammer_frf::{self, HammerFrf, InputFrf, Settings};
 use crate::experiments::hammer_functions::universal_file;
+use crate::experiments::hammer_given::{self, ScatterFrom};
 use crate::experiments::hammer_modes::modes;
 use crate::experiments::hammer_screen::ScreenedHit;
 use crate::ground::files;
@@ -32,7 +35,7 @@ pub const VERB: Verb = Verb {
 /// Arguments of `ident frf`.
 #[derive(Debug, Args)]
 pub struct FrfArgs {
-    /// Hammer test: CSV of kind `hammer`, or a universal file (.uff, .unv) with time records
+    /// Hammer test: CSV of kind `hammer`, or a universal file (.uff, .unv) with time records or FRFs
     file: PathBuf,
     /// Print one JSON document instead of the account
     #[arg(long)]
@@ -88,7 +91,7 @@ pub fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let settings = settings(&args)?;
     let record = hammer_uff::read_any(&args.file)?;
     let in_file = |problem: Problem| problem.in_file(&args.file);
-    let frf = hammer_frf::estimate(&record, &settings).map_err(in_file)?;
+    let mut frf = hammer_frf::estimate(&record, &settings).map_err(in_file)?;
     for remark in &frf.remarks {
         tell(&format!("note: {remark}"));
     }
@@ -101,6 +104,11 @@ pub fn run(matches: &ArgMatches) -> Outcome<Ending> {
         files::replace(path, &uff::write(&file, encoding))?;
     }
     let modes = args.modes.then(|| modes(&frf, args.band_hz));
+    let lasting = hammer_given::undecayed(&frf, modes.as_deref().unwrap_or_default());
+    lasting
+        .iter()
+        .for_each(|remark| tell(&format!("note: {remark}")));
+    frf.remarks.extend(lasting);
     if args.json {
         print(&json::line(document(
             &args,
@@ -110,7 +118,7 @@ pub fn run(matches: &ArgMatches) -> Outcome<Ending> {
         )))?;
     } else {
         let account = account(&frf, args.estimator.estimator());
-        print(&(account + &modes_account(modes.as_deref())))?;
+        print(&(account + &modes_account(&frf, modes.as_deref())))?;
     }
     Ok(ending(&frf))
 }
@@ -165,6 +173,7 @@ fn document(
     document.insert("exponential_rate_1_s".into(), json::number(frf.rate));
     document.insert("remarks".into(), json!(frf.remarks));
     document.insert("hits".into(), frf.screened.iter().map(hit).collect());
+    document.insert("scatter".into(), json!(frf.scatter_from.sentence()));
     let inputs = frf.inputs.iter();
     let channels = inputs.flat_map(|input| (0..frf.outputs.len()).map(|o| channel(frf, input, o)));
     document.insert("channels".into(), channels.collect());
@@ -193,7 +202,7 @@ pub(super) fn mode(mode: &Mode) -> Value {
     })
 }
 
-fn modes_account(modes: Option<&[Mode]>) -> String {
+fn modes_account(frf: &HammerFrf, modes: Option<&[Mode]>) -> String {
     let Some(modes) = modes else {
         return String::new();
     };
@@ -206,13 +215,17 @@ fn modes_account(modes: Option<&[Mode]>) -> String {
         )
     };
     let rows: String = modes.iter().map(row).collect();
-    format!(
-        "{} modes (95 % intervals by jackknife over hits)\n{rows}",
-        modes.len()
-    )
+    let how = match frf.scatter_from {
+        ScatterFrom::Hits => "by jackknife over hits",
+        _ => "by what the fit leaves; what differs from hit to hit is not in the file",
+    };
+    format!("{} modes (95 % intervals {how})\n{rows}", modes.len())
 }
 
 fn channel(frf: &HammerFrf, input: &InputFrf, output: usize) -> Value {
+    if frf.scatter_from != ScatterFrom::Hits {
+        return given::channel(frf, input, output);
+    }
     let estimate = |estimator| complex(&input.frf(output, estimator));
     let lines: Vec<usize> = (0..frf.frequency_hz.len()).collect();
     let variance = jackknife::frf_variance(&input.sums, &input.hits, output, Estimator::H1, &lines);
@@ -231,12 +244,15 @@ fn channel(frf: &HammerFrf, input: &InputFrf, output: usize) -> Value {
     })
 }
 
-fn complex(values: &[Complex64]) -> Value {
+pub(super) fn complex(values: &[Complex64]) -> Value {
     let pair = |h: &Complex64| json!([json::number(h.re), json::number(h.im)]);
     values.iter().map(pair).collect()
 }
 
 fn account(frf: &HammerFrf, estimator: Estimator) -> String {
+    if frf.scatter_from != ScatterFrom::Hits {
+        return given::account(frf);
+    }
     let mut text = String::new();
     for hit in &frf.screened {
         let verdict = hit
