@@ -5,6 +5,7 @@
 //! [`swinging`] (masses, dampers and springs in time). [`run`] leads any of them along a [`way::Way`].
 
 pub mod course;
+pub mod measured_tip;
 pub mod oscillator;
 pub mod planned;
 pub mod pose;

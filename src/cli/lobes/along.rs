@@ -39,6 +39,7 @@ struct Along {
 pub fn run(arguments: &Arguments) -> Outcome<Ending> {
     let (mut case, planned) = input::planned(arguments)?;
     case.remarks.push(EVERYWHERE.into());
+    let measured = input::tool_modes(arguments, &mut case)?;
     let deepest_m = deepest(arguments, &case.tool)?;
     let speeds = asked(arguments, &case)?;
     let plan = &planned.plan;
@@ -51,8 +52,10 @@ pub fn run(arguments: &Arguments) -> Outcome<Ending> {
     }
     let own = carrier(&planned.job, &plan.cell.robot);
     let here = |station: &Station| -> Outcome<Case> {
+        let mut modes = station.modes(&mut own.clone())?;
+        modes.extend(&measured);
         Ok(Case {
-            modes: station.modes(&mut own.clone())?,
+            modes,
             ..case.clone()
         })
     };

@@ -10,14 +10,34 @@ use crate::measurement::job::{self, Cutter, Job};
 use crate::measurement::milling_force::CutSide;
 use crate::measurement::modal::{Modal, SIDES};
 use crate::process::Planned;
+use crate::process::measured_tip::MeasuredTip;
 use crate::process::tip_modes::{Station, carrier};
 use crate::robot::check;
 use crate::robot::load::{Loaded, load};
 use std::f64::consts::TAU;
 use std::path::Path;
 
-/// Reads the file, whichever of the two it is.
+/// Reads the file, whichever of the two it is, and what was measured at the tool's tip.
 pub fn read(arguments: &Arguments) -> Outcome<Case> {
+    let mut case = read_file(arguments)?;
+    let measured = tool_modes(arguments, &mut case)?;
+    case.modes.extend(measured);
+    Ok(case)
+}
+
+/// The modes that were measured at the tip of the tool, where a file is given.
+pub fn tool_modes(arguments: &Arguments, case: &mut Case) -> Outcome<Vec<TipMode>> {
+    let Some(path) = &arguments.tool_frf else {
+        return Ok(Vec::new());
+    };
+    let measured = MeasuredTip::read(path)?;
+    case.inputs
+        .push((path.display().to_string(), measured.sha256));
+    case.remarks.extend(measured.remarks);
+    Ok(measured.modes)
+}
+
+fn read_file(arguments: &Arguments) -> Outcome<Case> {
     let path = &arguments.file;
     let bytes = read_bytes(path)?;
     let text = String::from_utf8_lossy(&bytes);

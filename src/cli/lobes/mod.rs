@@ -8,7 +8,7 @@ use super::output::{print, print_result};
 use super::{Ending, Verb, arguments, parsed};
 use crate::cutting::directional::Directional;
 use crate::cutting::mean::engagement;
-use crate::cutting::stability::{Multiplier, Passing, limit};
+use crate::cutting::stability::{Multiplier, Passing, TipMode, limit};
 use crate::cutting::wave::{Cut, Side};
 use crate::cutting::{Material, Tool};
 use crate::ground::problem::{Outcome, Problem};
@@ -46,6 +46,9 @@ struct Arguments {
     /// The robot where the tool is after this arc length of the job's path [default: the start pose]
     #[arg(long, value_name = "MM")]
     station: Option<f64>,
+    /// Hits on the tool's tip, or FRFs there (hammer test or universal file): its modes are added
+    #[arg(long, value_name = "FILE")]
+    tool_frf: Option<PathBuf>,
     /// Side of the stock for a job: slot, up or down
     #[arg(long, default_value = "slot", value_parser = ["slot", "up", "down"])]
     cut: String,
@@ -65,7 +68,7 @@ struct Arguments {
 struct Case {
     inputs: Vec<(String, String)>,
     name: String,
-    modes: Vec<crate::cutting::stability::TipMode>,
+    modes: Vec<TipMode>,
     tool: Tool,
     material: Material,
     width_m: f64,
