@@ -7,6 +7,11 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// What is left of `v` once everything in the span of `columns` is taken out (modified Gram and Schmidt, twice).
 pub fn beyond(v: &[f64], columns: &[Vec<f64>]) -> Vec<f64> {
+    without(v, &basis(columns))
+}
+
+/// Orthonormal columns of the same span.
+pub fn basis(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     for column in columns {
         let whole = dot(column, column);
@@ -16,10 +21,11 @@ pub fn beyond(v: &[f64], columns: &[Vec<f64>]) -> Vec<f64> {
             basis.push(left.iter().map(|x| x / size.sqrt()).collect());
         }
     }
-    without(v, &basis)
+    basis
 }
 
-fn without(v: &[f64], basis: &[Vec<f64>]) -> Vec<f64> {
+/// What is left of `v` beyond orthonormal columns.
+pub fn without(v: &[f64], basis: &[Vec<f64>]) -> Vec<f64> {
     let mut left = v.to_vec();
     for _ in 0..2 {
         for b in basis {

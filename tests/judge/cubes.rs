@@ -2,9 +2,10 @@
 //! stands still in base axes while its arm moves; turns are quaternions, equilibrium is found by iteration.
 
 use super::algebra::{
-    Quat, V3, axis, cross, dot, length_beyond, minus, norm, plus, scaled, times, turn, turned, unit,
+    Quat, V3, axis, cross, dot, length_beyond, minus, norm, plus, scaled, turn, turned, unit,
 };
 use super::chosen::{USUAL, chosen};
+use super::rigid::{Frame, Motion, across, facing, postured};
 use super::{Case, Truth, chance, pick, twin};
 use ident::ground::random::Random;
 
@@ -70,36 +71,6 @@ struct Habit {
     turns: bool,
     told_std: bool,
     rounding: f64,
-}
-
-/// A finite rigid motion.
-#[derive(Debug, Clone, Copy)]
-struct Motion {
-    turn: Quat,
-    shift: V3,
-}
-
-impl Motion {
-    fn still() -> Self {
-        Self {
-            turn: [1.0, 0.0, 0.0, 0.0],
-            shift: [0.0; 3],
-        }
-    }
-
-    fn of(self, x: V3) -> V3 {
-        plus(turned(self.turn, x), self.shift)
-    }
-
-    /// First a turn about a line of the unloaded posture, then this motion.
-    fn then_about(self, axis: V3, point: V3, angle: f64) -> Self {
-        let own = turn(axis, angle);
-        let shift = minus(point, turned(own, point));
-        Self {
-            turn: times(self.turn, own),
-            shift: plus(turned(self.turn, shift), self.shift),
-        }
-    }
 }
 
 impl World {
@@ -240,14 +211,6 @@ fn moved(world: &World, chain: &[Motion], cube: &Cube) -> [f64; 6] {
     [d[0], d[1], d[2], r[0], r[1], r[2]]
 }
 
-/// Geometry at zero: axes, points on them, flange, tool centre point.
-struct Frame {
-    axes: [V3; 6],
-    points: [V3; 6],
-    flange: V3,
-    tcp: V3,
-}
-
 fn frame(random: &mut Random) -> Frame {
     let mut near = |x: f64| (x * random.uniform(0.9, 1.1) * 1e3).round() / 1e3;
     let (d, h, upper, drop, fore, hand) = (
@@ -282,20 +245,6 @@ fn frame(random: &mut Random) -> Frame {
     }
 }
 
-/// Where things of link n are in the posture: the product of the joints before, proximal first.
-fn postured(frame: &Frame, joints: &[f64; 6], link: usize, x: V3) -> V3 {
-    (0..link).rev().fold(x, |x, j| {
-        let q = turn(frame.axes[j], joints[j]);
-        plus(turned(q, minus(x, frame.points[j])), frame.points[j])
-    })
-}
-
-fn facing(frame: &Frame, joints: &[f64; 6], link: usize, v: V3) -> V3 {
-    (0..link)
-        .rev()
-        .fold(v, |v, j| turned(turn(frame.axes[j], joints[j]), v))
-}
-
 const DRIVES: [f64; 6] = [5.6e6, 8.04e6, 3.12e6, 7.2e5, 6.59e5, 3.14e5];
 const TILTS: [f64; 6] = [1.33e7, 2.61e7, 1.54e6, 1.93e6, 6.58e5, 1.9e6];
 
@@ -307,13 +256,6 @@ fn known_to(told: bool, interval: bool, near: f64, k: f64) -> Option<String> {
         false => format!("stiffness_rel_std = {near}"),
     };
     told.then_some(line)
-}
-
-/// Two directions across a third.
-fn across(a: V3) -> [V3; 2] {
-    let other = if a[2].abs() < 0.9 { axis(2) } else { axis(0) };
-    let first = unit(cross(a, other));
-    [first, cross(a, first)]
 }
 
 /// Faults of structure that a case may hide, beside those of springs in the file.

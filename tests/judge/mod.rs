@@ -4,12 +4,15 @@
 #![allow(dead_code)]
 
 pub mod algebra;
+mod arm;
 mod chosen;
 pub mod cubes;
 pub mod force_sensor;
 pub mod intervals;
 pub mod milling_force;
+mod rigid;
 pub mod screw;
+pub mod workspace;
 
 use ident::findings::kinds::kind;
 use ident::findings::{Answer, Verdict};
@@ -95,6 +98,8 @@ pub struct Judged {
     /// Groups: effects and sites.
     pub groups: Vec<Vec<(String, String)>>,
     pub verdict: Verdict,
+    /// Intervals of 95 % of the gain of each cause, percent.
+    pub gains: Vec<[f64; 2]>,
     /// The file was not read.
     pub refused: bool,
 }
@@ -135,6 +140,7 @@ impl Judged {
             causes: answer.causes.iter().map(cause).collect(),
             groups: answer.groups.iter().map(group).collect(),
             verdict: answer.verdict,
+            gains: answer.causes.iter().map(|c| c.gain.ci95_percent).collect(),
             refused: false,
         }
     }
@@ -243,6 +249,7 @@ pub fn answer(case: Case) -> Judged {
                 causes: Vec::new(),
                 groups: Vec::new(),
                 verdict: Verdict::CannotTell,
+                gains: Vec::new(),
                 refused: true,
             }
         }
@@ -313,7 +320,7 @@ pub fn conclude(kind: &str, all: &[Judged]) -> Rates {
         own.exact += usize::from(one.exact());
         own.wrong += usize::from(one.wrong());
         let plain = |t: &Truth| match t.effect {
-            "outside" => format!("outside: {}", t.law),
+            "outside" => format!("outside: {}", t.law.split(';').next().unwrap_or("")),
             effect => effect.to_string(),
         };
         let hidden: Vec<String> = one.case.truths.iter().map(plain).collect();
@@ -496,6 +503,25 @@ impl Held {
         );
         sum
     }
+}
+
+/// Whether the interval of the gain holds what the true cause is worth, where one is hidden and it alone is named:
+/// with everything else as the files state it, and with everything else as it is.
+pub fn gains(all: &[Judged], worth: fn(u64) -> [f64; 2]) -> Held {
+    let mut held = Held::default();
+    let plain = |j: &&Judged| j.case.class() == "single" && j.exact() && j.causes.len() == 1;
+    for one in all.iter().filter(plain) {
+        let ([low, high], truth) = (one.gains[0], worth(one.case.seed));
+        held.add("gain over the stated model", low, high, truth[0]);
+        held.add("gain over the true model", low, high, truth[1]);
+        if std::env::var("IDENT_DEBUG").is_ok() && !truth.iter().any(|t| (low..=high).contains(t)) {
+            println!(
+                "# {} gain {truth:.1?} % not in [{low:.1}, {high:.1}]",
+                one.case.seed
+            );
+        }
+    }
+    held
 }
 
 /// Whether what a rival leaves of an effect is nothing that data tell: within chance, or within the few percent
