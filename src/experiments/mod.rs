@@ -2,6 +2,7 @@
 
 pub mod cubes;
 pub mod drive_law;
+pub mod finite_turns;
 pub mod hammer_checks;
 pub mod hammer_force;
 pub mod hammer_frf;

@@ -9,6 +9,8 @@ pub(super) struct Rest {
     /// Cell of each reading: forces of one level and one branch.
     pub cells: Vec<usize>,
     pub count: Vec<f64>,
+    /// Doubt of the model in every cell beside the noise, standard deviation, m.
+    pub doubt: Vec<f64>,
     pub cycles: usize,
     pub component: usize,
     pub point: usize,
@@ -73,6 +75,7 @@ impl Rest {
             readings,
             kept,
             cells,
+            doubt: vec![0.0; count.len()],
             count,
             cycles: own.cycles.len(),
             component,
@@ -94,10 +97,14 @@ impl Rest {
     }
 
     /// Shares of the even part, of the cubic part and of the loop in what the line leaves.
-    pub fn bends(&self, left: &[f64]) -> [f64; 3] {
+    pub fn bends(&self, left: &[f64], noise: f64) -> [f64; 3] {
         let levels = self.levels();
         let largest = levels.iter().fold(1e-300, |m: f64, l| m.max(l.force.abs()));
-        let root: Vec<f64> = self.count.iter().map(|n| n.sqrt()).collect();
+        let weights = self.weights(noise);
+        let most = weights
+            .iter()
+            .fold(f64::MIN_POSITIVE, |m: f64, w| m.max(*w));
+        let root: Vec<f64> = weights.iter().map(|w| w / most).collect();
         let shape = |of: fn(f64, f64) -> f64| -> Vec<f64> {
             let side = |l: &Level| if l.rising { 1.0 } else { -1.0 };
             let value = |(l, n): (&Level, &f64)| n * of(l.force / largest, side(l));
@@ -173,12 +180,18 @@ impl Rest {
             return (None, vec![0.0; self.count.len()]);
         };
         let means = self.means(|i| left[i]);
-        let scaled = means.iter().zip(&self.count);
-        let noise = noise.max(f64::MIN_POSITIVE);
-        (
-            Some(fit.slope),
-            scaled.map(|(m, n)| m * n.sqrt() / noise).collect(),
-        )
+        let weights = self.weights(noise);
+        let scaled = means.iter().zip(&weights).map(|(m, w)| m * w);
+        (Some(fit.slope), scaled.collect())
+    }
+
+    /// One over the standard deviation of the mean of every cell, 1/m; none without readings.
+    fn weights(&self, noise: f64) -> Vec<f64> {
+        let weight = |(n, doubt): (&f64, &f64)| match *n > 0.0 {
+            true => 1.0 / (noise / n.sqrt()).hypot(*doubt).max(f64::MIN_POSITIVE),
+            false => 0.0,
+        };
+        self.count.iter().zip(&self.doubt).map(weight).collect()
     }
 
     /// Squares about the means of the cells, and their degrees of freedom.

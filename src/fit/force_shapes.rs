@@ -178,11 +178,22 @@ impl Shapes {
     pub fn bends(&self, left: &[f64]) -> ([f64; 3], f64) {
         let (mut sums, mut at) = ([0.0; 3], 0);
         for rest in &self.rests {
-            let own = rest.bends(&left[at..at + rest.count.len()]);
+            let noise = self.noise[rest.component];
+            let own = rest.bends(&left[at..at + rest.count.len()], noise);
             (0..3).for_each(|k| sums[k] += (own[k] / self.widen).powi(2));
             at += rest.count.len();
         }
         (sums, self.rests.len() as f64)
+    }
+
+    /// Puts up with a deviation of the model at every level beside the noise, m, in the order of [`Shapes::levels`].
+    pub fn doubt(&mut self, levels: &[f64]) {
+        let mut first = 0;
+        for rest in &mut self.rests {
+            let last = first + rest.count.len();
+            rest.doubt = levels[first..last].to_vec();
+            first = last;
+        }
     }
 
     /// Whether what the lines leave (in the units of [`Shapes::left`]) is hardly noise.

@@ -51,5 +51,6 @@ pub mod stiffness;
 pub mod store;
 pub mod stored_text;
 pub mod suitability;
+pub mod told_force;
 pub mod validation;
 pub mod weighing;

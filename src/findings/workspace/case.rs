@@ -1,5 +1,6 @@
 //! Everything that is known about a test before causes are named.
 
+use super::beyond::Beyond;
 use super::columns::Columns;
 use super::field::{Field, Springs};
 use super::patterns::Scene;
@@ -25,6 +26,9 @@ const LAW: f64 = 0.05;
 /// Amounts are reported with priors this many times as wide: without shrinkage.
 const FREE: f64 = 30.0;
 
+/// Beyond so many points a second look costs more than it tells, unless an instrument is suspect.
+const FEW: usize = 100;
+
 /// A test with all columns, and the sets of causes compared.
 pub(super) struct Case<'a> {
     pub(super) test: &'a WorkspaceTest,
@@ -44,24 +48,40 @@ pub(super) struct Case<'a> {
 
 impl<'a> Case<'a> {
     /// Twice where an instrument is suspect: it acts upon what it makes of the true displacement.
+    /// And where the robot is: how far it lies beyond proportion follows from how soft it is.
     pub(super) fn of(test: &'a WorkspaceTest, robot: &'a Robot) -> Self {
-        let first = Self::about(test, robot, &[]);
+        let first = Self::about(test, robot, (&[], robot));
         let best = &first.posterior.sets[0].0;
         let columns = first.columns_of(best);
         let blamed = columns.iter().any(|c| first.seats.columns[*c].instrument);
-        match blamed {
+        let few = test.facts.joint_angles.len() <= FEW && !columns.is_empty();
+        match blamed || few {
             false => first,
             true => {
+                let softer = first.extended(best);
                 drop(first);
-                Self::about(test, robot, &columns)
+                Self::about(test, robot, (&columns, &softer))
             }
         }
     }
 
-    /// With the columns of the causes that are suspect.
-    fn about(test: &'a WorkspaceTest, robot: &'a Robot, suspect: &[usize]) -> Self {
+    /// With the columns of the causes that are suspect, the robot being as soft as `bent` is.
+    fn about(
+        test: &'a WorkspaceTest,
+        robot: &'a Robot,
+        (suspect, bent): (&[usize], &Robot),
+    ) -> Self {
         let points = &test.facts.joint_angles;
-        let shapes = Shapes::of(test);
+        let mut shapes = Shapes::of(test);
+        let beyond = Beyond::of(bent, test);
+        beyond.doubt(&mut shapes);
+        let instruments = |seats: &Seats| -> Vec<usize> {
+            let read = |c: &usize| seats.columns[*c].instrument;
+            match suspect.iter().any(read) {
+                true => suspect.to_vec(),
+                false => Vec::new(),
+            }
+        };
         let mut scene = Scene::of(robot, points);
         let mut seats = Seats::of(&scene, &shapes);
         let response = Response::of(robot, points);
@@ -72,8 +92,9 @@ impl<'a> Case<'a> {
             .nominal_rel_std
             .unwrap_or(DEFAULT_SPREAD)
             .max(1e-6);
+        let suspect = instruments(&seats);
         for _ in 0..3 {
-            let smooth = smooth(&scene, &seats, &weighing, (&response, spread), suspect);
+            let smooth = smooth(&scene, &seats, &weighing, (&response, spread), &suspect);
             let size = |p: usize, d: usize| {
                 let error: V3 =
                     std::array::from_fn(|k| smooth.read[p][d][k] - scene.base.slopes[p][d][k]);
@@ -85,14 +106,24 @@ impl<'a> Case<'a> {
             seats.read_again(&scene, &shapes);
         }
         let left = shapes.left();
-        let own =
-            |p: usize, d: usize, f: &[f64]| scene.base.jumps((p, d), f, (Law::Free(STOP), 0.0));
-        let jumps = shapes.seen(own).1;
+        let own = |p: usize, d: usize, f: &[f64]| {
+            let jumps = scene.base.jumps((p, d), f, (Law::Free(STOP), 0.0));
+            beyond.added((p, d), f, jumps)
+        };
+        let (lines, jumps) = shapes.seen(own);
         let bends: Vec<f64> = left.iter().zip(&jumps).map(|(l, j)| l - j).collect();
         if shapes.is_bent(&bends) {
             weigh(&mut seats, &scene, &shapes, &bends);
         }
-        let slopes = weighing.measured() - weighing.whiten(|p, d| scene.base.slopes[p][d]);
+        let line = |p: usize, d: usize| -> V3 {
+            let here = shapes
+                .setups
+                .iter()
+                .position(|s| (s.point, s.direction) == (p, d));
+            let own = here.map_or([None; 3], |i| lines[i]);
+            std::array::from_fn(|k| scene.base.slopes[p][d][k] + own[k].unwrap_or(0.0))
+        };
+        let slopes = weighing.measured() - weighing.whiten(line);
         let readings: Vec<f64> = slopes.iter().copied().chain(bends).collect();
         let readings = DVector::from_vec(readings);
         let levels = left.len();

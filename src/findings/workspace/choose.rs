@@ -7,6 +7,7 @@ use super::seats::Seat;
 use super::unseen::{Rows, fitted, gain, held_out};
 use crate::findings::gain::Gain;
 use crate::fit::force_shapes::Level;
+use crate::fit::force_steps::Setup;
 use crate::ground::spatial::M3;
 
 /// Probability of a cause (it or any other in its stead) against none, below which it is not named.
@@ -55,7 +56,7 @@ impl Case<'_> {
     }
 
     /// The set less one seat, its other seats in the same forms.
-    fn without(&self, set: &Set, seat: usize) -> Set {
+    pub(super) fn without(&self, set: &Set, seat: usize) -> Set {
         let keep: Vec<usize> = (0..set.seats.len())
             .filter(|i| set.seats[*i] != seat)
             .collect();
@@ -120,14 +121,32 @@ impl Case<'_> {
     /// What is left at one point for the cycles of a set-up that follow the one fitted: the slopes
     /// of cycles differ by the noise of readings only, which is small beside that of a set-up.
     fn seen_at(&self, point: usize, set: &Set) -> Vec<f64> {
-        let mut left = fitted(&self.rows(set, self.readings.len()));
+        let left = fitted(&self.rows(set, self.readings.len()));
         let places = self.weighing.places();
-        let here = |i: usize| places.get(i).is_some_and(|place| place.0 == point);
-        let far = (0..left.len()).filter(|i| !here(*i));
-        far.collect::<Vec<_>>()
-            .into_iter()
-            .for_each(|i| left[i] = f64::NAN);
-        left
+        let scatter = self.scatter();
+        let own = |(i, left): (usize, f64)| match places.get(i) {
+            Some(place) if place.0 == point => left.hypot(scatter[i]),
+            _ => f64::NAN,
+        };
+        left.into_iter().enumerate().map(own).collect()
+    }
+
+    /// How far the slope of one cycle lies from that of the others by the noise of readings, in standard
+    /// deviations of a slope; all of one where no cycle repeats another. By row.
+    fn scatter(&self) -> Vec<f64> {
+        let deviations = self.weighing.deviations();
+        let measured = |s: &&Setup| s.lines.iter().any(Option::is_some);
+        let setups: Vec<&Setup> = self.shapes.setups.iter().filter(measured).collect();
+        let of = |(point, direction, k): (usize, usize, usize)| {
+            let here = |s: &&Setup| (s.point, s.direction) == (point, direction);
+            let at = setups.iter().position(here)?;
+            let cycles = setups[at].cycles as f64;
+            let alone = cycles / (cycles - 1.0).sqrt();
+            let own = setups[at].lines[k]?.stderr * alone / deviations[at][k];
+            (own < 1.0).then_some(own)
+        };
+        let places = self.weighing.places().into_iter();
+        places.map(|place| of(place).unwrap_or(1.0)).collect()
     }
 
     /// Which rows are left out together. Beyond the slopes the levels are rows where the set bends the

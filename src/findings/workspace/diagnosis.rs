@@ -68,20 +68,15 @@ pub fn diagnose(test: &WorkspaceTest, robot: &Robot) -> WorkspaceDiagnosis {
 impl Case<'_> {
     fn conclude(self) -> WorkspaceDiagnosis {
         let chosen = self.choose();
-        let adequacy = self.adequacy(&chosen);
-        let strange = chosen
-            .seats
-            .iter()
-            .find(|s| self.seats.seats[**s].stranger)
-            .copied();
+        let stranger = |s: &&usize| self.seats.seats[**s].stranger;
+        let strange = chosen.seats.iter().find(stranger).copied();
+        let adequacy = self.adequacy(&self.known(&chosen));
         let (causes, groups) = self.name(&chosen);
         let mut answer = Answer {
-            verdict: verdict(
-                &causes,
-                &groups,
-                &adequacy,
-                strange.is_some() || scattered(&causes),
-            ),
+            verdict: match scattered(&causes) {
+                true => Verdict::UnknownCause,
+                false => verdict(&causes, &groups, &adequacy, strange.is_some()),
+            },
             discrepancy: self.discrepancy(),
             causes,
             groups,
@@ -117,6 +112,21 @@ impl Case<'_> {
         }
     }
 
+    /// A set without those who are of no library.
+    fn known(&self, set: &Set) -> Set {
+        let stranger = |set: &Set| {
+            set.seats
+                .iter()
+                .copied()
+                .find(|s| self.seats.seats[*s].stranger)
+        };
+        let mut known = set.clone();
+        while let Some(seat) = stranger(&known) {
+            known = self.without(&known, seat);
+        }
+        known
+    }
+
     /// The posterior with the instruments summed out.
     fn belief(&self) -> Belief {
         let seats = &self.seats.seats;
@@ -132,7 +142,7 @@ impl Case<'_> {
         Belief::new(sees.collect(), weighed)
     }
 
-    fn extended(&self, set: &Set) -> Robot {
+    pub(super) fn extended(&self, set: &Set) -> Robot {
         let mut robot = self.scene.robot.clone();
         for seat in set.seats.iter().filter(|s| !self.seats.seats[**s].stranger) {
             let own = &self.seats.seats[*seat];
@@ -153,7 +163,7 @@ fn verdict(causes: &[Cause], groups: &[Group], adequacy: &Adequacy, strange: boo
     match (causes.is_empty(), adequacy.is_left() || strange) {
         (true, true) => Verdict::UnknownCause,
         (true, false) => Verdict::Sufficient,
-        (false, true) if strange || adequacy.share > NOT_THE_STORY => Verdict::UnknownCause,
+        (false, true) if adequacy.share > NOT_THE_STORY => Verdict::UnknownCause,
         (false, true) => Verdict::PartlyExplained,
         (false, false) if groups.len() == causes.len() => Verdict::CannotTell,
         (false, false) => Verdict::Explained,

@@ -2,6 +2,7 @@
 //! is a closed form, and all of them can be compared.
 
 mod adequacy;
+mod beyond;
 mod case;
 mod choose;
 mod columns;

@@ -1,0 +1,65 @@
+//! What lies beyond proportion although nothing is wrong: springs that turn by finite angles, and forces
+//! that were told on a coarse grid.
+
+use crate::experiments::finite_turns::FiniteTurns;
+use crate::fit::force_shapes::{Level, Shapes};
+use crate::fit::told_force::grid;
+use crate::ground::spatial::{V3, add, norm};
+use crate::measurement::workspace_test::WorkspaceTest;
+use crate::robot::Robot;
+
+/// What turns do beyond proportion is known to this share ...
+const TURNS: f64 = 0.3;
+/// ... and no displacement is in proportion to better than this share of itself.
+const PROPORTION: f64 = 0.001;
+
+/// The even part of the displacement, and how well it is known.
+pub(super) struct Beyond {
+    turns: FiniteTurns,
+    /// Standard deviation of a told force, N.
+    rounding: f64,
+}
+
+impl Beyond {
+    pub(super) fn of(robot: &Robot, test: &WorkspaceTest) -> Self {
+        let forces = || test.steps.iter().map(|step| step.force);
+        let largest = forces().fold(0.0_f64, |most, force| most.max(force.abs()));
+        Self {
+            turns: FiniteTurns::of(robot, &test.facts.joint_angles, largest),
+            rounding: grid(forces()).unwrap_or(0.0) / 12_f64.sqrt(),
+        }
+    }
+
+    /// Displacements, m, of forces (N, in their order) with what turns add.
+    pub(super) fn added(&self, place: (usize, usize), forces: &[f64], to: Vec<V3>) -> Vec<V3> {
+        let pairs = to.into_iter().zip(forces);
+        pairs
+            .map(|(moved, force)| add(moved, self.turns.beyond(place, *force)))
+            .collect()
+    }
+
+    /// Tells the shapes how well the levels can be predicted.
+    pub(super) fn doubt(&self, shapes: &mut Shapes) {
+        let slope = |level: &Level| -> V3 {
+            let own = |s: &&crate::fit::force_steps::Setup| {
+                (s.point, s.direction) == (level.point, level.direction)
+            };
+            let lines = shapes
+                .setups
+                .iter()
+                .find(own)
+                .map_or([None; 3], |s| s.lines);
+            lines.map(|line| line.map_or(0.0, |line| line.slope))
+        };
+        let doubt = |level: &Level| {
+            let slope = slope(level);
+            let place = (level.point, level.direction);
+            let turns = TURNS * self.turns.size(place, level.force);
+            let told = self.rounding * slope[level.component].abs();
+            let straight = PROPORTION * norm(slope) * level.force.abs();
+            turns.hypot(told).hypot(straight)
+        };
+        let doubts: Vec<f64> = shapes.levels().iter().map(doubt).collect();
+        shapes.doubt(&doubts);
+    }
+}
