@@ -81,6 +81,7 @@ mod robot_documents;
 mod robot_files;
 mod robot_frf;
 mod robot_inverse;
+mod robot_picture;
 mod robot_pinocchio;
 mod robot_swing;
 mod screw;
