@@ -59,6 +59,7 @@ mod hammer_modes;
 mod hammer_tuning;
 mod hit_screening;
 mod honest;
+mod import_asks;
 mod inputs;
 mod inspect;
 mod instruments_cli;
