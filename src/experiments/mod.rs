@@ -13,5 +13,6 @@ pub mod hammer_screen;
 pub mod hammer_variance;
 pub mod load_cycle;
 pub mod milling_force;
+pub mod robot_picture;
 pub mod schedule;
 pub mod workspace;

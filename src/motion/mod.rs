@@ -16,6 +16,7 @@ pub mod numeric;
 pub mod posture;
 pub mod receptance;
 pub mod servo;
+pub mod skeleton;
 pub mod statics;
 pub mod swing;
 pub mod swing_state;

@@ -9,6 +9,12 @@ pub struct Strand {
     pub points: Vec<[f64; 3]>,
     /// Drawn thin.
     pub thin: bool,
+    /// Colour from 0 (little) to 1 (most); none: by its place in the legend.
+    pub tint: Option<f64>,
+    /// Every point a disc with the name beside it, in place of a line.
+    pub disc: bool,
+    /// How far each point swings to either side, in the scene's unit; empty: it stands still.
+    pub swing: Vec<[f64; 3]>,
 }
 
 /// A view in space. It stands beside a figure that shows the same on paper.

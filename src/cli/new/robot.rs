@@ -4,9 +4,10 @@
 use super::absent;
 use crate::cli::Ending;
 use crate::cli::output::{print, print_result};
+use crate::experiments::robot_picture::chart;
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
-use crate::ground::spatial::V3;
+use crate::motion::skeleton::skeleton;
 use crate::report::svg;
 use crate::robot::builtin::BUILTINS;
 use crate::robot::check::{self, Remark};
@@ -14,7 +15,7 @@ use crate::robot::dh::{self, Convention};
 use crate::robot::guess::{Guess, Guessed, fill, reach};
 use crate::robot::load::load;
 use crate::robot::{Robot, urdf, write};
-use crate::sheet::chart::{Axis, Chart, Panel, Series};
+use crate::sheet::chart::Chart;
 use crate::sheet::number::significant;
 use clap::{Args, ValueEnum};
 use serde_json::json;
@@ -168,53 +169,8 @@ fn account(
 
 /// The robot at zero from the side and from above.
 fn figure(robot: &Robot) -> Chart {
-    let joints = robot.joints.iter().map(|joint| joint.point);
-    let points: Vec<V3> = [[0.0; 3]]
-        .into_iter()
-        .chain(joints)
-        .chain([robot.tool.flange, robot.tool.tcp])
-        .collect();
-    let length = 0.08 * reach(robot);
-    let panel = |[a, b]: [usize; 2]| {
-        let names = ["x", "y", "z"];
-        let flat = |p: &V3| [p[a], p[b]];
-        let gap = [f64::NAN; 2];
-        let axes = robot.joints.iter().flat_map(|joint| {
-            let end =
-                |sign: f64| std::array::from_fn(|i| joint.point[i] + sign * length * joint.axis[i]);
-            [flat(&end(-1.0)), flat(&end(1.0)), gap]
-        });
-        let mut panel = Panel::new(Axis::new(names[a], "m"), Axis::new(names[b], "m")).equal_axes();
-        panel = panel.with(Series::line("links", points.iter().map(flat).collect()));
-        panel = panel.with(Series::dashed("axes", axes.collect()));
-        panel = panel.with(Series::points(
-            "joints",
-            robot.joints.iter().map(|j| flat(&j.point)).collect(),
-        ));
-        let named = robot
-            .joints
-            .iter()
-            .fold(Vec::<([f64; 2], String)>::new(), |mut all, joint| {
-                let at = flat(&joint.point);
-                match all
-                    .iter_mut()
-                    .find(|(other, _)| (other[0] - at[0]).hypot(other[1] - at[1]) < 0.5 * length)
-                {
-                    Some((_, name)) => *name += &format!(" {}", joint.name),
-                    None => all.push((at, joint.name.clone())),
-                }
-                all
-            });
-        named
-            .into_iter()
-            .fold(panel, |panel, (at, name)| panel.named(at, name))
-    };
-    let caption = "Every joint at zero. Links as straight lines between the points of the joints; dashed: their axes.";
-    Chart::new(
-        "robot",
-        format!("{} from the side and from above", robot.name),
-        caption,
-    )
-    .with(panel([0, 2]))
-    .with(panel([0, 1]))
+    let caption = "Every joint at zero. Links as straight lines between the points of the joints.";
+    let title = format!("{} from the side and from above", robot.name);
+    let zero = skeleton(robot, &vec![0.0; robot.dof()]);
+    chart(Chart::new("robot", title, caption), &zero, None)
 }

@@ -49,6 +49,7 @@ pub fn scene(planned: &Planned) -> Scene {
         name: name.into(),
         points: points.into_iter().map(|p| p.map(|x| x * 1e3)).collect(),
         thin,
+        ..Strand::default()
     };
     let kinds = KINDS.into_iter().zip(kinds(planned));
     let mut strands: Vec<Strand> = kinds

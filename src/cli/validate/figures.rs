@@ -1,12 +1,13 @@
 //! The figures of `ident validate`, in the manner of the thesis (source 000, Figs. 3.5 and 3.6).
 
 use super::Validated;
+use crate::experiments::robot_picture::scene;
 use crate::fit::validation::Comparison;
 use crate::ground::spatial::V3;
 use crate::measurement::workspace_test::DIRECTIONS;
-use crate::motion::kinematics::{forward_kinematics, hinge_point};
-use crate::motion::{Chain, Work, rigid};
+use crate::motion::skeleton::{Skeleton, mean_shares, skeleton};
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
+use crate::sheet::scene::Scene;
 
 /// Bars of measured, simulated and simulated stiffness without tilt, one panel per direction.
 pub fn stiffness(validated: &Validated) -> Chart {
@@ -78,13 +79,9 @@ pub fn errors(validated: &Validated) -> Chart {
 
 /// The points on the robot, from the side and from above.
 pub fn map(validated: &Validated) -> Chart {
-    let chain = rigid(&validated.robot);
-    let lines: Vec<Vec<V3>> = validated
-        .test
-        .facts
-        .joint_angles
-        .iter()
-        .map(|q| skeleton(&chain, q))
+    let postures = validated.test.facts.joint_angles.iter();
+    let lines: Vec<Vec<V3>> = postures
+        .map(|q| skeleton(&validated.robot, q).line)
         .collect();
     let view = |name: &str, across: usize, up: usize| {
         let axis = |k: usize| Axis::new(DIRECTIONS[k], "m");
@@ -119,13 +116,20 @@ pub fn map(validated: &Validated) -> Chart {
     .synthetic(validated.test.facts.synthetic)
 }
 
-/// Base, the points of the joints, tool centre point: m, base frame.
-fn skeleton(chain: &Chain, angles: &[f64]) -> Vec<V3> {
-    let mut work = Work::new(chain);
-    let tool = forward_kinematics(chain, &mut work, &chain.spread(angles)).point;
-    let joints = (0..chain.len()).map(|i| hinge_point(&work, i));
-    let mut line = vec![[0.0; 3]];
-    line.extend(joints);
-    line.push(tool);
-    line
+/// The same in space: the first posture with the share that each joint has in the deflection there, the
+/// mean over the directions, and the others thin.
+pub fn space(validated: &Validated) -> Option<Scene> {
+    let (first, others) = validated.test.facts.joint_angles.split_first()?;
+    let robot = skeleton(&validated.robot, first);
+    let others: Vec<Skeleton> = others
+        .iter()
+        .map(|q| skeleton(&validated.robot, q))
+        .collect();
+    let shares = mean_shares(&validated.robot, first);
+    Some(scene(
+        "The robot at point 1 and, thin, at the others",
+        &robot,
+        &shares,
+        &others,
+    ))
 }

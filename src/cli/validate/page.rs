@@ -17,12 +17,16 @@ pub fn page(validated: &Validated) -> Page {
     for warning in &validated.found.warnings {
         page = page.with(Block::verdict(Tone::Attention, capital(warning)));
     }
-    page.with(Block::heading("Measured and simulated"))
+    page = page
+        .with(Block::heading("Measured and simulated"))
         .with(Block::Chart(figures::stiffness(validated)))
         .with(Block::Table(tables::points(validated)))
         .with(Block::Chart(figures::errors(validated)))
-        .with(Block::heading("Where it was measured"))
-        .with(Block::Chart(figures::map(validated)))
+        .with(Block::heading("Where it was measured"));
+    if let Some(scene) = figures::space(validated) {
+        page = page.with(Block::Scene(scene));
+    }
+    page.with(Block::Chart(figures::map(validated)))
         .with(Block::heading("Re-identified"))
         .with(Block::Table(tables::parameters(validated)))
         .with(Block::Table(tables::inseparable(&validated.found)))

@@ -1,4 +1,6 @@
-//! `ident robot show | check | convert`: look at a robot file, doubt it, rewrite it.
+//! `ident robot show | check | convert | report`: look at a robot file, doubt it, rewrite it, draw it.
+
+mod report;
 
 use super::output::{print, print_result, tell};
 use super::{Ending, Verb, arguments};
@@ -16,12 +18,12 @@ use std::path::{Path, PathBuf};
 /// The verb.
 pub const VERB: Verb = Verb {
     name: "robot",
-    about: "Show, check and convert robot files",
+    about: "Show, check, convert and draw robot files",
     arguments: arguments::<RobotVerb>,
     run,
 };
 
-/// Show, check and convert robot files.
+/// Show, check, convert and draw robot files.
 #[derive(Debug, Args)]
 pub struct RobotVerb {
     #[command(subcommand)]
@@ -36,6 +38,8 @@ enum What {
     Check(File),
     /// Write the robot as TOML
     Convert(Convert),
+    /// Draw it in space, with what gives way how much and its modes as they swing
+    Report(report::Report),
 }
 
 #[derive(Debug, Args)]
@@ -68,6 +72,7 @@ pub fn run(matches: &ArgMatches) -> Outcome<Ending> {
         What::Show(file) => show(&file),
         What::Check(file) => check_file(&file),
         What::Convert(convert) => convert.run(),
+        What::Report(report) => report.run(),
     }
 }
 
@@ -197,7 +202,7 @@ fn check_file(file: &File) -> Outcome<Ending> {
     let loaded = load(&file.robot, None)?;
     let remarks = check::remarks(&loaded.robot);
     if let Err(problem) = check::dynamics(&loaded.robot) {
-        let told = |remark: &Remark| tell(&format!("{}: {}", remark.site, remark.text));
+        let told = |remark: &Remark| tell(&remark_text(remark));
         remarks.iter().for_each(told);
         return Err(problem.in_text(Path::new(&loaded.path)));
     }
@@ -223,7 +228,11 @@ fn check_text(robot: &Robot, remarks: &[Remark]) -> String {
         robot.name
     );
     remarks.iter().for_each(|remark| {
-        let _ = writeln!(out, "{}: {}", remark.site, remark.text);
+        let _ = writeln!(out, "{}", remark_text(remark));
     });
     out
+}
+
+fn remark_text(remark: &Remark) -> String {
+    format!("{}: {}", remark.site, remark.text)
 }

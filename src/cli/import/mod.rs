@@ -1,5 +1,8 @@
 //! `ident import`: how the raw files of other programs are read, kept as a sidecar beside each.
 
+mod ask;
+mod needs;
+
 use super::output::print;
 use super::{Ending, Verb, arguments, parsed};
 use crate::findings::kinds::KINDS;
@@ -9,14 +12,16 @@ use crate::measurement::foreign::sidecar::{Sidecar, Source, place};
 use crate::measurement::foreign::{Reading, translated};
 use crate::measurement::table::Table;
 use crate::report::json;
+use ask::Talk;
 use clap::{ArgMatches, Args};
 use serde_json::{Map, Value, json};
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
 /// The verb.
 pub const VERB: Verb = Verb {
     name: "import",
-    about: "Show how raw files of other programs are read, and keep that beside them",
+    about: "Show how raw files of other programs are read, and keep that beside them; at a terminal it asks for what is missing",
     arguments: arguments::<Arguments>,
     run,
 };
@@ -63,10 +68,13 @@ struct Imported {
 
 fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let arguments: Arguments = parsed(matches);
-    let each = arguments
-        .files
-        .iter()
-        .map(|path| imported(path, &arguments));
+    let (mut answers, mut questions) = (std::io::stdin().lock(), std::io::stderr());
+    let mut talk = Talk::new(&mut answers, &mut questions);
+    let asks = std::io::stdin().is_terminal() && !arguments.json;
+    let each = arguments.files.iter().map(|path| {
+        let talk = asks.then_some(&mut talk);
+        imported(path, &arguments, talk)
+    });
     let all = each.collect::<Outcome<Vec<Imported>>>()?;
     if !arguments.dry_run {
         let write =
@@ -83,8 +91,12 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
     })
 }
 
-fn imported(path: &Path, arguments: &Arguments) -> Outcome<Imported> {
-    let sidecar = asked(Sidecar::beside(path)?, arguments)?;
+/// Reads a file; `talk`: who is asked for what nobody stated.
+fn imported(path: &Path, arguments: &Arguments, talk: Option<&mut Talk>) -> Outcome<Imported> {
+    let mut sidecar = asked(Sidecar::beside(path)?, arguments)?;
+    if let Some(talk) = talk {
+        sidecar = ask::completed(path, sidecar, talk)?;
+    }
     let reading = translated(path, &sidecar).map_err(|p| p.in_file(path))?;
     let table = match &reading {
         Some(reading) => {
@@ -98,7 +110,7 @@ fn imported(path: &Path, arguments: &Arguments) -> Outcome<Imported> {
     Ok(Imported {
         path: path.to_path_buf(),
         rows: table.rows,
-        missing: missing(&facts),
+        missing: missing(&facts, &table),
         sidecar,
         reading,
     })
@@ -160,21 +172,15 @@ fn value_of(text: &str) -> toml::Value {
     value.unwrap_or_else(|| toml::Value::String(text.to_string()))
 }
 
-/// Facts that every kind of load cycle and robot test needs and that nobody stated: all at once.
-fn missing(facts: &toml::Table) -> Vec<String> {
-    let kind = facts.get("kind").and_then(|k| k.as_str());
-    let needed: &[&str] = match kind {
-        None => &["kind"],
-        Some("workspace" | "hammer" | "cubes") => &["robot", "joint_angles_deg"],
-        Some("milling-force") => &["diameter_mm", "teeth", "cuts"],
-        Some("milled-part") => &["job"],
-        Some(_) => &[],
-    };
-    needed
+/// Facts that the kind needs and that nobody stated: all at once.
+fn missing(facts: &toml::Table, table: &Table) -> Vec<String> {
+    let names: Vec<String> = table
+        .columns
         .iter()
-        .filter(|k| !facts.contains_key(**k))
-        .map(|k| (*k).to_string())
-        .collect()
+        .map(|column| column.name.clone())
+        .collect();
+    let open = needs::missing(facts, &names);
+    open.iter().map(|fact| fact.key.to_string()).collect()
 }
 
 fn account(one: &Imported) -> String {
