@@ -17,6 +17,9 @@ pub struct Shapes {
     pub widen: f64,
     /// How far the zero of a component wanders from cycle to cycle, in standard deviations of a reading.
     pub wander: [f64; 3],
+    /// Slow noise moves the even part, the cubic part and the loop of a line so many times as much as the
+    /// scatter says.
+    slow: [f64; 3],
     /// Noise that the data sheet states, m.
     stated: Option<f64>,
     rests: Vec<Rest>,
@@ -47,6 +50,7 @@ impl Shapes {
             setups: setups(test),
             noise: [0.0; 3],
             widen: 1.0,
+            slow: [1.0; 3],
             stated: noise,
             wander: [0.0; 3],
             rests,
@@ -85,12 +89,28 @@ impl Shapes {
             false => self.slowness(),
         };
         self.widen = widen;
+        self.slow = self.slow_bends(&left, widen);
         let noise = self.noise;
         let lines = self.setups.iter_mut().flat_map(|s| s.lines.iter_mut());
         for (i, line) in lines.enumerate() {
             if let Some(line) = line {
                 share(line, noise[i % 3], widen);
             }
+        }
+    }
+
+    /// How much more than independent readings would the cycles of a line differ in their bends; where
+    /// too few repeat one, as much as in their slopes.
+    fn slow_bends(&self, left: &[Vec<f64>], widen: f64) -> [f64; 3] {
+        let (mut sums, mut freedom) = ([0.0; 3], 0.0);
+        for (rest, left) in self.rests.iter().zip(left) {
+            let (own, free) = rest.bend_scatter(left, self.noise[rest.component]);
+            (0..3).for_each(|k| sums[k] += own[k]);
+            freedom += free;
+        }
+        match freedom >= FREEDOM {
+            true => sums.map(|s| (s / freedom).sqrt().max(1.0)),
+            false => [widen; 3],
         }
     }
 
@@ -177,13 +197,20 @@ impl Shapes {
     /// the even part, of the cubic part and of the loop, in variances of the noise, and their number.
     pub fn bends(&self, left: &[f64]) -> ([f64; 3], f64) {
         let (mut sums, mut at) = ([0.0; 3], 0);
+        let mean = self.slow.iter().sum::<f64>() / 3.0;
         for rest in &self.rests {
-            let noise = self.noise[rest.component];
+            let noise = self.slow_noise(rest);
             let own = rest.bends(&left[at..at + rest.count.len()], noise);
-            (0..3).for_each(|k| sums[k] += (own[k] / self.widen).powi(2));
+            (0..3).for_each(|k| sums[k] += (own[k] * mean / self.slow[k]).powi(2));
             at += rest.count.len();
         }
         (sums, self.rests.len() as f64)
+    }
+
+    /// What counts as the noise of a reading where levels are compared, m: bends are what tells laws.
+    fn slow_noise(&self, rest: &Rest) -> f64 {
+        let mean = self.slow.iter().sum::<f64>() / 3.0;
+        self.noise[rest.component] * mean
     }
 
     /// Puts up with a deviation of the model at every level beside the noise, m, in the order of [`Shapes::levels`].
@@ -227,7 +254,7 @@ impl Shapes {
 
     /// What the lines leave at every level, in standard deviations of the mean there.
     pub fn left(&self) -> Vec<f64> {
-        let own = |rest: &Rest| rest.project(&rest.readings, self.noise[rest.component]).1;
+        let own = |rest: &Rest| rest.project(&rest.readings, self.slow_noise(rest)).1;
         self.rests.iter().flat_map(own).collect()
     }
 
@@ -248,7 +275,7 @@ impl Shapes {
                 ..*r
             });
             let readings: Vec<Reading> = moved.collect();
-            let (slope, own) = rest.project(&readings, self.noise[rest.component]);
+            let (slope, own) = rest.project(&readings, self.slow_noise(rest));
             let here = |s: &Setup| s.point == rest.point && s.direction == rest.direction;
             if let Some(i) = self.setups.iter().position(here) {
                 slopes[i][rest.component] = slope;
