@@ -9,6 +9,8 @@ pub(super) struct Rest {
     /// Cell of each reading: forces of one level and one branch.
     pub cells: Vec<usize>,
     pub count: Vec<f64>,
+    /// Noise of every cell in units of the common one.
+    pub rise: Vec<f64>,
     /// Doubt of the model in every cell beside the noise, standard deviation, m.
     pub doubt: Vec<f64>,
     pub cycles: usize,
@@ -75,6 +77,7 @@ impl Rest {
             readings,
             kept,
             cells,
+            rise: vec![1.0; count.len()],
             doubt: vec![0.0; count.len()],
             count,
             cycles: own.cycles.len(),
@@ -96,73 +99,29 @@ impl Rest {
         (changes.iter().sum(), changes.len() as f64)
     }
 
-    /// Shares of the even part, of the cubic part and of the loop in what the line leaves.
-    pub fn bends(&self, left: &[f64], noise: f64) -> [f64; 3] {
-        let basis = self.bent(noise);
-        basis.map(|own| dot(&own, left))
-    }
-
-    /// Squares of the bends of single cycles about their mean, in variances of readings that are
-    /// independent, and how many are free: slow noise bends more than its scatter says.
-    pub fn bend_scatter(&self, left: &[f64], noise: f64) -> ([f64; 3], f64) {
-        let basis = self.bent(noise);
-        let mut bends: Vec<[f64; 3]> = Vec::new();
-        for cycle in 0..self.cycles {
-            let mut sums = vec![[0.0; 2]; self.count.len()];
-            for (i, reading) in self.readings.iter().enumerate() {
-                if reading.cycle == cycle && self.kept[i] > 0.0 {
-                    let own = &mut sums[self.cells[i]];
-                    (own[0], own[1]) = (own[0] + left[i], own[1] + 1.0);
-                }
-            }
-            if sums.iter().all(|s| s[1] > 0.0) && noise > 0.0 {
-                let own: Vec<f64> = sums.iter().map(|s| s[0] / s[1].sqrt() / noise).collect();
-                bends.push(basis.each_ref().map(|b| dot(b, &own)));
-            }
+    /// Squares of noise, m², each with the force (N) at which it was seen: readings about the mean of their
+    /// cell, or where nothing is repeated half the square of the change to the next reading.
+    pub fn noises(&self, left: &[f64]) -> Vec<(f64, f64)> {
+        let means = self.means(|i| left[i]);
+        let repeated = |i: &usize| self.kept[*i] > 0.0 && self.count[self.cells[*i]] > 1.0;
+        let again = (0..left.len()).filter(repeated).map(|i| {
+            let n = self.count[self.cells[i]];
+            let square = (left[i] - means[self.cells[i]]).powi(2) * n / (n - 1.0);
+            (self.readings[i].force.abs(), square)
+        });
+        let again: Vec<(f64, f64)> = again.collect();
+        if !again.is_empty() {
+            return again;
         }
-        let count = bends.len() as f64;
-        let square = |k: usize| {
-            let mean = bends.iter().map(|b| b[k]).sum::<f64>() / count.max(1.0);
-            bends.iter().map(|b| (b[k] - mean).powi(2)).sum::<f64>()
+        let beside = |i: &usize| {
+            let same = self.readings[*i].cycle == self.readings[i - 1].cycle;
+            same && self.kept[*i] * self.kept[i - 1] > 0.0
         };
-        ([0, 1, 2].map(square), (count - 1.0).max(0.0))
-    }
-
-    /// The even part, the cubic part and the loop as unit vectors over the cells, across offset and line.
-    fn bent(&self, noise: f64) -> [Vec<f64>; 3] {
-        let levels = self.levels();
-        let largest = levels.iter().fold(1e-300, |m: f64, l| m.max(l.force.abs()));
-        let weights = self.weights(noise);
-        let most = weights
-            .iter()
-            .fold(f64::MIN_POSITIVE, |m: f64, w| m.max(*w));
-        let root: Vec<f64> = weights.iter().map(|w| w / most).collect();
-        let shape = |of: fn(f64, f64) -> f64| -> Vec<f64> {
-            let side = |l: &Level| if l.rising { 1.0 } else { -1.0 };
-            let value = |(l, n): (&Level, &f64)| n * of(l.force / largest, side(l));
-            levels.iter().zip(&root).map(value).collect()
-        };
-        let wanted = [
-            shape(|_, _| 1.0),
-            shape(|f, _| f),
-            shape(|f, _| f.abs()),
-            shape(|f, _| f * f * f),
-            shape(|_, side| side),
-        ];
-        let mut basis: Vec<Vec<f64>> = Vec::new();
-        for mut own in wanted {
-            let size = dot(&own, &own).sqrt();
-            for before in &basis {
-                let share = dot(&own, before);
-                own.iter_mut()
-                    .zip(before)
-                    .for_each(|(o, b)| *o -= share * b);
-            }
-            let rest = dot(&own, &own).sqrt();
-            let scale = if rest > 1e-6 * size { 1.0 / rest } else { 0.0 };
-            basis.push(own.iter().map(|o| o * scale).collect());
-        }
-        [2, 3, 4].map(|k| std::mem::take(&mut basis[k]))
+        let changes = (1..left.len()).filter(beside).map(|i| {
+            let force = 0.5 * (self.readings[i].force.abs() + self.readings[i - 1].force.abs());
+            (force, 0.5 * (left[i] - left[i - 1]).powi(2))
+        });
+        changes.collect()
     }
 
     /// The line of what was used.
@@ -218,12 +177,15 @@ impl Rest {
     }
 
     /// One over the standard deviation of the mean of every cell, 1/m; none without readings.
-    fn weights(&self, noise: f64) -> Vec<f64> {
-        let weight = |(n, doubt): (&f64, &f64)| match *n > 0.0 {
-            true => 1.0 / (noise / n.sqrt()).hypot(*doubt).max(f64::MIN_POSITIVE),
-            false => 0.0,
+    pub fn weights(&self, noise: f64) -> Vec<f64> {
+        let weight = |cell: usize| match self.count[cell] {
+            n if n > 0.0 => {
+                let own = noise * self.rise[cell] / n.sqrt();
+                1.0 / own.hypot(self.doubt[cell]).max(f64::MIN_POSITIVE)
+            }
+            _ => 0.0,
         };
-        self.count.iter().zip(&self.doubt).map(weight).collect()
+        (0..self.count.len()).map(weight).collect()
     }
 
     /// Squares about the means of the cells, and their degrees of freedom.
@@ -308,8 +270,4 @@ fn tame(residuals: &[f64], cells: &[usize], count: usize) -> Vec<f64> {
         true => kept,
         false => vec![1.0; kept.len()],
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

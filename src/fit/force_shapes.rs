@@ -3,7 +3,7 @@
 
 pub use super::force_rest::Level;
 use super::force_rest::Rest;
-use super::force_steps::{Line, Reading, Setup, by_setup, setups, straight};
+use super::force_steps::{Reading, Setup, by_setup, setups, straight};
 use crate::ground::spatial::V3;
 use crate::measurement::workspace_test::WorkspaceTest;
 
@@ -19,18 +19,11 @@ pub struct Shapes {
     pub wander: [f64; 3],
     /// Slow noise moves the even part, the cubic part and the loop of a line so many times as much as the
     /// scatter says.
-    slow: [f64; 3],
+    pub(super) slow: [f64; 3],
     /// Noise that the data sheet states, m.
-    stated: Option<f64>,
-    rests: Vec<Rest>,
+    pub(super) stated: Option<f64>,
+    pub(super) rests: Vec<Rest>,
 }
-
-/// Scatter this many times that of neighbours is shape.
-const SHAPE: f64 = 2.0;
-/// Degrees of freedom that the data sheet's noise is worth.
-const LIKELY: f64 = 30.0;
-/// Degrees of freedom below which the scatter between cycles is not trusted.
-const FREEDOM: f64 = 12.0;
 
 impl Shapes {
     /// Of a test.
@@ -60,60 +53,6 @@ impl Shapes {
         shapes
     }
 
-    /// Every set-up gets the noise of all: thirty readings say little of their own scatter.
-    fn share_noise(&mut self) {
-        let left: Vec<Vec<f64>> = self.rests.iter().map(Rest::left).collect();
-        let mut sums = [[0.0; 2]; 3];
-        let mut slopes = [0.0; 2];
-        for (rest, left) in self.rests.iter().zip(&left) {
-            let own = rest.scatter(left);
-            (0..2).for_each(|k| sums[rest.component][k] += own[k]);
-        }
-        let lines = |k: usize| self.setups.iter().filter_map(move |s| s.lines[k]);
-        for (k, sum) in sums.iter().enumerate() {
-            let own: f64 = lines(k).map(|l| l.rows as f64 * l.scatter.powi(2)).sum();
-            let rows: f64 = lines(k).map(|l| l.rows as f64).sum();
-            self.noise[k] = match sum[1] >= FREEDOM {
-                true => self.no_less(*sum, k, &sums),
-                false => self.without_repeats((own / rows.max(1.0)).sqrt(), k),
-            };
-        }
-        self.wander = self.wandering();
-        (0..3).for_each(|k| self.wander[k] = self.wander[k].max(self.growth(k)));
-        for (rest, left) in self.rests.iter().zip(&left) {
-            let own = rest.slope_scatter(left, self.noise[rest.component]);
-            (0..2).for_each(|k| slopes[k] += own[k]);
-        }
-        let widen = match slopes[1] >= FREEDOM {
-            true => (slopes[0] / slopes[1]).sqrt().max(1.0),
-            false => self.slowness(),
-        };
-        self.widen = widen;
-        self.slow = self.slow_bends(&left, widen);
-        let noise = self.noise;
-        let lines = self.setups.iter_mut().flat_map(|s| s.lines.iter_mut());
-        for (i, line) in lines.enumerate() {
-            if let Some(line) = line {
-                share(line, noise[i % 3], widen);
-            }
-        }
-    }
-
-    /// How much more than independent readings would the cycles of a line differ in their bends; where
-    /// too few repeat one, as much as in their slopes.
-    fn slow_bends(&self, left: &[Vec<f64>], widen: f64) -> [f64; 3] {
-        let (mut sums, mut freedom) = ([0.0; 3], 0.0);
-        for (rest, left) in self.rests.iter().zip(left) {
-            let (own, free) = rest.bend_scatter(left, self.noise[rest.component]);
-            (0..3).for_each(|k| sums[k] += own[k]);
-            freedom += free;
-        }
-        match freedom >= FREEDOM {
-            true => sums.map(|s| (s / freedom).sqrt().max(1.0)),
-            false => [widen; 3],
-        }
-    }
-
     /// The lines of the readings that were used here.
     fn take_lines(&mut self) {
         for rest in &self.rests {
@@ -130,66 +69,6 @@ impl Shapes {
                 line.rows = used as usize;
                 line.wild = rest.kept.len() - used as usize;
             }
-        }
-    }
-
-    /// How much more than its scatter says noise moves a slope when each reading takes after the one
-    /// before it (first-order autoregression), where no repetition shows it.
-    fn slowness(&self) -> f64 {
-        let (mut steps, mut count) = (0.0, 0.0);
-        for rest in &self.rests {
-            let variance = self.noise[rest.component].powi(2).max(f64::MIN_POSITIVE);
-            let (own, rows) = rest.steps();
-            steps += own / variance;
-            count += rows;
-        }
-        let alike = (1.0 - 0.5 * steps / f64::max(count, 1.0)).clamp(0.0, 0.9);
-        match count > 0.0 {
-            true => ((1.0 + alike) / (1.0 - alike)).sqrt(),
-            false => 1.0,
-        }
-    }
-
-    /// Noise of a component whose levels are repeated; where few are, no less than the data sheet or
-    /// the other components make likely: few repetitions agree by chance.
-    fn no_less(&self, [squares, freedom]: [f64; 2], component: usize, all: &[[f64; 2]; 3]) -> f64 {
-        let others = (0..3).filter(|k| *k != component && all[*k][1] >= FREEDOM);
-        let others = others.map(|k| all[k][0] / all[k][1]);
-        let others = others.fold(f64::INFINITY, f64::min);
-        let stated = self.stated.unwrap_or(0.0).powi(2);
-        let likely = stated.max(if others.is_finite() { others } else { 0.0 });
-        let own = squares / freedom;
-        let drawn = (squares + LIKELY * likely) / (freedom + LIKELY);
-        own.max(drawn).sqrt()
-    }
-
-    /// Noise of a component whose levels are not repeated: the scatter about the lines, unless
-    /// neighbours agree so much better, and the data sheet with them, that the rest is shape.
-    fn without_repeats(&self, scatter: f64, component: usize) -> f64 {
-        let short = self.short(component).max(self.stated.unwrap_or(scatter));
-        match scatter > SHAPE * short {
-            true => short,
-            false => scatter,
-        }
-    }
-
-    /// Noise of a component by the change from one reading to the next, m.
-    fn short(&self, component: usize) -> f64 {
-        let own = self.rests.iter().filter(|rest| rest.component == component);
-        let (squares, count) = own.fold((0.0, 0.0), |(s, n), rest| {
-            let (own, rows) = rest.steps();
-            (s + own, n + rows)
-        });
-        (0.5 * squares / f64::max(count, 1.0)).sqrt()
-    }
-
-    /// How far repeated levels of one component drift apart within a cycle, in the units of
-    /// [`Shapes::wander`]: readings that repeat far worse than their neighbours agree grow with time.
-    fn growth(&self, component: usize) -> f64 {
-        let short = self.short(component).max(self.stated.unwrap_or(0.0));
-        match short > 0.0 {
-            true => self.noise[component] / (2.0 * short),
-            false => 0.0,
         }
     }
 
@@ -230,21 +109,6 @@ impl Shapes {
         let squares: f64 = left.iter().map(|l| l * l).sum();
         let freedom = self.freedom();
         squares > most(freedom) || sums.iter().any(|sum| *sum > most(count))
-    }
-
-    fn wandering(&self) -> [f64; 3] {
-        let mut sums = [[0.0; 2]; 3];
-        for rest in &self.rests {
-            if let Some((fit, _)) = rest.line() {
-                let own = rest.zeros(fit.slope);
-                (0..2).for_each(|k| sums[rest.component][k] += own[k]);
-            }
-        }
-        let rms = |k: usize| match sums[k][1] > 0.0 && self.noise[k] > 0.0 {
-            true => (sums[k][0] / sums[k][1]).sqrt() / self.noise[k],
-            false => 0.0,
-        };
-        [rms(0), rms(1), rms(2)]
     }
 
     /// Every level, set-up by set-up.
@@ -297,12 +161,4 @@ impl Shapes {
         let lines = self.setups.iter().flat_map(|s| s.lines);
         lines.flatten().map(|line| line.wild).sum()
     }
-}
-
-fn share(line: &mut Line, noise: f64, widen: f64) {
-    let per_newton = line.stderr / line.scatter.max(f64::MIN_POSITIVE);
-    if noise > 0.0 && per_newton.is_finite() && line.scatter > 0.0 {
-        line.stderr = per_newton * noise * widen;
-    }
-    line.freedom = f64::INFINITY;
 }
