@@ -2,6 +2,9 @@
 
 use super::force_rest::{Level, Rest};
 
+/// A cycle that has this share of a bend's squares shows it: forces differ from cycle to cycle.
+const KNOWN: f64 = 0.5;
+
 impl Rest {
     /// Shares of the even part, of the cubic part and of the loop in what the line leaves.
     pub fn bends(&self, left: &[f64], noise: f64) -> [f64; 3] {
@@ -13,7 +16,7 @@ impl Rest {
     /// independent, and how many are free: slow noise bends more than its scatter says.
     pub fn bend_scatter(&self, left: &[f64], noise: f64) -> ([f64; 3], f64) {
         let basis = self.bent(noise);
-        let mut bends: Vec<[f64; 3]> = Vec::new();
+        let mut bends: Vec<[[f64; 2]; 3]> = Vec::new();
         for cycle in 0..self.cycles {
             let mut sums = vec![[0.0; 2]; self.count.len()];
             for (i, reading) in self.readings.iter().enumerate() {
@@ -22,20 +25,26 @@ impl Rest {
                     (own[0], own[1]) = (own[0] + left[i], own[1] + 1.0);
                 }
             }
-            if sums.iter().all(|s| s[1] > 0.0) && noise > 0.0 {
-                let pairs = sums.iter().zip(&self.rise);
-                let own: Vec<f64> = pairs
-                    .map(|(s, r)| s[0] / s[1].sqrt() / (noise * r))
-                    .collect();
-                bends.push(basis.each_ref().map(|b| dot(b, &own)));
+            let seen: Vec<usize> = (0..sums.len()).filter(|c| sums[*c][1] > 0.0).collect();
+            let own = |c: &usize| sums[*c][0] / sums[*c][1].sqrt() / (noise * self.rise[*c]);
+            let bend = |b: &Vec<f64>| {
+                let known: f64 = seen.iter().map(|c| b[*c] * b[*c]).sum();
+                let sum: f64 = seen.iter().map(|c| b[*c] * own(c)).sum();
+                [sum / known.max(KNOWN), known]
+            };
+            let all = basis.each_ref().map(bend);
+            let shows = |k: usize| all[k][1] > KNOWN || basis[k].iter().all(|x| *x == 0.0);
+            if noise > 0.0 && (0..3).all(shows) {
+                bends.push(all);
             }
         }
-        let count = bends.len() as f64;
         let square = |k: usize| {
-            let mean = bends.iter().map(|b| b[k]).sum::<f64>() / count.max(1.0);
-            bends.iter().map(|b| (b[k] - mean).powi(2)).sum::<f64>()
+            let known: f64 = bends.iter().map(|b| b[k][1]).sum();
+            let mean = bends.iter().map(|b| b[k][1] * b[k][0]).sum::<f64>() / known.max(KNOWN);
+            let off = bends.iter().map(|b| b[k][1] * (b[k][0] - mean).powi(2));
+            off.sum::<f64>()
         };
-        ([0, 1, 2].map(square), (count - 1.0).max(0.0))
+        ([0, 1, 2].map(square), (bends.len() as f64 - 1.0).max(0.0))
     }
 
     /// The even part, the cubic part and the loop as unit vectors over the cells, across offset and line.
