@@ -504,3 +504,47 @@ fn dampings_from_responses_are_those_from_the_hits() {
         .run(&["damping", "--frf", "frfs.uff", "--dry-run"])
         .is_refusal("no robot", "frfs.uff", None, "names no robot");
 }
+
+#[test]
+fn what_was_read_is_written_and_read_again() {
+    let bench = Bench::new();
+    put(
+        &bench,
+        "both.uff",
+        &with_coherence(5, 0.003, 4),
+        Encoding::Binary,
+    );
+    for (facts, averages) in [("averages = 5\n", Some(5)), ("", None)] {
+        bench.put("both.ident.toml", facts.as_bytes());
+        assert_eq!(
+            bench.run(&["frf", "both.uff", "--uff", "again.uff"]).status,
+            0
+        );
+        let [first, again] = ["both.uff", "again.uff"].map(|name| {
+            let record = hammer_uff::read_hammer(&bench.path(name)).unwrap();
+            record.given.unwrap()
+        });
+        assert_eq!(again.averages, averages);
+        for (a, b) in first
+            .pairs
+            .iter()
+            .flatten()
+            .zip(again.pairs.iter().flatten())
+        {
+            let (x, y) = (a.coherence.as_ref().unwrap(), b.coherence.as_ref().unwrap());
+            assert!(
+                x[1..]
+                    .iter()
+                    .zip(&y[1..])
+                    .all(|(x, y)| (x - y).abs() < 1e-12)
+            );
+            let close = |(a, b): (&Complex64, &Complex64)| (a - b).norm() <= 1e-12 * a.norm();
+            assert!(
+                a.accelerance[1..]
+                    .iter()
+                    .zip(&b.accelerance[1..])
+                    .all(close)
+            );
+        }
+    }
+}
