@@ -548,3 +548,36 @@ fn what_was_read_is_written_and_read_again() {
         }
     }
 }
+
+#[test]
+fn import_says_what_a_universal_file_lacks_and_keeps_it() {
+    let bench = Bench::new();
+    put(
+        &bench,
+        "a.uff",
+        &file(&noisy(0.003, 3), &si()),
+        Encoding::Binary,
+    );
+    let ran = bench.run(&["import", "a.uff", "--json"]);
+    assert_eq!(ran.status, 1);
+    let missing = &document(&ran)["results"][0]["missing"];
+    assert_eq!(missing, &serde_json::json!(["robot", "joint_angles_deg"]));
+    let pose = "joint_angles_deg=[20, -75, 100, 30, 45, 15]";
+    let ran = bench.run(&[
+        "import",
+        "a.uff",
+        "--fact",
+        "robot=kr210",
+        "--fact",
+        pose,
+        "--fact",
+        "averages=5",
+    ]);
+    assert_eq!(ran.status, 0, "{} {}", ran.out, ran.errors);
+    let record = hammer_uff::read_hammer(&bench.path("a.uff")).unwrap();
+    assert_eq!(
+        (record.robot.as_deref(), record.given.unwrap().averages),
+        (Some("kr210"), Some(5))
+    );
+    assert_eq!(record.joint_angles.unwrap().len(), 6);
+}
