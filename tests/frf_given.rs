@@ -498,6 +498,11 @@ fn dampings_from_responses_are_those_from_the_hits() {
         None,
         "no measurement",
     );
+    let axis = concat!(env!("CARGO_MANIFEST_DIR"), "/measurements/kr210/axis6.csv");
+    bench.put("measurements/mine/axis6.csv", &std::fs::read(axis).unwrap());
+    let whole = document(&bench.run(&["diagnose", "measurements/mine", "--json"]));
+    let remarks = whole["remarks"].to_string();
+    assert!(remarks.contains("frfs.uff"), "{remarks}");
     std::fs::remove_dir_all(bench.path("measurements")).unwrap();
     std::fs::remove_file(bench.path("frfs.ident.toml")).unwrap();
     bench
@@ -580,4 +585,45 @@ fn import_says_what_a_universal_file_lacks_and_keeps_it() {
         (Some("kr210"), Some(5))
     );
     assert_eq!(record.joint_angles.unwrap().len(), 6);
+}
+
+#[test]
+fn spoiled_files_are_read_or_refused() {
+    let mut short = with_coherence(3, 0.01, 5);
+    short.functions.truncate(6);
+    for function in &mut short.functions {
+        match &mut function.values {
+            Values::Complex(values) => values.truncate(48),
+            Values::Real(values) => values.truncate(48),
+        }
+    }
+    let mut random = Random::new(17);
+    let (mut read, mut refused) = (0, 0);
+    for encoding in [Encoding::Ascii, Encoding::Binary] {
+        let good = uff::write(&short, encoding);
+        for _ in 0..150 {
+            let mut bytes = good.clone();
+            for _ in 0..1 + random.below(4) {
+                let at = random.below(bytes.len().min(6000));
+                bytes[at] = b"0123456789 -+.EXN\n"[random.below(18)];
+            }
+            let folder = tempfile::tempdir().unwrap();
+            let path = folder.path().join("a.uff");
+            std::fs::write(&path, &bytes).unwrap();
+            match hammer_uff::read_hammer(&path) {
+                Ok(record) => {
+                    read += 1;
+                    if let Ok(frf) = estimate(&record, &Settings::default()) {
+                        modes(&frf, 12.0);
+                    }
+                }
+                Err(problem) => {
+                    refused += 1;
+                    assert!(!problem.remedy.is_empty(), "{problem}");
+                }
+            }
+        }
+    }
+    println!("{read} read, {refused} refused");
+    assert!(read > 20 && refused > 20, "{read} read, {refused} refused");
 }
