@@ -498,9 +498,132 @@ fn dampings_from_responses_are_those_from_the_hits() {
         None,
         "no measurement",
     );
+    let axis = concat!(env!("CARGO_MANIFEST_DIR"), "/measurements/kr210/axis6.csv");
+    bench.put("measurements/mine/axis6.csv", &std::fs::read(axis).unwrap());
+    let whole = document(&bench.run(&["diagnose", "measurements/mine", "--json"]));
+    let remarks = whole["remarks"].to_string();
+    assert!(remarks.contains("frfs.uff"), "{remarks}");
     std::fs::remove_dir_all(bench.path("measurements")).unwrap();
     std::fs::remove_file(bench.path("frfs.ident.toml")).unwrap();
     bench
         .run(&["damping", "--frf", "frfs.uff", "--dry-run"])
         .is_refusal("no robot", "frfs.uff", None, "names no robot");
+}
+
+#[test]
+fn what_was_read_is_written_and_read_again() {
+    let bench = Bench::new();
+    put(
+        &bench,
+        "both.uff",
+        &with_coherence(5, 0.003, 4),
+        Encoding::Binary,
+    );
+    for (facts, averages) in [("averages = 5\n", Some(5)), ("", None)] {
+        bench.put("both.ident.toml", facts.as_bytes());
+        assert_eq!(
+            bench.run(&["frf", "both.uff", "--uff", "again.uff"]).status,
+            0
+        );
+        let [first, again] = ["both.uff", "again.uff"].map(|name| {
+            let record = hammer_uff::read_hammer(&bench.path(name)).unwrap();
+            record.given.unwrap()
+        });
+        assert_eq!(again.averages, averages);
+        for (a, b) in first
+            .pairs
+            .iter()
+            .flatten()
+            .zip(again.pairs.iter().flatten())
+        {
+            let (x, y) = (a.coherence.as_ref().unwrap(), b.coherence.as_ref().unwrap());
+            assert!(
+                x[1..]
+                    .iter()
+                    .zip(&y[1..])
+                    .all(|(x, y)| (x - y).abs() < 1e-12)
+            );
+            let close = |(a, b): (&Complex64, &Complex64)| (a - b).norm() <= 1e-12 * a.norm();
+            assert!(
+                a.accelerance[1..]
+                    .iter()
+                    .zip(&b.accelerance[1..])
+                    .all(close)
+            );
+        }
+    }
+}
+
+#[test]
+fn import_says_what_a_universal_file_lacks_and_keeps_it() {
+    let bench = Bench::new();
+    put(
+        &bench,
+        "a.uff",
+        &file(&noisy(0.003, 3), &si()),
+        Encoding::Binary,
+    );
+    let ran = bench.run(&["import", "a.uff", "--json"]);
+    assert_eq!(ran.status, 1);
+    let missing = &document(&ran)["results"][0]["missing"];
+    assert_eq!(missing, &serde_json::json!(["robot", "joint_angles_deg"]));
+    let pose = "joint_angles_deg=[20, -75, 100, 30, 45, 15]";
+    let ran = bench.run(&[
+        "import",
+        "a.uff",
+        "--fact",
+        "robot=kr210",
+        "--fact",
+        pose,
+        "--fact",
+        "averages=5",
+    ]);
+    assert_eq!(ran.status, 0, "{} {}", ran.out, ran.errors);
+    let record = hammer_uff::read_hammer(&bench.path("a.uff")).unwrap();
+    assert_eq!(
+        (record.robot.as_deref(), record.given.unwrap().averages),
+        (Some("kr210"), Some(5))
+    );
+    assert_eq!(record.joint_angles.unwrap().len(), 6);
+}
+
+#[test]
+fn spoiled_files_are_read_or_refused() {
+    let mut short = with_coherence(3, 0.01, 5);
+    short.functions.truncate(6);
+    for function in &mut short.functions {
+        match &mut function.values {
+            Values::Complex(values) => values.truncate(48),
+            Values::Real(values) => values.truncate(48),
+        }
+    }
+    let mut random = Random::new(17);
+    let (mut read, mut refused) = (0, 0);
+    for encoding in [Encoding::Ascii, Encoding::Binary] {
+        let good = uff::write(&short, encoding);
+        for _ in 0..150 {
+            let mut bytes = good.clone();
+            for _ in 0..1 + random.below(4) {
+                let at = random.below(bytes.len().min(6000));
+                bytes[at] = b"0123456789 -+.EXN\n"[random.below(18)];
+            }
+            let folder = tempfile::tempdir().unwrap();
+            let path = folder.path().join("a.uff");
+            std::fs::write(&path, &bytes).unwrap();
+            match hammer_uff::read_hammer(&path) {
+                Ok(record) => {
+                    read += 1;
+                    if let Ok(frf) = estimate(&record, &Settings::default()) {
+                        modes(&frf, 12.0);
+                    }
+                }
+                Err(problem) => {
+                    refused += 1;
+                    assert!(!problem.remedy.is_empty(), "{problem}");
+                }
+            }
+        }
+    }
+    println!("{read} read, {refused} refused");
+    assert!(read > 20 && refused > 20, "{read} read, {refused} refused");
 }

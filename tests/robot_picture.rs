@@ -147,3 +147,21 @@ fn the_page_of_the_points_has_the_robot_in_space() {
         page.contains("<canvas") && page.contains("other postures") && page.contains("disc:true")
     );
 }
+
+#[test]
+fn the_page_of_the_dampings_shows_the_tuned_robot_swing() {
+    let bench = Bench::new();
+    let from = concat!(env!("CARGO_MANIFEST_DIR"), "/measurements/kr210/hammer.csv");
+    bench.put(
+        "measurements/kr210/hammer.csv",
+        &std::fs::read(from).unwrap(),
+    );
+    let ran = bench.run(&["damping", "--frf", "--starts", "1"]);
+    assert!(ran.status < 2, "{}", ran.errors);
+    let page = bench.text("reports/kr210/damping.html");
+    assert_eq!(page.matches("swing:[").count(), 4);
+    assert!(
+        page.contains("Mode 1 at 11.5"),
+        "the first mode measured lies at 11.57 Hz"
+    );
+}

@@ -52,6 +52,7 @@ mod frf_starts;
 mod frf_tuning;
 mod fuzz_corpus;
 mod fuzz_verbs;
+mod guide;
 mod habits_cli;
 mod hammer_close_modes;
 mod hammer_files;

@@ -1,6 +1,7 @@
 //! Hammer tests: FRFs and coherences as functions of a universal file.
 
 use super::hammer_frf::{HammerFrf, InputFrf};
+use super::hammer_given::ScatterFrom;
 use crate::measurement::uff::{
     Abscissa, Axis, Dof, Function, Header, Kind, Quantity, Units, UniversalFile, Values,
 };
@@ -15,7 +16,7 @@ pub fn universal_file(frf: &HammerFrf, estimator: Estimator) -> UniversalFile {
         .iter()
         .flat_map(|input| (0..frf.outputs.len()).map(move |o| (input, o)));
     let functions = pairs.flat_map(|(input, output)| {
-        let coherence = (input.hits.len() > 1).then(|| coherence(frf, input, output));
+        let coherence = (input.sums.hits > 1).then(|| coherence(frf, input, output));
         std::iter::once(response(frf, input, output, estimator)).chain(coherence)
     });
     UniversalFile {
@@ -43,7 +44,12 @@ fn response(frf: &HammerFrf, input: &InputFrf, output: usize, estimator: Estimat
     let values = input.frf(output, estimator).iter().map(zero).collect();
     let ordinate = Axis::new(Quantity::Acceleration, "Acceleration", "m/s2");
     let force = Axis::new(Quantity::ExcitationForce, "Force", "N");
-    let what = format!("accelerance {estimator:?}, {} hits", input.hits.len());
+    let what = match (frf.scatter_from, input.sums.hits) {
+        (ScatterFrom::Hits | ScatterFrom::Coherence, n) => {
+            format!("accelerance {estimator:?}, {n} hits")
+        }
+        _ => "accelerance as given".into(),
+    };
     let kind = Kind::FrequencyResponse;
     function(
         frf,

@@ -1,14 +1,78 @@
 //! The robot in space and on paper: its line, who gives way how much, how it swings.
 
-use crate::ground::spatial::{V3, norm, scale, sub};
-use crate::motion::skeleton::{Share, Skeleton};
+use crate::ground::problem::Outcome;
+use crate::ground::spatial::{V3, add, norm, scale, sub};
+use crate::motion::modes::{complex_modes, modal};
+use crate::motion::skeleton::{Share, Skeleton, swing};
+use crate::motion::{Work, elastic, linearise};
+use crate::robot::{Robot, check};
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
+use crate::sheet::number::fixed;
+use crate::sheet::page::Block;
 use crate::sheet::scene::{Scene, Strand};
 
 /// Distance below which two places are written as one, m.
 const TOGETHER: f64 = 0.02;
 /// Largest movement of a mode as drawn, over the size of the robot.
 const DRAWN: f64 = 0.12;
+/// Damping ratio from which a mode does not swing.
+const OVERDAMPED: f64 = 0.9;
+
+/// A mode of the robot at a posture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DrawnMode {
+    /// Natural frequency, Hz.
+    pub frequency_hz: f64,
+    /// Share of critical damping.
+    pub damping_ratio: f64,
+    /// How far each point of the robot's line swings to either side as drawn, m.
+    pub swing: Vec<V3>,
+}
+
+/// The first modes that swing, `most` of them, of the robot at joint angles (rad).
+///
+/// # Errors
+/// A robot without bodies or without springs.
+pub fn modes(
+    robot: &Robot,
+    joints: &[f64],
+    line: &Skeleton,
+    most: usize,
+) -> Outcome<Vec<DrawnMode>> {
+    check::dynamics(robot)?;
+    let chain = elastic(robot);
+    let linear = linearise(&chain, &mut Work::new(&chain), &chain.spread(joints))?;
+    let all = complex_modes(&linear, &modal(&linear)?);
+    let swings = all
+        .into_iter()
+        .filter(|mode| mode.damping_ratio < OVERDAMPED);
+    let drawn = swings.take(most).map(|mode| DrawnMode {
+        frequency_hz: mode.frequency_hz,
+        damping_ratio: mode.damping_ratio,
+        swing: enlarged(line, &swing(robot, joints, &mode.shape)),
+    });
+    Ok(drawn.collect())
+}
+
+/// Modes as they swing, each with a figure for paper whose name begins with `stem`.
+pub fn mode_blocks(robot: &Skeleton, modes: &[DrawnMode], stem: &str) -> Vec<Block> {
+    let caption = "At rest, and dashed one end of the swing, enlarged. The frequencies are those of the springs without gaps.";
+    let blocks = modes.iter().enumerate().flat_map(|(i, mode)| {
+        let (hz, percent) = (
+            fixed(mode.frequency_hz, 2),
+            fixed(100.0 * mode.damping_ratio, 2),
+        );
+        let title = format!("Mode {} at {hz} Hz, damping {percent} %", i + 1);
+        let ends = robot.line.iter().zip(&mode.swing);
+        let moved: Vec<V3> = ends.map(|(p, w)| add(*p, *w)).collect();
+        let figure = Chart::new(format!("{stem}{}", i + 1), title.clone(), caption);
+        [
+            Block::Scene(swinging(&title, robot, &mode.swing)),
+            Block::Chart(chart(figure, robot, Some(("swung", &moved)))),
+        ]
+    });
+    blocks.collect()
+}
 
 /// Places with what is written there: joints, or joints with their shares.
 fn labels(skeleton: &Skeleton, shares: &[Share]) -> Vec<(V3, String, Option<f64>)> {
@@ -75,7 +139,7 @@ pub fn scene(title: &str, robot: &Skeleton, shares: &[Share], others: &[Skeleton
 }
 
 /// How far a swing is drawn: its largest movement becomes a fixed share of the robot.
-pub fn enlarged(robot: &Skeleton, swing: &[V3]) -> Vec<V3> {
+fn enlarged(robot: &Skeleton, swing: &[V3]) -> Vec<V3> {
     let most = swing.iter().map(|v| norm(*v)).fold(0.0, f64::max);
     let size = robot.line.iter().map(|p| norm(*p)).fold(0.0, f64::max);
     let by = if most > 0.0 { DRAWN * size / most } else { 0.0 };
@@ -83,7 +147,7 @@ pub fn enlarged(robot: &Skeleton, swing: &[V3]) -> Vec<V3> {
 }
 
 /// The robot as it swings; `swing` as [`enlarged`] gives it.
-pub fn swinging(title: &str, robot: &Skeleton, swing: &[V3]) -> Scene {
+fn swinging(title: &str, robot: &Skeleton, swing: &[V3]) -> Scene {
     let still = Strand {
         name: "at rest".into(),
         points: millimetres(&robot.line),

@@ -1,12 +1,17 @@
 //! The report of `ident damping`.
 
-use super::account::{dampings, fixed_combinations, matches, modes};
+use super::account::{self, dampings, fixed_combinations, matches};
 use super::figures::{hits, pair, poles};
 use super::result::{Damped, file_name};
+use crate::experiments::robot_picture::{mode_blocks, modes};
 use crate::fit::damping::{Pair, Test};
+use crate::motion::skeleton::skeleton;
 use crate::sheet::chart::Chart;
 use crate::sheet::page::{Block, Page, Tone};
 use crate::sheet::table::Table;
+
+/// Modes of the robot that are drawn.
+const SWINGS: usize = 4;
 
 /// The page: does the simulation meet the measurement, with which constants, how was it measured.
 pub fn page(damped: &Damped) -> Page {
@@ -41,16 +46,39 @@ pub fn page(damped: &Damped) -> Page {
     if !fixed.rows.is_empty() {
         page = page.with(Block::Table(fixed));
     }
+    page = swings(damped).into_iter().fold(page, Page::with);
     page = page.with(Block::heading("Cross terms"));
     let cross = charts(damped, Page::default(), false).blocks;
     page.with(Block::details("All cross terms", cross))
         .with(Block::heading("How it was measured"))
         .with(Block::Table(hit_table(damped)))
-        .with(Block::Table(modes(damped)))
+        .with(Block::Table(account::modes(damped)))
         .with(Block::details(
             "Hit by hit, and the choice of modes",
             measured(damped),
         ))
+}
+
+/// The tuned robot as it swings at the pose of the first test, where its constants are told.
+fn swings(damped: &Damped) -> Vec<Block> {
+    let robot = &damped.account.robot;
+    let tests = &damped.input.tests;
+    let joints = tests
+        .first()
+        .and_then(|test| test.record.joint_angles.as_ref());
+    let Some(joints) = joints.filter(|_| damped.account.supported) else {
+        return Vec::new();
+    };
+    let line = skeleton(robot, joints);
+    let modes = modes(robot, joints, &line, SWINGS).unwrap_or_default();
+    let blocks = mode_blocks(&line, &modes, "damping-mode-").into_iter();
+    let synthetic = damped.synthetic();
+    let labelled = blocks.map(|block| match block {
+        Block::Chart(chart) => Block::Chart(chart.synthetic(synthetic)),
+        other => other,
+    });
+    let heading = (!modes.is_empty()).then(|| Block::heading("How the tuned robot swings"));
+    heading.into_iter().chain(labelled).collect()
 }
 
 fn verdict(damped: &Damped) -> (Tone, String) {

@@ -7,6 +7,7 @@ use crate::ground::problem::{Outcome, Problem};
 use crate::ground::units::split_name;
 use crate::measurement::foreign::sidecar::{Sidecar, Source};
 use crate::measurement::foreign::translated;
+use crate::measurement::hammer_uff::is_universal;
 use crate::measurement::table::Table;
 use std::io::{BufRead, Write};
 use std::path::Path;
@@ -127,8 +128,11 @@ fn stated(path: &Path, sidecar: &Sidecar) -> toml::Table {
         })
 }
 
-/// Titles of the raw file and what each became; nothing where the file is in the form of `ident`.
+/// Titles of the raw file and what each became; nothing where the file says itself what it holds.
 fn titles(path: &Path, sidecar: &Sidecar) -> Vec<(String, Option<String>)> {
+    if is_universal(path) {
+        return Vec::new();
+    }
     if let Ok(Some(reading)) = translated(path, sidecar) {
         return reading.columns;
     }

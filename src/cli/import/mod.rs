@@ -10,7 +10,9 @@ use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::foreign::sidecar::{Sidecar, Source, place};
 use crate::measurement::foreign::{Reading, translated};
+use crate::measurement::hammer_uff::is_universal;
 use crate::measurement::table::Table;
+use crate::measurement::uff;
 use crate::report::json;
 use ask::Talk;
 use clap::{ArgMatches, Args};
@@ -64,6 +66,7 @@ struct Imported {
     reading: Option<Reading>,
     rows: usize,
     missing: Vec<String>,
+    sha256: String,
 }
 
 fn run(matches: &ArgMatches) -> Outcome<Ending> {
@@ -94,8 +97,15 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
 /// Reads a file; `talk`: who is asked for what nobody stated.
 fn imported(path: &Path, arguments: &Arguments, talk: Option<&mut Talk>) -> Outcome<Imported> {
     let mut sidecar = asked(Sidecar::beside(path)?, arguments)?;
+    if is_universal(path) {
+        let hammer = || toml::Value::String("hammer".into());
+        sidecar.facts.entry("kind").or_insert_with(hammer);
+    }
     if let Some(talk) = talk {
         sidecar = ask::completed(path, sidecar, talk)?;
+    }
+    if is_universal(path) {
+        return universal(path, sidecar);
     }
     let reading = translated(path, &sidecar).map_err(|p| p.in_file(path))?;
     let table = match &reading {
@@ -110,9 +120,26 @@ fn imported(path: &Path, arguments: &Arguments, talk: Option<&mut Talk>) -> Outc
     Ok(Imported {
         path: path.to_path_buf(),
         rows: table.rows,
+        sha256: files::sha256(&files::read_bytes(path)?),
         missing: missing(&facts, &table),
         sidecar,
         reading,
+    })
+}
+
+/// A universal file names its own columns; its facts are those of a hammer test.
+fn universal(path: &Path, sidecar: Sidecar) -> Outcome<Imported> {
+    let functions = uff::read(path)?.functions.len();
+    let mut facts = sidecar.shared.clone();
+    facts.extend(sidecar.facts.clone());
+    let open = needs::missing(&facts, &[]);
+    Ok(Imported {
+        path: path.to_path_buf(),
+        rows: functions,
+        sha256: files::sha256(&files::read_bytes(path)?),
+        missing: open.iter().map(|fact| fact.key.to_string()).collect(),
+        sidecar,
+        reading: None,
     })
 }
 
@@ -185,6 +212,13 @@ fn missing(facts: &toml::Table, table: &Table) -> Vec<String> {
 
 fn account(one: &Imported) -> String {
     let mut said = match &one.reading {
+        None if is_universal(&one.path) => {
+            format!(
+                "{}: universal file, {} functions\n",
+                one.path.display(),
+                one.rows
+            )
+        }
         None => format!(
             "{}: already in the form of ident, {} rows\n",
             one.path.display(),
@@ -219,19 +253,9 @@ fn account(one: &Imported) -> String {
 }
 
 fn document(all: &[Imported]) -> String {
-    let inputs: Vec<(PathBuf, String)> = all
+    let inputs: Vec<(&Path, &str)> = all
         .iter()
-        .map(|one| {
-            let hash = one
-                .reading
-                .as_ref()
-                .map_or(String::new(), |r| r.sha256.clone());
-            (one.path.clone(), hash)
-        })
-        .collect();
-    let inputs: Vec<(&Path, &str)> = inputs
-        .iter()
-        .map(|(p, h)| (p.as_path(), h.as_str()))
+        .map(|one| (one.path.as_path(), one.sha256.as_str()))
         .collect();
     let mut map = json::head("import", &inputs);
     let results: Vec<Value> = all.iter().map(|one| Value::Object(body(one))).collect();

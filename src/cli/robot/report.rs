@@ -3,14 +3,12 @@
 use super::remark_text;
 use crate::cli::Ending;
 use crate::cli::output::{print, print_result};
-use crate::experiments::robot_picture::{chart, enlarged, scene, swinging};
+use crate::experiments::robot_picture::{DrawnMode, chart, mode_blocks, modes, scene};
 use crate::ground::problem::{Outcome, Problem};
-use crate::ground::spatial::{V3, add};
+use crate::ground::spatial::V3;
 use crate::ground::units::DEGREE;
 use crate::measurement::workspace::Place;
-use crate::motion::modes::{Mode, complex_modes, modal};
-use crate::motion::skeleton::{Share, Skeleton, mean_shares, shares, skeleton, swing};
-use crate::motion::{Work, elastic, linearise};
+use crate::motion::skeleton::{Share, Skeleton, mean_shares, shares, skeleton};
 use crate::report::folder::write_as;
 use crate::robot::check;
 use crate::robot::load::{Loaded, load};
@@ -24,8 +22,6 @@ use std::path::{Path, PathBuf};
 
 /// Modes that are drawn.
 const DRAWN: usize = 6;
-/// Damping ratio from which a mode does not swing.
-const OVERDAMPED: f64 = 0.9;
 
 /// Arguments of `ident robot report`.
 #[derive(Debug, Args)]
@@ -62,7 +58,7 @@ struct Told {
     joints: Vec<f64>,
     robot: Skeleton,
     shares: Vec<Share>,
-    modes: Vec<(Mode, Vec<V3>)>,
+    modes: Vec<DrawnMode>,
     /// Why there are no modes, if so.
     without_modes: Option<String>,
 }
@@ -98,7 +94,7 @@ impl Report {
             Some(force) => shares(&loaded.robot, &joints, force),
             None => mean_shares(&loaded.robot, &joints),
         };
-        let (modes, without_modes) = match modes(&loaded, &joints, &robot) {
+        let (modes, without_modes) = match modes(&loaded.robot, &joints, &robot, DRAWN) {
             Ok(modes) => (modes, None),
             Err(problem) => (Vec::new(), Some(problem.what)),
         };
@@ -146,22 +142,6 @@ impl Report {
             }
         }
     }
-}
-
-/// The first modes that swing, with how the line of the robot moves in each, as drawn.
-fn modes(loaded: &Loaded, joints: &[f64], robot: &Skeleton) -> Outcome<Vec<(Mode, Vec<V3>)>> {
-    check::dynamics(&loaded.robot)?;
-    let chain = elastic(&loaded.robot);
-    let linear = linearise(&chain, &mut Work::new(&chain), &chain.spread(joints))?;
-    let all = complex_modes(&linear, &modal(&linear)?);
-    let swings = all
-        .into_iter()
-        .filter(|mode| mode.damping_ratio < OVERDAMPED);
-    let drawn = swings.take(DRAWN).map(|mode| {
-        let moved = enlarged(robot, &swing(&loaded.robot, joints, &mode.shape));
-        (mode, moved)
-    });
-    Ok(drawn.collect())
 }
 
 impl Told {
@@ -212,14 +192,8 @@ impl Told {
         if let Some(why) = &self.without_modes {
             page = page.with(Block::text(format!("No modes: {why}.")));
         }
-        self.modes.iter().enumerate().fold(page, |page, (i, (mode, swing))| {
-            let title = format!("Mode {} at {} Hz, damping {} %", i + 1, fixed(mode.frequency_hz, 2), fixed(100.0 * mode.damping_ratio, 2));
-            let caption = "At rest, and dashed one end of the swing, enlarged. The frequencies are those of the springs without gaps.";
-            let moved: Vec<V3> = self.robot.line.iter().zip(swing).map(|(p, w)| add(*p, *w)).collect();
-            let figure = Chart::new(format!("mode-{}", i + 1), title.clone(), caption);
-            page.with(Block::Scene(swinging(&title, &self.robot, swing)))
-                .with(Block::Chart(chart(figure, &self.robot, Some(("swung", &moved)))))
-        })
+        let modes = mode_blocks(&self.robot, &self.modes, "mode-");
+        modes.into_iter().fold(page, Page::with)
     }
 
     fn table(&self) -> Table {
@@ -246,7 +220,7 @@ impl Told {
     fn text(&self, written: Option<&PathBuf>) -> String {
         let mut text = format!("{}: {}\n", self.loaded.robot.name, self.posture());
         text += &crate::report::text::table(&self.table());
-        for (mode, _) in &self.modes {
+        for mode in &self.modes {
             text += &format!(
                 "mode at {} Hz, damping {} %\n",
                 fixed(mode.frequency_hz, 2),
@@ -264,7 +238,7 @@ impl Told {
     fn json(&self, written: Option<&PathBuf>) -> Value {
         let share =
             |one: &Share| json!({"site": one.site, "share": one.share, "point_m": one.point});
-        let mode = |(mode, _): &(Mode, Vec<V3>)| json!({"frequency_Hz": mode.frequency_hz, "damping_ratio": mode.damping_ratio});
+        let mode = |mode: &DrawnMode| json!({"frequency_Hz": mode.frequency_hz, "damping_ratio": mode.damping_ratio});
         json!({
             "name": self.loaded.robot.name,
             "line_m": self.robot.line,

@@ -118,7 +118,8 @@ impl Campaign {
         let closed = remarks::closed_gaps(&files, &tests);
         let mut campaign = Self::together(place, files);
         campaign.warnings = found.remarks;
-        campaign.remarks = closed.into_iter().collect();
+        let passed_over = remarks::passed_over(place)?;
+        campaign.remarks = closed.into_iter().chain(passed_over).collect();
         campaign.plan();
         Ok(campaign)
     }

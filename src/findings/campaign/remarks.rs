@@ -2,6 +2,9 @@
 
 use super::DiagnosedFile;
 use crate::fit::axis_tests::AxisTest;
+use crate::ground::problem::Outcome;
+use crate::measurement::hammer_uff::without_hits;
+use crate::measurement::workspace::Place;
 use crate::sheet::number::engineering;
 
 /// Gaps that are listed by name; of the others only the number.
@@ -51,6 +54,25 @@ pub fn closed_gaps(files: &[DiagnosedFile], tests: &[AxisTest]) -> Option<String
         listed.join(", "),
         stems(&whole)
     ))
+}
+
+/// Hammer tests of which the campaign has no hits, and who reads them.
+///
+/// # Errors
+/// A folder that cannot be read.
+pub fn passed_over(place: &Place) -> Outcome<Option<String>> {
+    let files = place.files_of("hammer")?.into_iter();
+    let names = files.filter(|path| without_hits(path)).map(|path| {
+        let name = path.file_name().unwrap_or_default();
+        name.to_string_lossy().to_string()
+    });
+    let names: Vec<String> = names.collect();
+    Ok((!names.is_empty()).then(|| {
+        format!(
+            "Frequency responses without their hits are not diagnosed ({}): `ident damping` and `ident frf` read them.",
+            names.join(", ")
+        )
+    }))
 }
 
 fn has_backlash(one: &DiagnosedFile) -> bool {
