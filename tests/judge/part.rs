@@ -99,6 +99,10 @@ struct World {
 }
 
 type Rival = (&'static str, Option<String>, Vec<Vec<V3>>);
+/// The same as the best test sees it.
+type Seen = (&'static str, Option<String>, Vec<Vec<f64>>);
+/// Names and texts of files.
+type Files = Vec<(String, String)>;
 
 /// Moves from the foot to the base frame.
 fn placed(h: &Habit, v: V3) -> V3 {
@@ -132,21 +136,16 @@ fn reached(arm: &Arm, place: V3, columns: &[V3; 3], guess: [f64; 6]) -> Option<[
         if size < 1e-11 {
             return Some(q);
         }
-        let mut rows = [[0.0; 7]; 6];
-        for j in 0..6 {
+        let lever = |j: usize| {
             let a = facing(&arm.frame, &q, j, arm.frame.axes[j]);
-            let v = cross(
-                a,
-                minus(hand, postured(&arm.frame, &q, j, arm.frame.points[j])),
-            );
-            for k in 0..3 {
-                rows[k][j] = v[k];
-                rows[k + 3][j] = a[k];
-            }
-        }
-        for k in 0..3 {
-            (rows[k][6], rows[k + 3][6]) = (miss[k], turn[k]);
-        }
+            let from = postured(&arm.frame, &q, j, arm.frame.points[j]);
+            [cross(a, minus(hand, from)), a]
+        };
+        let levers: [[V3; 2]; 6] = std::array::from_fn(lever);
+        let wanted = [miss, turn];
+        let rows = std::array::from_fn(|r| {
+            std::array::from_fn(|c| levers.get(c).unwrap_or(&wanted)[r / 3][r % 3])
+        });
         let step = solved(rows)?;
         let most = step.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let share = if most > 0.3 { 0.3 / most } else { 1.0 };
@@ -1250,7 +1249,7 @@ fn truths(habit: &Habit, hidden: &[Hidden]) -> Vec<Truth> {
     let s = Sensitivity::new(habit);
     let free = s.free();
     let tail = vec![0.0; free.len()];
-    let rivals: Vec<(&'static str, Option<String>, Vec<Vec<f64>>)> = s
+    let rivals: Vec<Seen> = s
         .rivals()
         .into_iter()
         .map(|(e, s, c)| (e, s, c.iter().map(|c| habit.bare(c, &tail)).collect()))
@@ -1266,13 +1265,7 @@ fn truths(habit: &Habit, hidden: &[Hidden]) -> Vec<Truth> {
     (0..hidden.len()).map(one).collect()
 }
 
-fn truth(
-    hidden: &[Hidden],
-    i: usize,
-    known: &[Vec<f64>],
-    seen: &[f64],
-    rivals: &[(&'static str, Option<String>, Vec<Vec<f64>>)],
-) -> Truth {
+fn truth(hidden: &[Hidden], i: usize, known: &[Vec<f64>], seen: &[f64], rivals: &[Seen]) -> Truth {
     let (name, site, law, _) = &hidden[i];
     let own = without(seen, known);
     let sight = dot(&own, &own).sqrt();
@@ -1364,7 +1357,7 @@ pub fn worth(seed: u64) -> [f64; 2] {
 
 /// The nominal part: its files, and what the springs and the cut make of every probed place: s, deviation (m) and
 /// force (N) in the workpiece frame. For holding this plant against another.
-pub fn nominal(seed: u64) -> (Vec<(String, String)>, Vec<(f64, V3, V3)>) {
+pub fn nominal(seed: u64) -> (Files, Vec<(f64, V3, V3)>) {
     let mut random = Random::new(seed ^ 0x9a47_0000);
     let habit = Habit::draw(&mut random);
     let (milled, shares) = habit.milled(&World::told(&habit));
@@ -1378,7 +1371,7 @@ pub fn nominal(seed: u64) -> (Vec<(String, String)>, Vec<(f64, V3, V3)>) {
 }
 
 impl Habit {
-    fn files(&self) -> Vec<(String, String)> {
+    fn files(&self) -> Files {
         vec![
             ("job.toml".to_string(), self.job()),
             ("path.csv".to_string(), self.path()),
@@ -1504,7 +1497,7 @@ impl Habit {
                 ),
             };
             let mut cells = vec![place];
-            for k in 0..3 {
+            for (k, d) in d.iter().enumerate() {
                 let across = k < 2 && s.feed[k].abs() < 0.5;
                 let read = if k == 2 {
                     self.floor
@@ -1513,7 +1506,7 @@ impl Habit {
                 };
                 let noise = self.noise * random.normal();
                 cells.push(match read {
-                    true => format!("{:.5}", 1e3 * (d[k] + noise)),
+                    true => format!("{:.5}", 1e3 * (d + noise)),
                     false => String::new(),
                 });
             }
