@@ -66,6 +66,7 @@ mod inspect;
 mod instruments_cli;
 mod job_files;
 mod judge_instruments;
+mod judge_part;
 mod judge_workspace;
 mod killed;
 mod lobes_reference;

@@ -174,7 +174,7 @@ impl Arm {
         };
         own.build_springs(random);
         own.build_bodies(size);
-        own.text = own.document();
+        own.text = own.document(None, 0.0);
         own
     }
 
@@ -251,7 +251,10 @@ impl Arm {
         self.springs.iter().find(own).map(|s| s.stiffness)
     }
 
-    fn document(&self) -> String {
+    /// The robot file; with how well it says it knows every spring, and damping over stiffness (s).
+    pub fn document(&self, near: Option<f64>, damped: f64) -> String {
+        let damping = |k: f64| (1e3_f64).max(damped * k).round();
+        let known = near.map_or(String::new(), |n| format!(", stiffness_rel_std = {n}"));
         let v = |x: V3| format!("[{:?}, {:?}, {:?}]", x[0] + 0.0, x[1] + 0.0, x[2] + 0.0);
         let body = |(_, m, c): &(usize, f64, V3)| {
             let i = 0.1 * m;
@@ -265,13 +268,16 @@ impl Arm {
             let site = format!("A{}", j + 1);
             let drive = self.stiffness("drive_stiffness", &site).unwrap();
             doc += &format!(
-                "[[joints]]\nname = \"{site}\"\naxis = {}\npoint_m = {}\nlimits_deg = [-185.0, 185.0]\nmax_speed_deg_s = 100.0\ndrive = {{ stiffness_Nm_rad = {drive:?}, damping_Nms_rad = 1000.0 }}\n",
+                "[[joints]]\nname = \"{site}\"\naxis = {}\npoint_m = {}\nlimits_deg = [-185.0, 185.0]\nmax_speed_deg_s = 100.0\ndrive = {{ stiffness_Nm_rad = {drive:?}, damping_Nms_rad = {:?}{known} }}\n",
                 v(self.frame.axes[j]),
-                v(self.frame.points[j])
+                v(self.frame.points[j]),
+                damping(drive)
             );
             if let Some(k) = self.stiffness("tilt_stiffness", &site) {
-                doc +=
-                    &format!("tilt = {{ stiffness_Nm_rad = {k:?}, damping_Nms_rad = 1000.0 }}\n");
+                doc += &format!(
+                    "tilt = {{ stiffness_Nm_rad = {k:?}, damping_Nms_rad = {:?}{known} }}\n",
+                    damping(k)
+                );
             }
             doc += &format!("link = {}\n", body(&self.bodies[j]));
         }
@@ -288,11 +294,13 @@ impl Arm {
             .filter(|s| s.effect == "base_compliance")
         {
             doc += &format!(
-                "[[elastic]]\nname = \"{}\"\nafter = 0\naxis = {}\npoint_m = {}\nstiffness_Nm_rad = {:?}\ndamping_Nms_rad = 1000.0\n",
+                "[[elastic]]\nname = \"{}\"\nafter = 0\naxis = {}\npoint_m = {}\nstiffness_Nm_rad = {:?}\ndamping_Nms_rad = {:?}\n{}",
                 s.site,
                 v(s.axis),
                 v(s.point),
-                s.stiffness
+                s.stiffness,
+                damping(s.stiffness),
+                near.map_or(String::new(), |n| format!("stiffness_rel_std = {n}\n"))
             );
         }
         doc

@@ -7,9 +7,11 @@ pub mod algebra;
 mod arm;
 mod chosen;
 pub mod cubes;
+mod cut;
 pub mod force_sensor;
 pub mod intervals;
 pub mod milling_force;
+pub mod part;
 mod rigid;
 pub mod screw;
 pub mod workspace;
@@ -264,10 +266,15 @@ pub fn number(name: &str, default: u64) -> u64 {
         .unwrap_or(default)
 }
 
-/// Cases of a kind: `IDENT_BLIND_SEED` draws others, `IDENT_JUDGE_CASES` more.
+/// Cases of a kind: `IDENT_BLIND_SEED` draws others, `IDENT_JUDGE_CASES` more, `IDENT_JUDGE_FIRST` from another one on.
 pub fn judged(draw: fn(u64) -> Case, cases: u64) -> Vec<Judged> {
+    judged_from(draw, 0, cases)
+}
+
+/// The same from a case on that stands for the others.
+pub fn judged_from(draw: fn(u64) -> Case, first: u64, cases: u64) -> Vec<Judged> {
     let base = number("IDENT_BLIND_SEED", 1) * 100_000;
-    let first = number("IDENT_JUDGE_FIRST", 0);
+    let first = number("IDENT_JUDGE_FIRST", first);
     let count = number("IDENT_JUDGE_CASES", cases);
     let seeds: Vec<u64> = (base + first..base + first + count).collect();
     seeds.par_iter().map(|seed| answer(draw(*seed))).collect()

@@ -85,6 +85,8 @@ struct Habit {
 
 /// A rival: effect, site and what it does, row by row, for one unit.
 type Rival = (&'static str, Option<String>, Vec<Vec<V3>>);
+/// The same as the best test sees it.
+type Seen = (&'static str, Option<String>, Vec<Vec<f64>>);
 
 impl Habit {
     fn joints(&self, world: &World, point: usize) -> [f64; 6] {
@@ -1128,7 +1130,7 @@ fn truths(habit: &Habit, hidden: &[Hidden]) -> Vec<Truth> {
     let sieve = Sieve::new(habit, &base);
     let free = habit.free(&sieve);
     let tail = vec![0.0; free.len()];
-    let rivals: Vec<(&str, Option<String>, Vec<Vec<f64>>)> = habit
+    let rivals: Vec<Seen> = habit
         .rivals(&base)
         .into_iter()
         .map(|(e, s, c)| (e, s, c.iter().map(|c| sieve.of(c, &tail)).collect()))
@@ -1153,7 +1155,7 @@ fn truth(
     i: usize,
     known: &[Vec<f64>],
     seen: &[f64],
-    rivals: &[(&'static str, Option<String>, Vec<Vec<f64>>)],
+    rivals: &[Seen],
 ) -> Truth {
     let (name, site, law, change) = &hidden[i];
     let own = without(seen, known);
