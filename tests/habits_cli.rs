@@ -183,3 +183,25 @@ fn shells_and_the_manual_are_served_and_typos_are_told() {
         ran.errors
     );
 }
+
+/// Whatever a diagnosis may name can be looked up, whatever the kind of data.
+#[test]
+fn effects_of_every_kind_are_explained() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, kind) in [
+        ("corner_lag", "milled-part"),
+        ("hose_force", "force-sensor"),
+        ("wear_zone", "screw"),
+        ("chipped_tooth", "milling-force"),
+        ("loose_cube", "cubes"),
+        ("backlash", "screw"),
+    ] {
+        let output = ident(folder.path(), &["effects", name]);
+        let said = String::from_utf8_lossy(&output.stdout).to_string();
+        assert_eq!(output.status.code(), Some(0), "{name}");
+        assert!(said.contains(&format!("{name} in {kind} data")), "{said}");
+        assert!(said.contains("told from rivals if you "), "{said}");
+    }
+    let output = ident(folder.path(), &["effects", "corner_lga"]);
+    assert_eq!(output.status.code(), Some(2));
+}

@@ -37,12 +37,12 @@ impl RecordedJoints {
 
     fn of(table: Table) -> Outcome<Self> {
         let header = table.first_line - 1;
-        if let Some(kind) = table.front.text("kind")? {
-            if !KINDS.contains(&kind) {
-                let remedy = "give a file of kind trajectory or joint-motion";
-                let what = format!("is `{kind}`: no joint angles over time");
-                return Err(table.front.problem("kind", what, remedy));
-            }
+        if let Some(kind) = table.front.text("kind")?
+            && !KINDS.contains(&kind)
+        {
+            let remedy = "give a file of kind trajectory or joint-motion";
+            let what = format!("is `{kind}`: no joint angles over time");
+            return Err(table.front.problem("kind", what, remedy));
         }
         let missing = |what: String| {
             let remedy = "write the header `time_s,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg`";

@@ -1,11 +1,13 @@
 //! `ident effects`: the library of effects, and the card of one.
 
 mod causes;
+mod kinds;
 
 use super::output::print;
 use super::{Ending, Verb, arguments, parsed};
 use crate::causes::{CAUSES, Cause};
 use crate::effects::{EFFECTS, Effect, Family};
+use crate::findings::kinds::{Known, known};
 use crate::findings::load_cycle::look_alikes::{Picture, look_alikes, picture};
 use crate::fit::solution::unit_of;
 use crate::ground::files;
@@ -44,16 +46,18 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
         None => print(&if arguments.json { list_json() } else { list() })?,
         Some(name) => {
             let robot = causes::all_named(name);
+            let others = kinds::all_named(name);
+            let elsewhere = !robot.is_empty() || !others.is_empty();
             let effect = match crate::effects::named(name) {
-                None if !robot.is_empty() && arguments.figure.is_none() => None,
+                None if elsewhere && arguments.figure.is_none() => None,
                 _ => Some(named(name)?),
             };
             if let (Some(path), Some(effect)) = (&arguments.figure, effect) {
                 files::replace(path, svg::ink(&chart(effect))?.as_bytes())?;
             }
             print(&match arguments.json {
-                true => card_json(effect, &robot),
-                false => cards(effect, &robot),
+                true => card_json(effect, &robot, &others),
+                false => cards(effect, &robot, &others),
             })?;
         }
     }
@@ -64,7 +68,8 @@ fn named(name: &str) -> Outcome<&'static dyn Effect> {
     crate::effects::named(name).ok_or_else(|| {
         let of_axis = EFFECTS.iter().map(|e| e.card().name);
         let of_robot = CAUSES.iter().map(|c| c.card().name);
-        let mut known: Vec<_> = of_axis.chain(of_robot).collect();
+        let of_kinds = known().into_iter().map(|k| k.name);
+        let mut known: Vec<_> = of_axis.chain(of_robot).chain(of_kinds).collect();
         known.sort_unstable();
         known.dedup();
         Problem::new(
@@ -90,8 +95,8 @@ fn list() -> String {
     let header = ["cause", "family", "shows in", "what it is"];
     let mut robot = Table::new("Causes in tests of the whole robot", header);
     causes::rows().into_iter().for_each(|row| robot.push(row));
-    let robot = robot.noted("`ident effects NAME` explains one");
-    format!("{}\n{}", text::table(&table), text::table(&robot))
+    let others = kinds::table().noted("`ident effects NAME` explains one");
+    [&table, &robot, &others].map(text::table).join("\n")
 }
 
 fn list_json() -> String {
@@ -102,10 +107,15 @@ fn list_json() -> String {
     );
     let robot = CAUSES.iter().map(|c| causes::value(*c));
     map.insert("causes".into(), Value::Array(robot.collect()));
+    map.insert("kinds".into(), json!(known()));
     json::print(map)
 }
 
-fn card_json(effect: Option<&'static dyn Effect>, robot: &[&'static dyn Cause]) -> String {
+fn card_json(
+    effect: Option<&'static dyn Effect>,
+    robot: &[&'static dyn Cause],
+    others: &[Known],
+) -> String {
     let mut map = json::head("effects", &[]);
     if let Some(effect) = effect {
         map.insert("effect".into(), value(effect));
@@ -118,6 +128,9 @@ fn card_json(effect: Option<&'static dyn Effect>, robot: &[&'static dyn Cause]) 
     if !robot.is_empty() {
         let cards = robot.iter().map(|c| causes::value(*c));
         map.insert("causes".into(), Value::Array(cards.collect()));
+    }
+    if !others.is_empty() {
+        map.insert("kinds".into(), json!(others));
     }
     json::print(map)
 }
@@ -141,10 +154,18 @@ fn value(effect: &dyn Effect) -> Value {
     })
 }
 
-/// The card of an effect of one axis, then those of the causes of that name.
-fn cards(effect: Option<&'static dyn Effect>, robot: &[&'static dyn Cause]) -> String {
+/// The card of an effect of one axis, then those of the causes of that name, then those of other kinds of data.
+fn cards(
+    effect: Option<&'static dyn Effect>,
+    robot: &[&'static dyn Cause],
+    others: &[Known],
+) -> String {
     let axis = effect.map(card).into_iter();
-    let all: Vec<String> = axis.chain(robot.iter().map(|c| causes::card(*c))).collect();
+    let robot = robot.iter().map(|c| causes::card(*c));
+    let all: Vec<String> = axis
+        .chain(robot)
+        .chain(others.iter().map(kinds::card))
+        .collect();
     all.join("\n")
 }
 

@@ -7,6 +7,7 @@ mod force_sensor;
 mod hammer;
 mod hammer_figures;
 mod joint_motion;
+mod known;
 pub mod load_cycle;
 mod milled_part;
 mod milling_force;
@@ -16,6 +17,7 @@ mod workspace;
 mod workspace_figures;
 
 pub use examined::{Measured, examined};
+pub use known::{Known, known};
 
 use crate::findings::Answer;
 use crate::findings::belief::Belief;
