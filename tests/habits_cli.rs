@@ -187,7 +187,7 @@ fn shells_and_the_manual_are_served_and_typos_are_told() {
 /// Whatever a diagnosis may name can be looked up, whatever the kind of data.
 #[test]
 fn effects_of_every_kind_are_explained() {
-    let folder = tempfile::tempdir().unwrap();
+    let bench = Bench::new();
     for (name, kind) in [
         ("corner_lag", "milled-part"),
         ("hose_force", "force-sensor"),
@@ -196,12 +196,11 @@ fn effects_of_every_kind_are_explained() {
         ("loose_cube", "cubes"),
         ("backlash", "screw"),
     ] {
-        let output = ident(folder.path(), &["effects", name]);
-        let said = String::from_utf8_lossy(&output.stdout).to_string();
-        assert_eq!(output.status.code(), Some(0), "{name}");
+        let ran = bench.run(&["effects", name]);
+        assert_eq!(ran.status, 0, "{}", ran.errors);
+        let said = ran.out;
         assert!(said.contains(&format!("{name} in {kind} data")), "{said}");
         assert!(said.contains("told from rivals if you "), "{said}");
     }
-    let output = ident(folder.path(), &["effects", "corner_lga"]);
-    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(bench.run(&["effects", "corner_lga"]).status, 2);
 }
