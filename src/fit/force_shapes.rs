@@ -116,6 +116,16 @@ impl Shapes {
         self.rests.iter().flat_map(Rest::levels).collect()
     }
 
+    /// Standard deviation of what is left at every level, m, in the order of [`Shapes::levels`].
+    pub fn spreads(&self) -> Vec<f64> {
+        let own = |rest: &Rest| {
+            rest.weights(self.slow_noise(rest))
+                .into_iter()
+                .map(f64::recip)
+        };
+        self.rests.iter().flat_map(own).collect()
+    }
+
     /// What the lines leave at every level, in standard deviations of the mean there.
     pub fn left(&self) -> Vec<f64> {
         let own = |rest: &Rest| rest.project(&rest.readings, self.slow_noise(rest)).1;

@@ -153,6 +153,21 @@ impl Weighing {
         found
     }
 
+    /// Slopes from whitened ones, m/N; NaN where one of the same set-up is.
+    pub fn colour(&self, whitened: &[f64]) -> Vec<f64> {
+        let mut found = Vec::with_capacity(whitened.len());
+        for block in &self.blocks {
+            let own = &whitened[found.len()..found.len() + block.components.len()];
+            let root = block.whitener.clone().try_inverse();
+            let coloured = root.map(|root| root * DVector::from_column_slice(own));
+            match coloured {
+                Some(coloured) => found.extend(coloured.iter()),
+                None => found.extend(own.iter().map(|_| f64::NAN)),
+            }
+        }
+        found
+    }
+
     /// Point, direction and component of every whitened number: a number belongs to all components
     /// up to its own.
     pub fn places(&self) -> Vec<(usize, usize, usize)> {

@@ -87,11 +87,17 @@ impl Case<'_> {
     /// Gain of one seat: the set without it against the set, on data left out. What shows at one point
     /// or in one set-up alone cannot be predicted from the others: then less is left out at a time.
     pub(super) fn gain_of(&self, set: &Set, seat: usize) -> Gain {
+        let (before, after) = self.left_without_and_with(set, seat);
+        gain(&before, &after, self.unit())
+    }
+
+    /// What is left of rows that were not fitted (NaN: fitted), in standard deviations, without a seat and
+    /// with it.
+    pub(super) fn left_without_and_with(&self, set: &Set, seat: usize) -> (Vec<f64>, Vec<f64>) {
         let own = &self.seats.seats[seat];
         let without = self.without(set, seat);
         if let Some(point) = self.point_of(own) {
-            let (before, after) = (self.seen_at(point, &without), self.seen_at(point, set));
-            return gain(&before, &after, self.unit());
+            return (self.seen_at(point, &without), self.seen_at(point, set));
         }
         let springs = self.springs.columns.ncols();
         let mut first = None;
@@ -102,14 +108,18 @@ impl Case<'_> {
             }
             let of = |set: &Set| held_out(&self.rows(set, folds.len()), &folds, springs);
             let (before, after) = (of(&without), of(set));
-            let carried = gain(&before.carried, &after.carried, self.unit());
-            let refitted = gain(&before.refitted, &after.refitted, self.unit());
-            if let Some(real) = [carried, refitted].into_iter().find(Gain::is_real) {
-                return real;
+            let real = |pair: &(Vec<f64>, Vec<f64>)| gain(&pair.0, &pair.1, self.unit()).is_real();
+            let carried = (before.carried, after.carried);
+            if real(&carried) {
+                return carried;
+            }
+            let refitted = (before.refitted, after.refitted);
+            if real(&refitted) {
+                return refitted;
             }
             first.get_or_insert(refitted);
         }
-        first.unwrap_or_else(|| gain(&[], &[], self.unit()))
+        first.unwrap_or_default()
     }
 
     /// The point that a seat is about, if it is about one.

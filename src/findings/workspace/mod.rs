@@ -20,6 +20,7 @@ mod seats;
 mod smooth;
 mod strangers;
 mod thin;
+mod told;
 mod unseen;
 mod weights;
 

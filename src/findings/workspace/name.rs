@@ -18,7 +18,7 @@ impl Case<'_> {
         {
             let known = |s: usize| !self.seats.seats[s].stranger;
             let rivals = self.posterior.rivals(&chosen.seats, *seat, (SURE, known));
-            let gain = self.gain_of(chosen, *seat);
+            let gain = self.told_gain(chosen, *seat);
             let own = &self.seats.seats[*seat];
             causes.push(Cause {
                 effect: own.cause.card().name,
