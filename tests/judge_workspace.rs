@@ -8,18 +8,17 @@ use crate::judge;
 
 use crate::judge::{Floors, conclude, gains, judged};
 
-/// Three seeds of 300 cases: clean 148 of 189, single 244 of 380, pair 83 of 171, outside 50 of 71, untrue names in 27 of
-/// 740. In a laboratory without drift, coarse load cell, noise that grows with the load nor set-ups askew, and with
-/// displacements so small that turns add up, none of 44 clean files is blamed.
+/// Three seeds (1 to 3) of 300 cases: clean 174 of 189, single 308 of 380, pair 119 of 171, outside 48 of 71, untrue names
+/// in 40 of 740. Before finite turns were part of the simulation: 148, 244, 83, 50, and 27.
 #[test]
 fn points_by_strangers_are_judged_rightly() {
     let all = judged(judge::workspace::draw, 40);
     let rates = conclude("workspace", &all);
     gains(&all, judge::workspace::worth).conclude("workspace");
     let floors = Floors {
-        clean: 0.6,
-        single: 0.55,
-        pair: 0.25,
+        clean: 0.8,
+        single: 0.75,
+        pair: 0.5,
         outside: 0.3,
         wrong: 0.12,
     };
