@@ -147,7 +147,7 @@ impl Along {
         match self.least().and_then(|p| Some((p, p.limit.depth_m?))) {
             None => format!("No chatter down to {deepest} mm anywhere along the path {at}."),
             Some((place, depth)) => format!(
-                "Chatter starts nowhere along the path above {} mm of depth {at}; least after {:.1} mm of way.",
+                "The limit is nowhere along the path below {} mm {at}; it is least after {:.1} mm of way.",
                 significant(1e3 * depth, 3),
                 place.s_mm
             ),
