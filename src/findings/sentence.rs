@@ -88,6 +88,9 @@ pub fn left(answer: &Answer) -> String {
     )
 }
 
+/// An error this many times the noise is more than noise.
+const NOISY: f64 = 1.5;
+
 fn opening(answer: &Answer) -> String {
     let found = &answer.discrepancy;
     let simulation = match answer.unstated {
@@ -97,13 +100,17 @@ fn opening(answer: &Answer) -> String {
     let size = engineering(found.rms, 3, answer.unit);
     let noise = engineering(found.noise_rms, 2, answer.unit);
     if answer.verdict == Verdict::Sufficient {
+        let within = match found.rms < NOISY * found.noise_rms {
+            true => "the noise",
+            false => "the noise and what is not known better (springs, set-up, instruments)",
+        };
         return format!(
-            "{simulation} is right to within the noise: it misses the readings by {size} rms, and the readings scatter by {noise}."
+            "{simulation} is right to within {within}: it misses the readings by {size} rms, and the readings scatter by {noise}."
         );
     }
     let times = match found.rms / found.noise_rms {
         ratio if ratio > 1e4 => "far above the noise".into(),
-        ratio if ratio.is_finite() && ratio >= 1.5 => {
+        ratio if ratio.is_finite() && ratio >= NOISY => {
             format!(
                 "{} times the noise of {noise}",
                 significant(ratio, if ratio < 10.0 { 2 } else { 1 })
