@@ -91,9 +91,8 @@ fn the_report_of_a_campaign_in_a_browser() {
 fn stands_alone(dom: &str) {
     let names = dom.matches("xmlns=\"http").count() + dom.matches("xmlns:xlink=\"http").count();
     assert_eq!(dom.matches("http").count(), names, "an external address");
-    for taboo in [
-        "<script", "<img", "<link", "<iframe", " src=", "@import", "url(",
-    ] {
+    // scripts turn what stands in space, and are in the page themselves
+    for taboo in ["<img", "<link", "<iframe", " src=", "@import", "url("] {
         assert!(!dom.contains(taboo), "{taboo}");
     }
     let figures = dom.matches("<figure").count();

@@ -4,7 +4,7 @@
 use crate::experiments::finite_turns::FiniteTurns;
 use crate::fit::force_shapes::{Level, Shapes};
 use crate::fit::told_force::grid;
-use crate::ground::spatial::{V3, add, norm};
+use crate::ground::spatial::{V3, norm};
 use crate::measurement::workspace_test::WorkspaceTest;
 use crate::robot::Robot;
 
@@ -12,6 +12,12 @@ use crate::robot::Robot;
 const TURNS: f64 = 0.3;
 /// ... and no displacement is in proportion to better than this share of itself.
 const PROPORTION: f64 = 0.001;
+
+/// Standard deviation of the share of it that is there, about all of it, before the data.
+const PRESENT: f64 = 0.5;
+
+/// Slopes by set-up and component, m/N, and levels in standard deviations.
+type Seen = (Vec<[Option<f64>; 3]>, Vec<f64>);
 
 /// The even part of the displacement, and how well it is known.
 pub(super) struct Beyond {
@@ -30,12 +36,27 @@ impl Beyond {
         }
     }
 
-    /// Displacements, m, of forces (N, in their order) with what turns add.
-    pub(super) fn added(&self, place: (usize, usize), forces: &[f64], to: Vec<V3>) -> Vec<V3> {
-        let pairs = to.into_iter().zip(forces);
-        pairs
-            .map(|(moved, force)| add(moved, self.turns.beyond(place, *force)))
-            .collect()
+    /// Slopes and levels with as much of what turns add as the levels that were `read` show: all of it in a
+    /// laboratory, none in a simulation that was made in proportion.
+    pub(super) fn added(&self, shapes: &Shapes, read: &[f64], (lines, left): Seen) -> Seen {
+        let moved = |p: usize, d: usize, forces: &[f64]| -> Vec<V3> {
+            let beyond = forces.iter().map(|force| self.turns.beyond((p, d), *force));
+            beyond.collect()
+        };
+        let (more_lines, more_left) = shapes.seen(moved);
+        let rest = read.iter().zip(&left).map(|(read, own)| read - own);
+        let product: f64 = rest.zip(&more_left).map(|(rest, more)| rest * more).sum();
+        let square: f64 = more_left.iter().map(|more| more * more).sum();
+        let prior = PRESENT.powi(-2);
+        let share = ((product + prior) / (square + prior)).clamp(0.0, 1.0);
+        let line = |(own, more): (&[Option<f64>; 3], &[Option<f64>; 3])| {
+            [0, 1, 2].map(|k| Some(own[k]? + share * more[k]?))
+        };
+        let levels = left.iter().zip(&more_left);
+        (
+            lines.iter().zip(&more_lines).map(line).collect(),
+            levels.map(|(own, more)| own + share * more).collect(),
+        )
     }
 
     /// Tells the shapes how well the levels can be predicted.

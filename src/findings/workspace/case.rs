@@ -110,11 +110,9 @@ impl<'a> Case<'a> {
             seats.read_again(&scene, &shapes);
         }
         let left = shapes.left();
-        let own = |p: usize, d: usize, f: &[f64]| {
-            let jumps = scene.base.jumps((p, d), f, (Law::Free(STOP), 0.0));
-            beyond.added((p, d), f, jumps)
-        };
-        let (lines, jumps) = shapes.seen(own);
+        let own =
+            |p: usize, d: usize, f: &[f64]| scene.base.jumps((p, d), f, (Law::Free(STOP), 0.0));
+        let (lines, jumps) = beyond.added(&shapes, &left, shapes.seen(own));
         let bends: Vec<f64> = left.iter().zip(&jumps).map(|(l, j)| l - j).collect();
         if shapes.is_bent(&bends) {
             weigh(&mut seats, &scene, &shapes, &bends);
