@@ -113,14 +113,17 @@ fn place(depth: f64, tick: usize) -> V3 {
 }
 
 fn removal(depth: f64) -> f64 {
-    let count = 800;
-    let all = |stock: &mut Stock| {
-        for i in 0..count {
-            let tip = place(depth, i);
-            stock.remove(&Solid::of(&tool(), 32.0 * MM, tip, UP));
+    // several slots: the processor's time is counted in ticks of milliseconds
+    let (count, slots) = (800, 40);
+    let all = |stocks: &mut Vec<Stock>| {
+        for stock in stocks {
+            for i in 0..count {
+                let tip = place(depth, i);
+                stock.remove(&Solid::of(&tool(), 32.0 * MM, tip, UP));
+            }
         }
     };
-    least(count, || stock(depth), all)
+    least(count * slots, || vec![stock(depth); slots], all)
 }
 
 fn advance(depth: f64) -> f64 {
