@@ -12,7 +12,8 @@ use std::path::Path;
 use std::process::Command;
 
 /// Two seeds of 80 cases: clean 34 of 34, single 45 of 63, pair 15 of 26, outside 3 of 7, untrue names in 3 of 123. Some
-/// five seconds of one processor a case, nearly all of it the program's: the small version is four cases.
+/// five seconds of one processor a case, nearly all of it the program's: the small version is four cases, none of
+/// them a pair or from outside: of these it asserts nothing.
 #[test]
 fn parts_by_strangers_are_judged_rightly() {
     let all = judged_from(judge::part::draw, 20, 4);

@@ -147,3 +147,96 @@ fn limits_along_the_path_are_those_of_its_stations() {
         assert_eq!(output.status.code(), Some(2));
     }
 }
+
+const MODAL: &str = r#"kind = "modal"
+[[modes]]
+direction = [0, 1, 0]
+frequency_Hz = 300.0
+damping_ratio = 0.03
+stiffness_N_m = 8e6
+MODE
+[tool]
+diameter_mm = 10.0
+teeth = 2
+[material]
+Ktc_N_mm2 = 600
+Krc_N_mm2 = 200
+Kac_N_mm2 = 0
+Kte_N_mm = 0
+Kre_N_mm = 0
+Kae_N_mm = 0
+[cut]
+cut = "slot"
+"#;
+const MODE: &str = "[[modes]]\ndirection = [1, 0, 0]\nfrequency_Hz = 922.0\ndamping_ratio = 0.011\nstiffness_N_m = 1.34e6";
+
+/// Three hits on a mass on a spring (922 Hz, 1.1 %, 1.34 N/µm), a soft and a hard tip: the force a half sine,
+/// the motion by midpoint steps of a hundredth of a sample, the acceleration by the equation of motion.
+fn hits(pulse_s: f64) -> String {
+    let (omega, ratio, stiffness) = (922.0 * std::f64::consts::TAU, 0.011, 1.34e6);
+    let mass = stiffness / (omega * omega);
+    let (rate, fine) = (25_600.0, 100);
+    let step = 1.0 / (rate * fine as f64);
+    let begin = 0.02;
+    let mut text =
+        "# kind = \"hammer\"\n# robot = \"kr210\"\n# joint_angles_deg = [0, -90, 90, 0, 0, 0]\n\
+        direction,hit,time_s,force_N,ax_m_s2\n"
+            .to_string();
+    for hit in 1..=3 {
+        let force = |t: f64| match (t - begin) / pulse_s {
+            u if (0.0..1.0).contains(&u) => 100.0 * hit as f64 * (std::f64::consts::PI * u).sin(),
+            _ => 0.0,
+        };
+        let (mut x, mut v) = (0.0, 0.0);
+        for i in 0..12_800 {
+            let t = f64::from(i) / rate;
+            let a = |t: f64, x: f64, v: f64| {
+                (force(t) - stiffness * x) / mass - 2.0 * ratio * omega * v
+            };
+            text += &format!("x,{hit},{t:.8},{:.6},{:.8}\n", force(t), a(t, x, v));
+            for k in 0..fine {
+                let t = t + f64::from(k) * step;
+                let (k1, l1) = (v, a(t, x, v));
+                let (k2, l2) = (
+                    v + 0.5 * step * l1,
+                    a(t + 0.5 * step, x + 0.5 * step * k1, v + 0.5 * step * l1),
+                );
+                (x, v) = (x + step * k2, v + step * l2);
+            }
+        }
+    }
+    text
+}
+
+/// A tool hit with a hammer limits the depth as the same mode by numbers does, whether the tip excites the whole
+/// band or not.
+#[test]
+fn a_measured_tool_limits_the_cut_as_its_mode_does() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let write = |name: &str, text: &str| std::fs::write(here.join(name), text).unwrap();
+    write("both.toml", &MODAL.replace("MODE", MODE));
+    write("one.toml", &MODAL.replace("MODE", ""));
+    write("hard.csv", &hits(0.4e-3));
+    write("soft.csv", &hits(0.9e-3));
+    let lobes = |arguments: &[&str]| -> Vec<f64> {
+        let all = ["--dry-run", "--rpm", "5000:8000:1000"];
+        let found = json(here, &[&["lobes"], arguments, &all].concat());
+        let limits = found["limit_depth_mm"].as_array().unwrap();
+        limits
+            .iter()
+            .map(|d| d.as_f64().unwrap_or(f64::INFINITY))
+            .collect()
+    };
+    let (truth, without) = (lobes(&["both.toml"]), lobes(&["one.toml"]));
+    for file in ["hard.csv", "soft.csv"] {
+        let found = lobes(&["one.toml", "--tool-frf", file]);
+        println!("{file}: {found:?} for {truth:?}, without {without:?}");
+        for ((found, truth), without) in found.iter().zip(&truth).zip(&without) {
+            assert!(
+                (found / truth - 1.0).abs() < 0.02 && *without > 1.3 * truth,
+                "{file}"
+            );
+        }
+    }
+}

@@ -21,10 +21,14 @@ pub struct Gain {
 impl Gain {
     /// Probability that there is a gain at all, from the interval of ln(before/after).
     pub fn probability(&self) -> f64 {
-        let nats = |percent: f64| -(1.0 - percent.min(100.0 - 1e-9) / 100.0).ln();
-        let spread = (nats(self.ci95_percent[1]) - nats(self.ci95_percent[0])) / (2.0 * Z95);
-        let z = nats(self.reduction_percent) / spread.max(f64::MIN_POSITIVE);
+        let z = nats(self.reduction_percent) / self.ln_std().max(f64::MIN_POSITIVE);
         0.5 * statrs::function::erf::erfc(-z / std::f64::consts::SQRT_2)
+    }
+
+    /// Standard error of ln(before/after), from the interval.
+    pub fn ln_std(&self) -> f64 {
+        let [low, high] = self.ci95_percent.map(nats);
+        (high - low) / (2.0 * Z95)
     }
 
     /// The same gain with room for a better law: the law that was fitted misses nature by some percent of
@@ -56,4 +60,9 @@ impl Gain {
             ci95_percent: [percent(middle - half), percent(middle + half)],
         }
     }
+}
+
+/// ln(before/after) of a reduction in percent.
+fn nats(percent: f64) -> f64 {
+    -(1.0 - percent.min(100.0 - 1e-9) / 100.0).ln()
 }

@@ -89,14 +89,21 @@ impl Rest {
 
     /// Squares of the change from one reading to the next beyond the line, and how many there are.
     pub fn steps(&self) -> (f64, f64) {
-        let left = self.left();
+        let changes = self.changes(&self.left());
+        (changes.iter().map(|c| c.1).sum(), changes.len() as f64)
+    }
+
+    /// Squares of the change from one reading to the next of its cycle, m², each with the force (N) between.
+    fn changes(&self, left: &[f64]) -> Vec<(f64, f64)> {
         let kept = |i: &usize| {
             let same = self.readings[*i].cycle == self.readings[i - 1].cycle;
             same && self.kept[*i] * self.kept[i - 1] > 0.0
         };
-        let changes = (1..left.len()).filter(kept);
-        let changes: Vec<f64> = changes.map(|i| (left[i] - left[i - 1]).powi(2)).collect();
-        (changes.iter().sum(), changes.len() as f64)
+        let change = |i: usize| {
+            let force = 0.5 * (self.readings[i].force.abs() + self.readings[i - 1].force.abs());
+            (force, (left[i] - left[i - 1]).powi(2))
+        };
+        (1..left.len()).filter(kept).map(change).collect()
     }
 
     /// Squares of noise, m², each with the force (N) at which it was seen: readings about the mean of their
@@ -113,15 +120,10 @@ impl Rest {
         if !again.is_empty() {
             return again;
         }
-        let beside = |i: &usize| {
-            let same = self.readings[*i].cycle == self.readings[i - 1].cycle;
-            same && self.kept[*i] * self.kept[i - 1] > 0.0
-        };
-        let changes = (1..left.len()).filter(beside).map(|i| {
-            let force = 0.5 * (self.readings[i].force.abs() + self.readings[i - 1].force.abs());
-            (force, 0.5 * (left[i] - left[i - 1]).powi(2))
-        });
-        changes.collect()
+        let changes = self.changes(left).into_iter();
+        changes
+            .map(|(force, square)| (force, 0.5 * square))
+            .collect()
     }
 
     /// The line of what was used.

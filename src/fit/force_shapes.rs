@@ -111,6 +111,12 @@ impl Shapes {
         squares > most(freedom) || sums.iter().any(|sum| *sum > most(count))
     }
 
+    /// The set-up at a point that was loaded along a direction.
+    pub fn setup(&self, point: usize, direction: usize) -> Option<usize> {
+        let here = |s: &Setup| (s.point, s.direction) == (point, direction);
+        self.setups.iter().position(here)
+    }
+
     /// Every level, set-up by set-up.
     pub fn levels(&self) -> Vec<Level> {
         self.rests.iter().flat_map(Rest::levels).collect()
@@ -150,8 +156,7 @@ impl Shapes {
             });
             let readings: Vec<Reading> = moved.collect();
             let (slope, own) = rest.project(&readings, self.slow_noise(rest));
-            let here = |s: &Setup| s.point == rest.point && s.direction == rest.direction;
-            if let Some(i) = self.setups.iter().position(here) {
+            if let Some(i) = self.setup(rest.point, rest.direction) {
                 slopes[i][rest.component] = slope;
             }
             left.extend(own);

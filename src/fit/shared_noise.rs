@@ -31,9 +31,9 @@ impl Shapes {
                 false => self.without_repeats((own / rows.max(1.0)).sqrt(), k),
             };
         }
-        (0..3).for_each(|k| self.raise(k, &left));
+        (0..3).for_each(|k| self.grow(k, &left));
         self.wander = self.wandering();
-        (0..3).for_each(|k| self.wander[k] = self.wander[k].max(self.growth(k)));
+        (0..3).for_each(|k| self.wander[k] = self.wander[k].max(self.drift(k)));
         for (rest, left) in self.rests.iter().zip(&left) {
             let own = rest.slope_scatter(left, self.noise[rest.component]);
             (0..2).for_each(|k| slopes[k] += own[k]);
@@ -55,7 +55,7 @@ impl Shapes {
 
     /// Noise that grows with the load (a target that turns away, speckle): its square over that of the force,
     /// where it does so beyond chance.
-    fn raise(&mut self, component: usize, left: &[Vec<f64>]) {
+    fn grow(&mut self, component: usize, left: &[Vec<f64>]) {
         let own = self
             .rests
             .iter()
@@ -146,7 +146,7 @@ impl Shapes {
 
     /// How far repeated levels of one component drift apart within a cycle, in the units of
     /// [`Shapes::wander`]: readings that repeat far worse than their neighbours agree grow with time.
-    fn growth(&self, component: usize) -> f64 {
+    fn drift(&self, component: usize) -> f64 {
         let short = self.short(component).max(self.stated.unwrap_or(0.0));
         match short > 0.0 {
             true => self.noise[component] / (2.0 * short),

@@ -1,14 +1,16 @@
 //! How exactly the force of every step was told: a display of five newtons rounds what it shows, in every
 //! set-up at a level alike.
 
-/// Smallest part of a newton that is looked at, N.
+/// Smallest part of a newton that is looked at, N: displays show no more decimals.
 const FINEST: f64 = 0.01;
-/// A grid finer than this is none, N.
+/// A grid finer than this is none, N: it moves a robot of 10 N/µm by less than 2 nm.
 const FINE: f64 = 0.05;
-/// Forces that fill their grid to this share were commanded on it, not rounded to it.
+/// Forces that fill their grid to this share were commanded on it, not rounded to it: steps of a test are equal.
 const FILLED: f64 = 0.4;
-/// More distinct forces than this were recorded, not told.
-const MANY: usize = 5000;
+/// Fewer distinct forces than this lie on a common grid by choice: 100, 500 and 1000 N are no display of 100 N.
+const FEWEST: usize = 8;
+/// No display is coarser than this share of the largest force that is read from it.
+const COARSEST: f64 = 0.02;
 
 /// The grid on which forces (N) were told, N, if they were rounded to one.
 pub fn grid(forces: impl Iterator<Item = f64>) -> Option<f64> {
@@ -26,8 +28,9 @@ pub fn grid(forces: impl Iterator<Item = f64>) -> Option<f64> {
     parts.retain(|part| *part > 0);
     let common = parts.iter().copied().fold(0, divisor);
     let last = *parts.last()?;
-    let filled = parts.len() as f64 * common as f64 / last as f64;
-    let rounded = filled < FILLED && parts.len() < MANY;
+    let share = common as f64 / last as f64;
+    let filled = parts.len() as f64 * share;
+    let rounded = filled < FILLED && parts.len() >= FEWEST && share < COARSEST;
     let grid = common as f64 * FINEST;
     (rounded && grid > FINE).then_some(grid)
 }
@@ -47,8 +50,11 @@ mod tests {
     fn rounded_forces_are_told_from_commanded_ones() {
         let commanded = [0.0, 200.0, 400.0, -200.0, 600.0];
         assert_eq!(grid(commanded.into_iter()), None);
-        let rounded = [0.0, 105.0, 215.0, 320.0, -110.0, 415.0];
+        let chosen = [0.0, 100.0, 500.0, 1000.0];
+        assert_eq!(grid(chosen.into_iter()), None);
+        let rounded = [0.0, 105.0, 215.0, 320.0, -110.0, 415.0, 525.0, 610.0, 705.0];
         assert_eq!(grid(rounded.into_iter()), Some(5.0));
+        assert_eq!(grid(rounded.into_iter().take(5)), None);
         let exact = [0.0, 104.9931, 213.4452];
         assert_eq!(grid(exact.into_iter()), None);
     }

@@ -5,6 +5,7 @@ use crate::cutting::stability::TipMode;
 use crate::experiments::hammer_frf::{HammerFrf, Settings, estimate};
 use crate::experiments::hammer_modes::modes;
 use crate::ground::problem::{Outcome, Problem};
+use crate::measurement::hammer::HammerRecord;
 use crate::measurement::hammer_uff;
 use crate::signal::modes::Mode;
 use std::path::Path;
@@ -20,8 +21,10 @@ pub struct MeasuredTip {
     pub remarks: Vec<String>,
 }
 
-/// Share of the sampling rate up to which modes are looked for.
+/// Share of the sampling rate up to which modes are looked for, if the hits excite as much; else half of that,
+/// and so on, so many times.
 const BAND: f64 = 0.4;
+const HALVINGS: i32 = 8;
 
 impl MeasuredTip {
     /// Reads hits on the tip, or FRFs there (universal file), forces and accelerations along x, y, z.
@@ -30,23 +33,18 @@ impl MeasuredTip {
     /// A file without FRFs, several points, no driven direction, no mode.
     pub fn read(path: &Path) -> Outcome<Self> {
         let record = hammer_uff::read_any(path)?;
-        let settings = Settings {
-            band_hz: BAND / record.interval_s,
-            modes: true,
-            ..Settings::default()
-        };
         let of = || -> Outcome<Self> {
-            let frf = estimate(&record, &settings)?;
+            let (frf, band_hz) = excited(&record)?;
             let places = Places::of(&frf)?;
             let last = frf.frequency_hz.last().copied().unwrap_or(0.0);
-            let found = modes(&frf, last.min(settings.band_hz));
+            let found = modes(&frf, last.min(band_hz));
             let tips: Vec<TipMode> = found.iter().filter_map(|m| places.tip(m)).collect();
             if tips.is_empty() {
                 let remedy = "give hits at the tip with accelerations along the hit, or leave --tool-frf out";
                 return Err(Problem::new("shows no mode of the tool", remedy));
             }
             let mut remarks = frf.remarks.clone();
-            remarks.extend(beside(&tips, found.len() - tips.len()));
+            remarks.extend(beside(&tips, found.len() - tips.len(), last.min(band_hz)));
             Ok(Self {
                 modes: tips,
                 sha256: record.sha256.clone(),
@@ -57,9 +55,30 @@ impl MeasuredTip {
     }
 }
 
-fn beside(tips: &[TipMode], left_out: usize) -> Vec<String> {
+/// The FRFs in the widest band that the hits excite, and its end, Hz.
+fn excited(record: &HammerRecord) -> Outcome<(HammerFrf, f64)> {
+    let of = |halvings: i32| {
+        let band_hz = BAND / record.interval_s * 0.5_f64.powi(halvings);
+        let settings = Settings {
+            band_hz,
+            modes: true,
+            ..Settings::default()
+        };
+        estimate(record, &settings).map(|frf| (frf, band_hz))
+    };
+    let mut found = of(0);
+    for halvings in 1..=HALVINGS {
+        if found.is_ok() {
+            break;
+        }
+        found = of(halvings);
+    }
+    found
+}
+
+fn beside(tips: &[TipMode], left_out: usize, band_hz: f64) -> Vec<String> {
     let mut said = vec![format!(
-        "{} modes of the measured tool are added; its x, y and z are taken as those of the cut (x along the feed), and what swings beyond the measured band as stiff.",
+        "{} modes of the measured tool up to {band_hz:.0} Hz are added; its x, y and z are taken as those of the cut (x along the feed), and what swings faster as stiff.",
         tips.len()
     )];
     if left_out > 0 {

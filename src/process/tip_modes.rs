@@ -1,9 +1,10 @@
 //! How the tip of the tool swings on the elastic robot at a pose, seen from the cut.
 
 use super::pose::Carrier;
+use crate::cutting::dexel::engagement::Frame;
 use crate::cutting::stability::TipMode;
 use crate::ground::problem::Outcome;
-use crate::ground::spatial::{V3, cross, dot, norm, rotate, unit};
+use crate::ground::spatial::{V3, cross, dot, norm, rotate};
 use crate::measurement::job::Job;
 use crate::motion::{Work, elastic, forward_kinematics};
 use crate::path::Quaternion;
@@ -66,13 +67,10 @@ impl Station {
     /// Axes of the cut frame: x along the feed, z the spindle axis, y = z × x; workpiece frame. A feed
     /// along the spindle axis (plunging) leaves the turn open: x is then chosen.
     pub fn axes(&self) -> [V3; 3] {
-        let z = self.spindle;
-        let across = |feed: V3| cross(z, feed);
-        let clear = |v: &V3| norm(*v) > PLUNGING;
-        let feeds = [self.feed, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-        let found = feeds.map(across).into_iter().find(clear);
-        let y = found.and_then(unit).unwrap_or([0.0, 1.0, 0.0]);
-        [cross(y, z), y, z]
+        let plunges = norm(cross(self.spindle, self.feed)) < PLUNGING;
+        let forward = if plunges { [1.0, 0.0, 0.0] } else { self.feed };
+        let frame = Frame::towards(forward, self.spindle);
+        [frame.x, frame.y, frame.z]
     }
 
     /// The tip's modes here, in the cut frame, of the robot as `carrier` has it.

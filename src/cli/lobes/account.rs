@@ -57,52 +57,77 @@ impl Lobes<'_> {
     /// The account.
     pub fn text(&self, report: Option<&Path>) -> String {
         let mut text = format!("{}\n\n rev/min  limit mm  chatter Hz\n", self.sentence());
-        let step = self.limits.len().div_ceil(MOST_LINES).max(1);
-        for l in self.limits.iter().step_by(step) {
-            let depth = l
-                .depth_m
-                .map_or("deeper".into(), |d| significant(1e3 * d, 4));
-            let hertz = l.chatter_hz.map_or(String::new(), |f| format!("{f:.1}"));
-            text += &format!("{:>8.0}  {depth:>8}  {hertz:>10}\n", l.rpm);
-        }
-        for remark in &self.case.remarks {
-            text += &format!("note: {remark}\n");
-        }
-        if let Some(path) = report {
-            text += &format!("\nreport {}\n", path.display());
-        }
-        text
+        lines(
+            &mut text,
+            self.limits.iter().map(|l| (format!("{:>8.0}", l.rpm), l)),
+        );
+        closed(text, self.case, report)
     }
 
     /// The report page.
     pub fn page(&self) -> Page {
-        let inputs: Vec<&str> = self.case.inputs.iter().map(|i| i.0.as_str()).collect();
-        let mut page = Page::new(format!("Stability: {}", self.case.name), inputs.join(", "))
-            .with(Block::verdict(Tone::Neutral, self.sentence()));
-        for remark in &self.case.remarks {
-            page = page.with(Block::verdict(Tone::Neutral, remark));
-        }
-        page.with(Block::Chart(self.chart()))
+        let title = format!("Stability: {}", self.case.name);
+        opened(title, self.case, self.sentence()).with(Block::Chart(self.chart()))
     }
 
     fn chart(&self) -> Chart {
-        let speed = || Axis::new("Spindle speed", "rev/min");
-        let depth = |l: &Limit| [l.rpm, l.depth_m.map_or(f64::NAN, |d| 1e3 * d)];
-        let hertz = |l: &Limit| [l.rpm, l.chatter_hz.unwrap_or(f64::NAN)];
-        Chart::new(
+        let chart = Chart::new(
             format!("lobes-{}", self.case.name),
             "Stability lobes",
             "Above: the depth of cut at which chatter starts; where the line is broken there is none down to the deepest cut looked at. Below: the frequency of that chatter.",
-        )
-        .with(
-            Panel::new(speed(), Axis::new("Depth of cut", "mm"))
-                .with(Series::line("limit", self.limits.iter().map(depth).collect())),
-        )
-        .with(
-            Panel::new(speed(), Axis::new("Chatter", "Hz"))
-                .with(Series::points("chatter", self.limits.iter().map(hertz).collect())),
-        )
+        );
+        let limits = self.limits.iter().map(|l| (l.rpm, l)).collect();
+        panels(chart, ["Spindle speed", "rev/min"], limits)
     }
+}
+
+/// A page with its verdict and its remarks.
+pub fn opened(title: String, case: &Case, sentence: String) -> Page {
+    let inputs: Vec<&str> = case.inputs.iter().map(|i| i.0.as_str()).collect();
+    let page = Page::new(title, inputs.join(", "));
+    let page = page.with(Block::verdict(Tone::Neutral, sentence));
+    let with = |page: Page, remark: &String| page.with(Block::verdict(Tone::Neutral, remark));
+    case.remarks.iter().fold(page, with)
+}
+
+/// Limits and their chatter over anything.
+pub fn panels(chart: Chart, [label, unit]: [&str; 2], limits: Vec<(f64, &Limit)>) -> Chart {
+    let over = |y: &dyn Fn(&Limit) -> Option<f64>| {
+        let point = |(x, l): &(f64, &Limit)| [*x, y(l).unwrap_or(f64::NAN)];
+        limits.iter().map(point).collect::<Vec<[f64; 2]>>()
+    };
+    let depth = over(&|l| l.depth_m.map(|d| 1e3 * d));
+    let hertz = over(&|l| l.chatter_hz);
+    let axis = || Axis::new(label, unit);
+    let above = Panel::new(axis(), Axis::new("Depth of cut", "mm"));
+    let below = Panel::new(axis(), Axis::new("Chatter", "Hz"));
+    chart
+        .with(above.with(Series::line("limit", depth)))
+        .with(below.with(Series::points("chatter", hertz)))
+}
+
+/// A line of the account for some of the limits, evenly spread.
+pub fn lines<'a>(text: &mut String, limits: impl ExactSizeIterator<Item = (String, &'a Limit)>) {
+    let step = limits.len().div_ceil(MOST_LINES).max(1);
+    for (place, limit) in limits.step_by(step) {
+        let depth = limit.depth_m.map(|d| significant(1e3 * d, 4));
+        let depth = depth.unwrap_or("deeper".into());
+        let hertz = limit
+            .chatter_hz
+            .map_or(String::new(), |f| format!("{f:.1}"));
+        *text += &format!("{place}  {depth:>8}  {hertz:>10}\n");
+    }
+}
+
+/// The account with its remarks and its report.
+pub fn closed(mut text: String, case: &Case, report: Option<&Path>) -> String {
+    for remark in &case.remarks {
+        text += &format!("note: {remark}\n");
+    }
+    if let Some(path) = report {
+        text += &format!("\nreport {}\n", path.display());
+    }
+    text
 }
 
 /// Lines of the account.

@@ -1,13 +1,14 @@
 //! `ident lobes --along`: how deep one may cut at each place of the path.
 
 use super::super::output::{print, print_result};
+use super::account::{closed, lines, opened, panels};
 use super::{Arguments, Case, Ending, Limit, deepest, input, speeds, written};
 use crate::ground::problem::{Outcome, Problem};
 use crate::process::tip_modes::{Station, carrier};
 use crate::report::json::number;
-use crate::sheet::chart::{Axis, Chart, Panel, Series};
+use crate::sheet::chart::Chart;
 use crate::sheet::number::significant;
-use crate::sheet::page::{Block, Page, Tone};
+use crate::sheet::page::{Block, Page};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -16,8 +17,6 @@ use std::path::Path;
 /// Stations of a path, and the shortest way between two, m.
 const STATIONS: f64 = 100.0;
 const NEAREST: f64 = 1e-3;
-/// Lines of the account.
-const MOST_LINES: usize = 25;
 
 const EVERYWHERE: &str = "Everywhere but in rapid motions the tool is taken to cut with this side and width, in the air too; where it plunges, the feed is put across.";
 
@@ -156,52 +155,24 @@ impl Along {
 
     fn text(&self, report: Option<&Path>) -> String {
         let mut text = format!("{}\n\n  way mm  limit mm  chatter Hz\n", self.sentence());
-        let step = self.places.len().div_ceil(MOST_LINES).max(1);
-        for place in self.places.iter().step_by(step) {
-            let limit = &place.limit;
-            let depth = limit.depth_m.map(|d| significant(1e3 * d, 4));
-            let hertz = limit
-                .chatter_hz
-                .map_or(String::new(), |f| format!("{f:.1}"));
-            let depth = depth.unwrap_or("deeper".into());
-            text += &format!("{:>8.1}  {depth:>8}  {hertz:>10}\n", place.s_mm);
-        }
-        for remark in &self.case.remarks {
-            text += &format!("note: {remark}\n");
-        }
-        if let Some(path) = report {
-            text += &format!("\nreport {}\n", path.display());
-        }
-        text
+        let place = |p: &'_ Place| format!("{:>8.1}", p.s_mm);
+        lines(&mut text, self.places.iter().map(|p| (place(p), &p.limit)));
+        closed(text, &self.case, report)
     }
 
     fn page(&self, name: &str) -> Page {
-        let inputs: Vec<&str> = self.case.inputs.iter().map(|i| i.0.as_str()).collect();
         let title = format!("Stability along the path: {}", self.case.name);
-        let mut page = Page::new(title, inputs.join(", "))
-            .with(Block::verdict(Tone::Neutral, self.sentence()));
-        for remark in &self.case.remarks {
-            page = page.with(Block::verdict(Tone::Neutral, remark));
-        }
+        let page = opened(title, &self.case, self.sentence());
         page.with(Block::Chart(self.chart(name)))
     }
 
     fn chart(&self, name: &str) -> Chart {
-        let way = || Axis::new("Way along the path", "mm");
-        let depth = |p: &Place| [p.s_mm, p.limit.depth_m.map_or(f64::NAN, |d| 1e3 * d)];
-        let hertz = |p: &Place| [p.s_mm, p.limit.chatter_hz.unwrap_or(f64::NAN)];
-        Chart::new(
+        let chart = Chart::new(
             name,
             "Stability along the path",
             "Above: the depth of cut at which chatter starts at each place of the path, rapid motions left out; where the line is broken there is none down to the deepest cut looked at. Below: the frequency of that chatter.",
-        )
-        .with(
-            Panel::new(way(), Axis::new("Depth of cut", "mm"))
-                .with(Series::line("limit", self.places.iter().map(depth).collect())),
-        )
-        .with(
-            Panel::new(way(), Axis::new("Chatter", "Hz"))
-                .with(Series::points("chatter", self.places.iter().map(hertz).collect())),
-        )
+        );
+        let limits = self.places.iter().map(|p| (p.s_mm, &p.limit)).collect();
+        panels(chart, ["Way along the path", "mm"], limits)
     }
 }

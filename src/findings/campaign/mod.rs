@@ -82,7 +82,7 @@ impl Campaign {
     /// A file that cannot be read, or none at all.
     pub fn files(place: &Place) -> Outcome<Vec<PathBuf>> {
         let mut paths: Vec<PathBuf> = Vec::new();
-        for (name, _) in KINDS {
+        for (name, ..) in KINDS {
             for path in place.files_of(name)? {
                 let role = fact_of(&path, "role").map_err(|problem| problem.in_file(&path))?;
                 let compared = role.is_some_and(|role| role == COMPARISON);

@@ -1,7 +1,7 @@
-//! What every kind of data behind the engine may blame: its own table of effects, as text.
+//! What every kind of data behind the engine may blame, as text: the effects of its own table.
 
+use super::KINDS;
 use crate::findings::table::Effect;
-use crate::findings::{cubes, force_sensor, milled_part, milling_force, screw};
 use serde::Serialize;
 
 /// An effect of one kind of data.
@@ -19,19 +19,25 @@ pub struct Known {
     pub would_tell: &'static str,
 }
 
+/// The effects of a kind's own table, of the kind of this name.
+pub type Table = fn(&'static str) -> Vec<Known>;
+
 /// All of them, kind by kind.
 pub fn known() -> Vec<Known> {
-    [
-        of("cubes", cubes::EFFECTS),
-        of("force-sensor", force_sensor::EFFECTS),
-        of("screw", screw::EFFECTS),
-        of("milling-force", milling_force::EFFECTS),
-        of("milled-part", milled_part::EFFECTS),
-    ]
-    .concat()
+    KINDS
+        .iter()
+        .flat_map(|(kind, _, table)| table(kind))
+        .collect()
 }
 
-fn of<C>(kind: &'static str, effects: &[Effect<C>]) -> Vec<Known> {
+/// A kind whose effects all stand in the tables of joints ([`crate::effects::EFFECTS`]) and of the whole robot
+/// ([`crate::causes::CAUSES`]).
+pub(super) fn of_all(_: &'static str) -> Vec<Known> {
+    Vec::new()
+}
+
+/// Those of a table.
+pub(super) fn of<C>(kind: &'static str, effects: &[Effect<C>]) -> Vec<Known> {
     let one = |effect: &Effect<C>| Known {
         name: effect.name,
         kind,

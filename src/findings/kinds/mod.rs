@@ -17,16 +17,17 @@ mod workspace;
 mod workspace_figures;
 
 pub use examined::{Measured, examined};
-pub use known::{Known, known};
+pub use known::{Known, Table, known};
 
-use crate::findings::Answer;
 use crate::findings::belief::Belief;
+use crate::findings::{self, Answer};
 use crate::ground::problem::Outcome;
 use crate::measurement::hammer_uff::is_universal;
 use crate::measurement::leading::front_of;
 use crate::measurement::test::{Kind, Test};
 use crate::robot::Robot;
 use crate::sheet::chart::Chart;
+use known::{of, of_all};
 use serde_json::{Map, Value};
 use std::path::Path;
 
@@ -104,17 +105,27 @@ pub trait Diagnosed: Send + Sync {
 /// Reads and diagnoses a file.
 pub type Diagnose = fn(&Path) -> Outcome<Box<dyn Diagnosed>>;
 
-/// Every kind, by its name in the front matter.
-pub const KINDS: &[(&str, Diagnose)] = &[
-    ("load-cycle", load_cycle::diagnosed),
-    ("joint-motion", joint_motion::diagnosed),
-    ("workspace", workspace::diagnosed),
-    ("hammer", hammer::diagnosed),
-    ("cubes", cubes::diagnosed),
-    ("force-sensor", force_sensor::diagnosed),
-    ("screw", screw::diagnosed),
-    ("milling-force", milling_force::diagnosed),
-    ("milled-part", milled_part::diagnosed),
+/// Every kind: its name in the front matter, how it is diagnosed, and the effects of its own.
+pub const KINDS: &[(&str, Diagnose, Table)] = &[
+    ("load-cycle", load_cycle::diagnosed, of_all),
+    ("joint-motion", joint_motion::diagnosed, of_all),
+    ("workspace", workspace::diagnosed, of_all),
+    ("hammer", hammer::diagnosed, of_all),
+    ("cubes", cubes::diagnosed, |k| {
+        of(k, findings::cubes::EFFECTS)
+    }),
+    ("force-sensor", force_sensor::diagnosed, |k| {
+        of(k, findings::force_sensor::EFFECTS)
+    }),
+    ("screw", screw::diagnosed, |k| {
+        of(k, findings::screw::EFFECTS)
+    }),
+    ("milling-force", milling_force::diagnosed, |k| {
+        of(k, findings::milling_force::EFFECTS)
+    }),
+    ("milled-part", milled_part::diagnosed, |k| {
+        of(k, findings::milled_part::EFFECTS)
+    }),
 ];
 
 /// The kind of a file, and how it is diagnosed. A universal file is a hammer test; a CSV file that states none is read as a load cycle,
@@ -133,7 +144,7 @@ fn kind_said(path: &Path) -> Outcome<(&'static str, Diagnose)> {
     let front = front_of(path)?;
     let said = front.text("kind")?.unwrap_or(KINDS[0].0);
     let found = KINDS.iter().find(|kind| kind.0 == said).copied();
-    found.ok_or_else(|| {
+    found.map(|kind| (kind.0, kind.1)).ok_or_else(|| {
         let known: Vec<&str> = KINDS.iter().map(|kind| kind.0).collect();
         let what = format!("nothing diagnoses the kind `{said}`");
         let remedy = format!("give a file of kind {}", known.join(", "));

@@ -118,10 +118,7 @@ impl<'a> Case<'a> {
             weigh(&mut seats, &scene, &shapes, &bends);
         }
         let line = |p: usize, d: usize| -> V3 {
-            let here = shapes
-                .setups
-                .iter()
-                .position(|s| (s.point, s.direction) == (p, d));
+            let here = shapes.setup(p, d);
             let own = here.map_or([None; 3], |i| lines[i]);
             std::array::from_fn(|k| scene.base.slopes[p][d][k] + own[k].unwrap_or(0.0))
         };

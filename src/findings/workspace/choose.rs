@@ -7,8 +7,8 @@ use super::seats::Seat;
 use super::unseen::{Rows, fitted, gain, held_out};
 use crate::findings::gain::Gain;
 use crate::fit::force_shapes::Level;
-use crate::fit::force_steps::Setup;
 use crate::ground::spatial::M3;
+use std::collections::BTreeMap;
 
 /// Probability of a cause (it or any other in its stead) against none, below which it is not named.
 const NEEDED: f64 = 0.72;
@@ -144,19 +144,21 @@ impl Case<'_> {
     /// How far the slope of one cycle lies from that of the others by the noise of readings, in standard
     /// deviations of a slope; all of one where no cycle repeats another. By row.
     fn scatter(&self) -> Vec<f64> {
-        let deviations = self.weighing.deviations();
-        let measured = |s: &&Setup| s.lines.iter().any(Option::is_some);
-        let setups: Vec<&Setup> = self.shapes.setups.iter().filter(measured).collect();
+        let places = self.weighing.places();
+        let mut setups: Vec<(usize, usize)> = places.iter().map(|p| (p.0, p.1)).collect();
+        setups.dedup();
+        let deviations: BTreeMap<_, _> =
+            setups.into_iter().zip(self.weighing.deviations()).collect();
         let of = |(point, direction, k): (usize, usize, usize)| {
-            let here = |s: &&Setup| (s.point, s.direction) == (point, direction);
-            let at = setups.iter().position(here)?;
-            let cycles = setups[at].cycles as f64;
+            let at = self.shapes.setup(point, direction)?;
+            let setup = &self.shapes.setups[at];
+            let cycles = setup.cycles as f64;
             let alone = cycles / (cycles - 1.0).sqrt();
-            let own = setups[at].lines[k]?.stderr * alone / deviations[at][k];
+            let own = setup.lines[k]?.stderr * alone / deviations[&(point, direction)][k];
             (own < 1.0).then_some(own)
         };
-        let places = self.weighing.places().into_iter();
-        places.map(|place| of(place).unwrap_or(1.0)).collect()
+        let own = places.into_iter().map(|place| of(place).unwrap_or(1.0));
+        own.collect()
     }
 
     /// Which rows are left out together. Beyond the slopes the levels are rows where the set bends the

@@ -1,10 +1,11 @@
 //! What naming a cause gains, as a reader would compute it from the file: root mean square of readings less
-//! predictions, in metres, on rows that were not fitted.
+//! predictions, in metres, on rows that were not fitted. Whether there is a gain at all is decided in standard
+//! deviations ([`Case::gain_of`]), where each set-up counts by how well it is known; that number is no error in metres.
 
 use super::case::Case;
 use super::search::Set;
+use super::unseen::gain;
 use crate::findings::gain::Gain;
-use crate::ground::stats::Z95;
 use std::collections::BTreeMap;
 
 /// Squares of readings without and with a cause, m², and how many readings.
@@ -23,27 +24,18 @@ impl Case<'_> {
             others.fold([0.0; 3], |sum, (_, own)| [0, 1, 2].map(|k| sum[k] + own[k]))
         };
         let whole = total(usize::MAX);
+        let decided = gain(&before, &after, self.unit());
         if !whole.iter().all(|sum| *sum > 0.0 && sum.is_finite()) {
-            return self.gain_of(set, seat);
+            return decided;
         }
+        let chance = Some(decided.ln_std()).filter(|std| std.is_finite());
         let ln = |s: Sums| 0.5 * (s[0] / s[1]).ln();
         let parts: Vec<f64> = (0..all.len()).map(|i| ln(total(i))).collect();
         let parts: Vec<f64> = parts.into_iter().filter(|x| x.is_finite()).collect();
         let rms = |k: usize| (whole[k] / whole[2]).sqrt();
-        Gain::of(
-            rms(0),
-            rms(1),
-            jackknife(&parts).hypot(self.chance(set, seat)),
-        )
-    }
-
-    /// Standard error of the logarithm by the noise of readings alone.
-    fn chance(&self, set: &Set, seat: usize) -> f64 {
-        let gain = self.gain_of(set, seat);
-        let nats = |percent: f64| -(1.0 - percent.min(100.0 - 1e-9) / 100.0).ln();
-        let [low, high] = gain.ci95_percent;
-        let std = (nats(high) - nats(low)) / (2.0 * Z95);
-        if std.is_finite() { std } else { 0.0 }
+        // the noise of the readings, and that another choice of points would have gained otherwise
+        let std = jackknife(&parts).hypot(chance.unwrap_or(0.0));
+        Gain::of(rms(0), rms(1), std)
     }
 
     /// Readings along the lines: what a slope is off, times the forces, and the noise about it.
