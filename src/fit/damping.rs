@@ -123,7 +123,8 @@ pub fn identify(tests: &[Test], robot: &Robot, request: &Request) -> Outcome<Acc
         return attempt(tests, robot, request, (known, !known.is_exact()));
     }
     let exact = attempt(tests, robot, request, (known, false))?;
-    match exact.supported && exact.tuned.reduced_chi_square < AGREED {
+    let agreed = exact.supported && exact.tuned.reduced_chi_square < AGREED;
+    match agreed || exact.tuned.worse_than_nothing {
         true => Ok(exact),
         false => attempt(tests, robot, request, (known, true)),
     }
@@ -194,6 +195,9 @@ fn agreed(task: &Tuning) -> Outcome<(Tuned, Vec<Pull>)> {
     let mut wide = task.clone();
     let mut solved = solve(&wide)?;
     for _ in 0..WIDENINGS {
+        if solved.worse_than_nothing(&wide) {
+            break;
+        }
         let Some(wider) = widened(&wide.parameters, &solved.pulls(&wide)) else {
             break;
         };

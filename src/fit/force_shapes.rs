@@ -9,7 +9,7 @@ use crate::measurement::workspace_test::WorkspaceTest;
 
 /// A workspace test, reduced.
 pub struct Shapes {
-    /// The line of every set-up, with the noise that all set-ups share.
+    /// The line of every set-up, by point and direction, with the noise that all set-ups share.
     pub setups: Vec<Setup>,
     /// Standard deviation of a reading by component, m.
     pub noise: [f64; 3],
@@ -113,8 +113,9 @@ impl Shapes {
 
     /// The set-up at a point that was loaded along a direction.
     pub fn setup(&self, point: usize, direction: usize) -> Option<usize> {
-        let here = |s: &Setup| (s.point, s.direction) == (point, direction);
-        self.setups.iter().position(here)
+        let key = |s: &Setup| (s.point, s.direction);
+        let found = self.setups.binary_search_by_key(&(point, direction), key);
+        found.ok()
     }
 
     /// Every level, set-up by set-up.
@@ -147,9 +148,18 @@ impl Shapes {
     ) -> (Vec<[Option<f64>; 3]>, Vec<f64>) {
         let mut slopes = vec![[None; 3]; self.setups.len()];
         let mut left = Vec::new();
+        // the components of a set-up mostly share their forces
+        let mut last: Option<(usize, usize, Vec<f64>, Vec<V3>)> = None;
         for rest in &self.rests {
             let forces: Vec<f64> = rest.readings.iter().map(|r| r.force).collect();
-            let moved = of(rest.point, rest.direction, &forces);
+            let (point, direction) = (rest.point, rest.direction);
+            let again =
+                |(p, d, f, _): &(_, _, Vec<f64>, _)| (*p, *d, f) == (point, direction, &forces);
+            let moved = match last.take().filter(again) {
+                Some((.., moved)) => moved,
+                None => of(point, direction, &forces),
+            };
+            let (_, _, _, moved) = last.insert((point, direction, forces, moved));
             let moved = moved.iter().zip(&rest.readings).map(|(m, r)| Reading {
                 displacement: m[rest.component],
                 ..*r

@@ -7,6 +7,9 @@ use nalgebra::{DMatrix, DVector};
 /// Where a descent ended: logarithms and cost.
 pub(super) type Run = (Vec<f64>, f64);
 
+/// Gain as a share of the cost that no digit of it carries.
+const SHARE: f64 = 1e-9;
+
 /// When a search ends: after so many steps, or once one gains less than this.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stop {
@@ -42,7 +45,7 @@ pub(super) fn descend_by(
             }
             brake *= 10.0;
         }
-        if before - at.cost <= stop.gain {
+        if before - at.cost <= stop.gain.max(SHARE * before) {
             break;
         }
     }

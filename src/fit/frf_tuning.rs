@@ -67,6 +67,8 @@ pub struct Tuned {
     pub agreeing_starts: f64,
     /// Where the nuisances went.
     pub pulls: Vec<Pull>,
+    /// Whether the model is further from the FRFs than one that never moves.
+    pub worse_than_nothing: bool,
 }
 
 /// A task solved: where its descents ended.
@@ -176,6 +178,15 @@ impl Solved {
         &self.runs[0].0
     }
 
+    /// Whether the model is further from the FRFs than one that never moves: no prior mends that.
+    pub(super) fn worse_than_nothing(&self, task: &Tuning) -> bool {
+        let size = |pair: &Measured| {
+            let each = pair.frf.iter().zip(pair.weight());
+            each.map(|(h, w)| (h * w).norm_sqr()).sum::<f64>()
+        };
+        self.at.cost > pairs(task).map(|(_, pair)| size(pair)).sum()
+    }
+
     /// Where the nuisances went.
     pub(super) fn pulls(&self, task: &Tuning) -> Vec<Pull> {
         pulls(task, self.theta(), &self.at.normal)
@@ -199,6 +210,7 @@ impl Solved {
             matches: matches(task, &values),
             agreeing_starts: self.agreeing_starts,
             pulls: self.pulls(task),
+            worse_than_nothing: self.worse_than_nothing(task),
             values,
         }
     }

@@ -38,6 +38,13 @@ pub enum Fault {
         /// Where, Hz.
         from_hz: f64,
     },
+    /// A sample that no hammer and no accelerometer gives.
+    Beyond {
+        /// Index of the response; none: the force.
+        output: Option<usize>,
+        /// The sample, N or m/s².
+        value: f64,
+    },
     /// Much shorter than the other records of the test.
     ShortRecord {
         /// Its length, s.
@@ -83,6 +90,20 @@ impl fmt::Display for Fault {
                     "too little energy above {from_hz:.0} Hz: force within its noise"
                 )
             }
+            Self::Beyond {
+                output: None,
+                value,
+            } => {
+                write!(f, "a force sample of {value:.1e} N, which no hammer gives")
+            }
+            Self::Beyond {
+                output: Some(output),
+                value,
+            } => write!(
+                f,
+                "a sample of {value:.1e} m/s² in response {}, beyond any accelerometer",
+                output + 1
+            ),
             Self::ShortRecord { length_s, others_s } => {
                 write!(
                     f,

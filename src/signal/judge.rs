@@ -15,6 +15,11 @@ const LEVEL: f64 = 3.0;
 /// Share of the median length below which a record is out of family.
 const LENGTH: f64 = 0.8;
 
+/// Force beyond that of the heaviest sledge hammers, N, and acceleration beyond that of shock accelerometers
+/// (10 000 g), m/s²: a broken digit.
+const FORCE_N: f64 = 3e5;
+const ACCELERATION: f64 = 1e5;
+
 /// One hit as recorded.
 #[derive(Debug, Clone, Copy)]
 pub struct Hit<'a> {
@@ -36,6 +41,7 @@ pub fn faults(hit: &Hit, to_hz: f64) -> Vec<Fault> {
         double(hit, &pulse),
         force_overload(hit, &pulse),
         low_energy(hit, &pulse, to_hz),
+        beyond(hit),
     ];
     let overloads = response_overloads(hit.responses);
     checks.into_iter().flatten().chain(overloads).collect()
@@ -66,6 +72,15 @@ fn response_overloads(responses: &[Vec<f64>]) -> impl Iterator<Item = Fault> {
     records
         .filter(|(_, record)| clipped(record))
         .map(|(output, _)| Fault::ResponseOverload { output })
+}
+
+/// The first sample that nothing can have measured.
+fn beyond(hit: &Hit) -> Option<Fault> {
+    let far = |values: &[f64], most: f64| values.iter().copied().find(|v| v.abs() > most);
+    let fault = |output, value| Fault::Beyond { output, value };
+    let force = far(hit.force, FORCE_N).map(|value| fault(None, value));
+    let mut responses = hit.responses.iter().enumerate();
+    force.or_else(|| responses.find_map(|(o, r)| Some(fault(Some(o), far(r, ACCELERATION)?))))
 }
 
 /// Compares the force spectrum in the upper fifth of the band with its lower fifth and with noise.

@@ -95,7 +95,7 @@ impl Gram {
     fn take_from_wide(&mut self, wide: &[usize]) {
         if let Some(taken) = &self.taken {
             let own = taken.select_columns(wide);
-            self.wide -= own.tr_mul(&own);
+            self.wide -= squared(&own);
         }
     }
 
@@ -144,13 +144,22 @@ fn products(columns: &Columns, wide: &[usize]) -> DMatrix<f64> {
         }
     }
     let head = DMatrix::from_fn(columns.slopes(), heads.len(), |i, j| heads[j][i]);
-    let mut gram = head.tr_mul(&head);
-    for (a, x) in &tails {
-        for (b, y) in &tails {
-            gram[(*a, *b)] += x.dot(y);
+    let mut gram = squared(&head);
+    for (at, (a, x)) in tails.iter().enumerate() {
+        for (b, y) in &tails[..=at] {
+            let both = x.dot(y);
+            gram[(*a, *b)] += both;
+            if a != b {
+                gram[(*b, *a)] += both;
+            }
         }
     }
     gram
+}
+
+/// AᵀA of a tall matrix: a product of two matrices is blocked, `tr_mul` is not.
+pub fn squared(a: &DMatrix<f64>) -> DMatrix<f64> {
+    a.transpose() * a
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ use crate::fit::force_shapes::Shapes;
 use crate::ground::spatial::{M3, V3};
 use crate::motion::{Work, forward_kinematics, rigid};
 use crate::robot::Robot;
+use rayon::prelude::*;
 
 /// Change of the readings per unit of an amount.
 #[derive(Debug, Clone)]
@@ -142,22 +143,27 @@ impl<'a> Scene<'a> {
         Pattern { slopes, left }
     }
 
-    /// The pattern of a gap where the weight is larger by `more` N·m at every point than the model says.
+    /// The patterns of a gap where the weight is larger by each of `mores`, N·m at every point, than the model
+    /// says.
     pub fn heavier(
         &self,
         cause: &dyn Cause,
         site: &str,
         (index, step): (usize, f64),
-        more: &[f64],
+        mores: &[Vec<f64>],
         shapes: &Shapes,
-    ) -> Pattern {
+    ) -> Vec<Pattern> {
         let mut amounts = vec![0.0; cause.card().amounts.len()];
         amounts[index] = step;
         let mut robot = self.robot.clone();
         cause.alter(&mut robot, site, &amounts);
         let moved = deflection(&robot, self.points, self.sensor);
-        let slopes = vec![[[0.0; 3]; 3]; self.points.len()];
-        self.bent(&moved, (cause.law(&amounts), more), slopes, step, shapes)
+        let law = cause.law(&amounts);
+        let of = |more: &Vec<f64>| {
+            let slopes = vec![[[0.0; 3]; 3]; self.points.len()];
+            self.bent(&moved, (law, more), slopes, step, shapes)
+        };
+        mores.par_iter().map(of).collect()
     }
 
     /// Instruments act in proportion: one newton shows everything.

@@ -24,6 +24,8 @@ pub struct Set {
 
 /// Forms that pairs are built from.
 const LEADERS: usize = 60;
+/// Forms that longer sets are built from at most: hundreds of points have thousands, nine have less.
+const KEPT: usize = 800;
 /// Forms of one seat that longer sets are built from.
 const FORMS: usize = 4;
 /// Sets whose members are tried in all their forms.
@@ -128,7 +130,7 @@ impl Book<'_> {
         for (_, f) in singles {
             let own = &mut count[self.seats.forms[*f].seat];
             *own += 1;
-            if *own <= FORMS {
+            if *own <= FORMS && self.kept.len() < KEPT {
                 self.kept.push(*f);
             }
         }

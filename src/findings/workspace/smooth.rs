@@ -1,5 +1,6 @@
 //! What was measured, without its noise.
 
+use super::gram::squared;
 use super::patterns::Scene;
 use super::seats::{Column, Seats};
 use crate::experiments::workspace::Response;
@@ -42,7 +43,7 @@ pub fn smooth(
         design.set_column(k + j, &weighing.whiten(|p, d| part.pattern.slopes.at(p)[d]));
     }
     let readings = weighing.measured() - weighing.whiten(|p, d| scene.base.slopes[p][d]);
-    let mut normal = design.tr_mul(&design);
+    let mut normal = squared(&design);
     let width = if suspect.is_empty() { NARROW } else { 1.0 };
     let prior = |j: usize| match j < k {
         true => spread,

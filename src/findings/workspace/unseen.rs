@@ -1,5 +1,6 @@
 //! Does a cause help where it was not fitted? Whole points are left out in turn, and predicted.
 
+use super::gram::squared;
 use crate::findings::gain::Gain;
 use nalgebra::{DMatrix, DVector};
 
@@ -13,13 +14,20 @@ pub struct Rows {
     pub prior: Vec<f64>,
 }
 
-/// What is left of every row when all are fitted.
-pub fn fitted(rows: &Rows) -> Vec<f64> {
+/// The normal matrix with the priors.
+fn normal(rows: &Rows) -> DMatrix<f64> {
     let d = &rows.columns;
-    let mut normal = d.tr_mul(d);
+    let mut normal = squared(d);
     for (i, prior) in rows.prior.iter().enumerate() {
         normal[(i, i)] += prior.powi(-2);
     }
+    normal
+}
+
+/// What is left of every row when all are fitted.
+pub fn fitted(rows: &Rows) -> Vec<f64> {
+    let d = &rows.columns;
+    let normal = normal(rows);
     let solved = normal
         .cholesky()
         .map(|root| root.solve(&d.tr_mul(&rows.readings)));
@@ -41,10 +49,7 @@ pub struct HeldOut {
 /// The first `springs` columns are those of the springs.
 pub fn held_out(rows: &Rows, folds: &[Option<usize>], springs: usize) -> HeldOut {
     let d = &rows.columns;
-    let mut normal = d.tr_mul(d);
-    for (i, prior) in rows.prior.iter().enumerate() {
-        normal[(i, i)] += prior.powi(-2);
-    }
+    let normal = normal(rows);
     let gradient = d.tr_mul(&rows.readings);
     let mut out = HeldOut {
         carried: vec![f64::NAN; folds.len()],

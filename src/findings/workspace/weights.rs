@@ -29,11 +29,9 @@ pub fn weigh(seats: &mut Seats, scene: &Scene, shapes: &Shapes, left: &[f64]) {
             .position(|j| j.name == seat.site)?;
         let doubt: Vec<f64> = doubts.iter().map(|d| d[joint]).collect();
         (!seat.stranger && doubt.iter().any(|d| *d > 0.0)).then_some(())?;
-        let of = |t: &f64| {
-            let more: Vec<f64> = doubt.iter().map(|d| t * d).collect();
-            scene.heavier(seat.cause, &seat.site, step, &more, shapes)
-        };
-        let tried: Vec<Pattern> = TRIED.iter().map(of).collect();
+        let more = |t: &f64| doubt.iter().map(|d| t * d).collect();
+        let mores: Vec<Vec<f64>> = TRIED.iter().map(more).collect();
+        let tried = scene.heavier(seat.cause, &seat.site, step, &mores, shapes);
         let picked = pick(&tried, left, &places, doubt.len());
         let price = picked.iter().map(|t| 0.5 * TRIED[*t].powi(2)).sum();
         Some((mixed(&tried, &picked, &places), price))
