@@ -3,7 +3,7 @@
 use ident::cutting::cutter::{Cutter, Fineness};
 use ident::cutting::dexel::Stock;
 use ident::cutting::{Material, Tool};
-use ident::ground::spatial::{IDENTITY, M3, V3, norm, rotate, sub};
+use ident::ground::spatial::{IDENTITY, M3, V3, dot, norm, rotate, scale, sub};
 use ident::motion::elastic;
 use ident::process::pose::Carrier;
 use ident::process::rigid::Rigid;
@@ -13,6 +13,7 @@ use ident::process::structure::Structure;
 use ident::process::swinging::Swinging;
 use ident::process::way::{Row, Way};
 use ident::robot::Robot;
+use ident::robot::joint_effect::JointEffect;
 use ident::robot::load::load;
 use std::f64::consts::{FRAC_PI_6, TAU};
 
@@ -82,6 +83,23 @@ fn swinging(stiffer: f64, steps: usize) -> Swinging {
     Swinging::new(carrier(stiffer), &way().at(0.0), SPINDLE, steps).unwrap()
 }
 
+/// The robot with a gap and contacts in its joints.
+fn loose(gap_a1: f64) -> Carrier {
+    let mut robot = robot(1.0);
+    for (name, spring) in robot.springs_mut() {
+        match name.as_str() {
+            "A1" => spring.backlash = vec![gap_a1],
+            "A5" => spring.backlash = vec![1.5e-4],
+            "A3" => {
+                let values = vec![2e-5, 400.0, 1.0, 0.0];
+                spring.effects = vec![JointEffect::new("hysteresis", values).unwrap()];
+            }
+            _ => {}
+        }
+    }
+    Carrier::new(elastic(&robot), IDENTITY)
+}
+
 /// Force and deviation in the middle of the cut: mean over the stations from x = 14 to 24 mm.
 fn middle(out: &Outcome) -> (V3, V3) {
     let inside: Vec<_> = out
@@ -145,4 +163,39 @@ fn halving_the_step_moves_the_mean_deviation_by_less_than_one_percent() {
         middle(&out).1
     });
     close(coarse, fine, 0.01);
+}
+
+/// No weight presses the first axis: the force of the cut closes its gap, and the tool goes by half of it, times
+/// its lever.
+#[test]
+fn the_cut_closes_a_gap_that_no_weight_presses() {
+    let gap = 2e-4;
+    let begin = way().at(0.0);
+    let of = |gap: f64| -> [Outcome; 2] {
+        let mut springs = Springs::new(loose(gap), &begin).unwrap();
+        let mut swinging = Swinging::new(loose(gap), &begin, SPINDLE, 120).unwrap();
+        [
+            run(&mut springs, &mut cutter(0.0, 120)),
+            run(&mut swinging, &mut cutter(0.0, 120)),
+        ]
+    };
+    let held = loose(gap).held(&begin.joints).unwrap();
+    let first = held.linear.names.iter().position(|n| n == "A1").unwrap();
+    let lever = held.linear.tool[first];
+    let (closed, open) = (of(0.0), of(gap));
+    for (closed, open) in closed.iter().zip(&open) {
+        let [(force, before), (_, after)] = [closed, open].map(middle);
+        let side = dot(lever, force).signum();
+        let wanted = scale(0.5 * gap * side, lever);
+        close(sub(after, before), wanted, 0.1);
+    }
+    close(middle(&open[1]).1, middle(&open[0]).1, 0.06);
+}
+
+#[test]
+fn gaps_and_dry_contacts_make_no_energy() {
+    let mut swinging = Swinging::new(loose(2e-4), &way().at(0.0), SPINDLE, 120).unwrap();
+    let out = run(&mut swinging, &mut cutter(0.0, 120));
+    let energy = out.energy.unwrap();
+    assert!(energy.gap() < 5e-3 && energy.damped > 0.0, "{energy:?}");
 }

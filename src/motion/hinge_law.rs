@@ -67,6 +67,28 @@ impl HingeLaw {
         }
     }
 
+    /// Where it rests under a torque (N·m) after a good shake, rad: a gap is closed, without torque in its middle.
+    pub fn settled(&self, torque: f64) -> f64 {
+        let side = if torque == 0.0 { 0.0 } else { torque.signum() };
+        torque / self.stiffness + side * self.half_gap
+    }
+
+    /// Where it comes to rest from the deflection `from` (rad) under another torque, N·m.
+    pub fn under(&self, memory: &Memory, from: f64, torque: f64) -> f64 {
+        let change = torque - self.torque(memory);
+        if change == 0.0 {
+            return from;
+        }
+        let sign = change.signum();
+        let travel = self.reach(memory, sign, sign * torque);
+        let place = (from - memory.bend).clamp(-self.half_gap, self.half_gap);
+        let crossed = match sign * torque > 0.0 {
+            true => self.half_gap - sign * place,
+            false => 0.0,
+        };
+        from + sign * (travel + crossed)
+    }
+
     /// Present torque, N·m.
     pub fn torque(&self, memory: &Memory) -> f64 {
         let held = self.sliders.iter().zip(&memory.stops);
@@ -131,7 +153,7 @@ impl HingeLaw {
                 floats: false,
             };
         }
-        let relief = self.relief(memory, sign).min(way);
+        let relief = self.reach(memory, sign, 0.0).min(way);
         let beyond = way - relief - room;
         Way {
             travel: relief + beyond.max(0.0),
@@ -139,16 +161,16 @@ impl HingeLaw {
         }
     }
 
-    /// How far to bend in the direction `sign` until the torque against it is gone, rad: Newton on a
-    /// concave chain of straight pieces, which ends on the root.
-    fn relief(&self, memory: &Memory, sign: f64) -> f64 {
+    /// How far to bend in the direction `sign` until the torque along it is `wanted` (N·m; 0: what stood against
+    /// it is gone), rad: Newton on a concave chain of straight pieces, which ends on the root.
+    fn reach(&self, memory: &Memory, sign: f64, wanted: f64) -> f64 {
         let mut travel = 0.0;
         for _ in 0..=self.sliders.len() + 1 {
-            let (against, slope) = self.pushed(memory, sign, travel);
-            if against >= 0.0 {
+            let (along, slope) = self.pushed(memory, sign, travel);
+            if along >= wanted {
                 break;
             }
-            travel -= against / slope;
+            travel += (wanted - along) / slope;
         }
         travel
     }

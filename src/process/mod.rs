@@ -2,9 +2,10 @@
 //! the tool in its stock, step by step.
 //!
 //! A [`structure::Structure`] is one file: [`rigid`], [`springs`] (deflection = compliance × force) or
-//! [`swinging`] (masses, dampers and springs in time). [`run`] leads any of them along a [`way::Way`].
+//! [`swinging`] (masses, dampers and springs in time); [`loose`] adds the gaps and contacts of joints to both. [`run`] leads any of them along a [`way::Way`].
 
 pub mod course;
+pub mod loose;
 pub mod measured_tip;
 pub mod oscillator;
 pub mod planned;

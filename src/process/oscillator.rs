@@ -100,6 +100,25 @@ impl Oscillator {
         }
     }
 
+    /// Change of the state over a step by a constant load of the modes (Φᵀ τ).
+    pub fn pushed(&self, load: &[f64]) -> Vec<f64> {
+        let (n, m) = (self.n, 2 * self.n);
+        let moved = |i: usize| -> f64 {
+            let row = &self.carry[i * m..i * m + n];
+            row.iter().zip(load).map(|(e, r)| e * r).sum()
+        };
+        let still = |i: usize| if i < n { load[i] } else { 0.0 };
+        (0..m).map(|i| still(i) - moved(i)).collect()
+    }
+
+    /// What a force on the tool over a step does to a sum of the modes with these shares.
+    pub fn bent_by_force(&self, shares: &[f64]) -> V3 {
+        let own = shares.iter().zip(&self.gain);
+        own.fold([0.0; 3], |sum, (share, gain)| {
+            [0, 1, 2].map(|k| sum[k] + share * gain[k])
+        })
+    }
+
     /// Place of the tool, m.
     pub fn tool(&self, state: &[f64]) -> V3 {
         let mut sum = [0.0; 3];

@@ -3,7 +3,8 @@
 //! The force answers the deflection: the chip is the way of the deflected tool, u = C F(u), solved with
 //! the slope of the force in every step; depth and width of the cut follow the deflected tool too.
 
-use super::pose::{Carrier, one_less, solve3};
+use super::loose::Loose;
+use super::pose::{Carrier, Held, one_less, solve3};
 use super::structure::{Bout, Structure, Tick};
 use super::way::Moment;
 use crate::cutting::cutter::Cutter;
@@ -16,8 +17,14 @@ pub struct Springs {
     carrier: Carrier,
     /// Sag at the start: calibrated away.
     calibrated: V3,
+    held: Held,
     compliance: M3,
     sag: V3,
+    /// Gaps and contacts of the joints.
+    loose: Loose,
+    /// Where they let the tool go, m, and where they did at the start.
+    slack: V3,
+    slack_at_first: V3,
     pose: Vec<f64>,
     deviation: V3,
 }
@@ -32,18 +39,24 @@ impl Springs {
     /// Nothing in the robot is elastic.
     pub fn new(mut carrier: Carrier, start: &Moment) -> Outcome<Self> {
         let held = carrier.held(&start.joints)?;
+        let loose = Loose::of(&carrier.chain, &held);
+        let slack = loose.slack(&held, [0.0; 3]);
         Ok(Self {
+            loose,
+            slack,
+            slack_at_first: slack,
             calibrated: held.sag(),
             compliance: held.compliance(),
             sag: [0.0; 3],
             pose: start.joints.clone(),
             deviation: [0.0; 3],
             carrier,
+            held,
         })
     }
 
     /// Where the tool stands under a force (N, workpiece frame) at a moment of the motion, less where it
-    /// was told to, m.
+    /// was told to, m; gaps stay where they are.
     ///
     /// # Errors
     /// Nothing in the robot is elastic.
@@ -63,8 +76,15 @@ impl Springs {
             self.compliance = held.compliance();
             self.sag = sub(held.sag(), self.calibrated);
             self.pose.clone_from(&moment.joints);
+            self.held = held;
         }
         Ok(())
+    }
+
+    /// Takes the slack under a force, N.
+    fn rest(&mut self, slack: V3, force: V3) {
+        self.loose.rest(&self.held, force);
+        self.slack = slack;
     }
 }
 
@@ -79,11 +99,19 @@ impl Structure for Springs {
         let (load, peak) = cutter.revolution(sub(tick.to.tip, tick.from.tip));
         // u = C (F + G (u − before)) + sag
         let still = sub(load.force, rotate(&load.slope, before));
-        let right = add(rotate(&self.compliance, still), self.sag);
-        self.deviation = solve3(&one_less(&self.compliance, &load.slope), right)?;
-        let moved = sub(self.deviation, before);
+        let matrix = one_less(&self.compliance, &load.slope);
+        let from = sub(self.sag, self.slack_at_first);
+        let solved = |slack: V3| -> Outcome<(V3, V3)> {
+            let right = add(rotate(&self.compliance, still), add(from, slack));
+            let place = solve3(&matrix, right)?;
+            let answered = rotate(&load.slope, sub(place, before));
+            Ok((place, add(load.force, answered)))
+        };
+        let (place, force, slack) = self.loose.settle(&self.held, self.slack, solved)?;
+        self.deviation = place;
+        self.rest(slack, force);
         Ok(Bout {
-            force: add(load.force, rotate(&load.slope, moved)),
+            force,
             peak,
             deviation: self.deviation,
         })
@@ -91,7 +119,9 @@ impl Structure for Springs {
 
     fn travel(&mut self, tick: &Tick) -> Outcome<Bout> {
         self.go(&tick.to)?;
-        self.deviation = self.sag;
+        let slack = self.loose.slack(&self.held, [0.0; 3]);
+        self.rest(slack, [0.0; 3]);
+        self.deviation = add(self.sag, sub(slack, self.slack_at_first));
         Ok(Bout {
             deviation: self.deviation,
             ..Bout::default()

@@ -1,9 +1,10 @@
 //! Masses, dampers and springs of the robot in time, coupled to every tooth: the default.
 //!
-//! The robot is linear about its programmed motion, anew wherever its pose has changed; weight and
+//! But for the gaps and contacts of its joints ([`super::loose`]) the robot is linear about its programmed motion, anew wherever its pose has changed; weight and
 //! programmed accelerations load it (source 000, eq. 2.1). Every step solves u = u₀ + H f and
 //! f = F(u) together with the slope of the force, so that no stiffness of the cut makes it unstable.
 
+use super::loose::{Loose, Ports};
 use super::oscillator::Oscillator;
 use super::pose::{Carrier, Held, one_less, solve3};
 use super::structure::{Bout, Energy, Structure, Tick};
@@ -23,6 +24,10 @@ pub struct Swinging {
     modal: Modal,
     fine: Oscillator,
     coarse: Oscillator,
+    /// Gaps and contacts of the joints, and how they answer in the cut and beside it.
+    loose: Loose,
+    near: Ports,
+    far: Ports,
     pose: Vec<f64>,
     /// Place of the tool when it was calibrated, m: the sag at the start.
     calibrated: V3,
@@ -57,11 +62,17 @@ impl Swinging {
         let modal = held.modal()?;
         let fine = Oscillator::new(&modal, TAU / (spindle_rad_s * steps as f64));
         let coarse = Oscillator::new(&modal, TRAVEL_S);
-        let mut state = in_modes(&modal, &held.weight.iter().map(|w| -w).collect::<Vec<_>>());
+        let loose = Loose::of(&carrier.chain, &held);
+        let mut loads: Vec<f64> = held.weight.iter().map(|w| -w).collect();
+        loose.held(&mut loads);
+        let mut state = in_modes(&modal, &loads);
         state.resize(2 * modal.n, 0.0);
         Ok(Self {
             calibrated: fine.tool(&state),
-            at_first: fine.stored(&state),
+            at_first: fine.stored(&state) + loose.stored(),
+            near: loose.ports(&modal, &fine),
+            far: loose.ports(&modal, &coarse),
+            loose,
             next: state.clone(),
             state,
             pose: start.joints.clone(),
@@ -103,6 +114,8 @@ impl Swinging {
         self.state = state.concat();
         self.fine = Oscillator::new(&modal, self.fine.step_s());
         self.coarse = Oscillator::new(&modal, TRAVEL_S);
+        self.near = self.loose.ports(&modal, &self.fine);
+        self.far = self.loose.ports(&modal, &self.coarse);
         (self.held, self.modal) = (held, modal);
         self.pose.clone_from(&moment.joints);
         // the drives that turn the robot to its new pose do this work
@@ -134,8 +147,28 @@ impl Swinging {
         oscillator.carry(&self.state, rest, &mut self.next);
     }
 
+    /// Adds to `next` what gaps and contacts do over the step, the force of the cut being added already or still
+    /// to come; the torques.
+    fn loosen(&mut self, coarse: bool, to_come: V3) -> Vec<f64> {
+        let ports = if coarse { &self.far } else { &self.near };
+        let torques = self.loose.torques(ports, &self.next, to_come);
+        self.loose.push(ports, &mut self.next, &torques, 1.0);
+        torques
+    }
+
+    /// The same anew with the force that the cut answered with.
+    fn loosen_again(&mut self, guessed: &[f64]) {
+        if !self.loose.is_empty() {
+            self.loose.push(&self.near, &mut self.next, guessed, -1.0);
+            self.loosen(false, [0.0; 3]);
+        }
+    }
+
     /// Books the energy of a step and takes it.
-    fn take(&mut self, rest: &[f64], force: V3, step_s: f64) {
+    fn take(&mut self, rest: &[f64], force: V3, coarse: bool) {
+        let ports = if coarse { &self.far } else { &self.near };
+        self.energy.damped += self.loose.take(ports, &self.next);
+        let step_s = if coarse { TRAVEL_S } else { self.fine.step_s() };
         let fine = &self.fine;
         let moved = sub(fine.tool(&self.next), fine.tool(&self.state));
         let held: f64 = rest
@@ -186,6 +219,7 @@ impl Structure for Swinging {
             let share = (q + 1) as f64 / count as f64;
             let told = add(tick.from.tip, scale(share, sub(tick.to.tip, tick.from.tip)));
             self.carry(&rest, false);
+            let guessed = self.loosen(false, self.force);
             let free = sub(self.fine.tool(&self.next), self.calibrated);
             let guess = add(free, rotate(&answer, self.force));
             let place = add(told, guess);
@@ -197,7 +231,8 @@ impl Structure for Swinging {
             let right = add(load.force, rotate(&load.slope, sub(free, guess)));
             self.force = solve3(&one_less(&load.slope, &answer), right)?;
             self.fine.push(&mut self.next, self.force);
-            self.take(&rest, self.force, self.fine.step_s());
+            self.loosen_again(&guessed);
+            self.take(&rest, self.force, false);
             self.turned += 1.0;
             let deviation = self.deviation();
             self.places.pop_front();
@@ -215,7 +250,8 @@ impl Structure for Swinging {
         self.force = [0.0; 3];
         let rest = self.rest(tick);
         self.carry(&rest, true);
-        self.take(&rest, [0.0; 3], TRAVEL_S);
+        self.loosen(true, [0.0; 3]);
+        self.take(&rest, [0.0; 3], true);
         Ok(Bout {
             deviation: self.deviation(),
             ..Bout::default()
@@ -232,7 +268,7 @@ impl Structure for Swinging {
 
     fn energy(&self) -> Option<Energy> {
         Some(Energy {
-            stored: self.fine.stored(&self.state) - self.at_first,
+            stored: self.fine.stored(&self.state) + self.loose.stored() - self.at_first,
             ..self.energy
         })
     }

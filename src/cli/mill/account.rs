@@ -99,17 +99,6 @@ pub fn remarks(result: &Result) -> Vec<String> {
             "{left_out} rows of the recorded joint angles are left out for an empty cell"
         ));
     }
-    let gaps = result
-        .setup
-        .robot
-        .springs()
-        .filter(|(_, s)| s.gap() > 0.0)
-        .count();
-    if elastic && gaps > 0 {
-        said.push(format!(
-            "the backlash of {gaps} joints is left out: gaps count as closed by the weight"
-        ));
-    }
     for exceeded in &result.planned.plan.exceeded {
         said.push(format!(
             "the plan exceeds a limit: {} of {} at {:.3} s",

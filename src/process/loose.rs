@@ -1,0 +1,237 @@
+//! Joints that are more than a spring: gaps and dry contacts beside the linear robot.
+//!
+//! The linear robot holds such a joint with its spring k x; what its law gives instead (a gap in series,
+//! sliders beside the spring: [`HingeLaw`]) is put back as a torque, c = k x − T(x), constant over a step and
+//! taken at the mean over the way of that step: work is stored or lost to the contacts, and none is made
+//! (discrete gradient: Gonzalez 1996).
+
+use super::oscillator::Oscillator;
+use super::pose::Held;
+use crate::ground::spatial::{V3, add, dot, scale};
+use crate::motion::Chain;
+use crate::motion::hinge_law::{HingeLaw, Memory};
+use crate::motion::modes::Modal;
+use crate::motion::statics::springs;
+use nalgebra::{DMatrix, DVector};
+
+/// One such joint.
+#[derive(Debug, Clone)]
+struct Hinge {
+    /// Which elastic coordinate it is.
+    coordinate: usize,
+    stiffness: f64,
+    law: HingeLaw,
+    memory: Memory,
+    /// Present deflection, rad.
+    place: f64,
+}
+
+/// All of a robot.
+#[derive(Debug, Clone)]
+pub struct Loose {
+    hinges: Vec<Hinge>,
+}
+
+/// How the loose joints answer within a step of one length at one pose.
+#[derive(Debug, Clone, Default)]
+pub struct Ports {
+    /// Deflection of each joint per mode.
+    rows: Vec<Vec<f64>>,
+    /// Change of the state by a torque of one on each.
+    gains: Vec<Vec<f64>>,
+    /// Deflection of each by a torque of one on each, rad/(N·m).
+    answer: DMatrix<f64>,
+    /// Deflection of each by a force at the tool, rad/N.
+    by_force: Vec<V3>,
+}
+
+/// Newton's steps at most; the laws are chains of straight pieces.
+const ROUNDS: usize = 12;
+/// A torque this near to its law is met, as a share of the spring's own over the largest deflection.
+const NEAR: f64 = 1e-9;
+/// Static rounds: force and gap settle between each other.
+const STATIC: usize = 8;
+
+impl Loose {
+    /// The joints of a chain that have gaps or contacts, at rest under the weight: every gap closed on the
+    /// side to which that presses, and no load on the contacts.
+    pub fn of(chain: &Chain, held: &Held) -> Self {
+        let own = springs(chain)
+            .enumerate()
+            .filter_map(|(coordinate, (_, spring))| {
+                let plain = spring.gap() <= 0.0 && spring.contacts().is_empty();
+                (!plain).then_some(())?;
+                let law = HingeLaw::of(spring);
+                let place = law.settled(-held.weight[coordinate]);
+                Some(Hinge {
+                    coordinate,
+                    stiffness: spring.stiffness,
+                    memory: law.at_rest(place),
+                    law,
+                    place,
+                })
+            });
+        Self {
+            hinges: own.collect(),
+        }
+    }
+
+    /// Whether the robot is linear.
+    pub fn is_empty(&self) -> bool {
+        self.hinges.is_empty()
+    }
+
+    /// Torques on the elastic coordinates that put the springs of the linear robot where these joints rest.
+    pub fn held(&self, loads: &mut [f64]) {
+        for hinge in &self.hinges {
+            loads[hinge.coordinate] = hinge.stiffness * hinge.place;
+        }
+    }
+
+    /// How they answer within the steps of `oscillator`.
+    pub fn ports(&self, modal: &Modal, oscillator: &Oscillator) -> Ports {
+        let n = modal.n;
+        let row = |hinge: &Hinge| modal.shape[hinge.coordinate * n..][..n].to_vec();
+        let rows: Vec<Vec<f64>> = self.hinges.iter().map(row).collect();
+        // Φᵀ e is the row of Φ
+        let gains: Vec<Vec<f64>> = rows.iter().map(|row| oscillator.pushed(row)).collect();
+        let answer = DMatrix::from_fn(rows.len(), rows.len(), |i, j| along(&rows[i], &gains[j]));
+        let by_force = rows.iter().map(|row| oscillator.bent_by_force(row));
+        Ports {
+            by_force: by_force.collect(),
+            rows,
+            gains,
+            answer,
+        }
+    }
+
+    /// Torques c over a step at whose end the linear robot alone would have `state`, with a force at the tool
+    /// still to come.
+    pub fn torques(&self, ports: &Ports, state: &[f64], force: V3) -> Vec<f64> {
+        if self.is_empty() {
+            return Vec::new();
+        }
+        let free = ports.rows.iter().zip(&ports.by_force);
+        let free: Vec<f64> = free
+            .map(|(row, by)| along(row, state) + dot(*by, force))
+            .collect();
+        let mut x = DVector::from_vec(free.clone());
+        let mut torque = vec![0.0; x.len()];
+        for _ in 0..ROUNDS {
+            let means: Vec<(f64, f64)> = (self.hinges.iter().zip(x.iter()))
+                .map(|(hinge, to)| hinge.missing(*to))
+                .collect();
+            torque = means.iter().map(|m| m.0).collect();
+            let c = DVector::from_column_slice(&torque);
+            let rest = &ports.answer * c + DVector::from_column_slice(&free) - &x;
+            if rest.amax() <= NEAR * x.amax() {
+                break;
+            }
+            let slope = DMatrix::from_fn(x.len(), x.len(), |i, j| {
+                f64::from(u8::from(i == j)) - ports.answer[(i, j)] * means[j].1
+            });
+            match slope.lu().solve(&rest) {
+                Some(step) => x += step,
+                None => x += rest,
+            }
+        }
+        torque
+    }
+
+    /// Adds what such torques change, `sign` times.
+    pub fn push(&self, ports: &Ports, state: &mut [f64], torques: &[f64], sign: f64) {
+        for (gain, torque) in ports.gains.iter().zip(torques) {
+            let own = state.iter_mut().zip(gain);
+            own.for_each(|(value, gain)| *value += sign * torque * gain);
+        }
+    }
+
+    /// Takes the step to `state`.
+    pub fn take(&mut self, ports: &Ports, state: &[f64]) -> f64 {
+        let moves = self.hinges.iter_mut().zip(&ports.rows);
+        moves.map(|(hinge, row)| hinge.go(along(row, state))).sum()
+    }
+
+    /// What they keep beyond the springs of the linear robot, J.
+    pub fn stored(&self) -> f64 {
+        let own = |hinge: &Hinge| {
+            hinge.law.stored(&hinge.memory) - 0.5 * hinge.stiffness * hinge.place.powi(2)
+        };
+        self.hinges.iter().map(own).sum()
+    }
+
+    /// Where they let the tool go under weight and a force (N) beyond what their springs do, m, workpiece axes.
+    pub fn slack(&self, held: &Held, force: V3) -> V3 {
+        let one = |hinge: &Hinge| {
+            let torque = hinge.load(held, force);
+            let beyond = hinge.under(torque) - torque / hinge.stiffness;
+            scale(beyond, held.linear.tool[hinge.coordinate])
+        };
+        self.hinges.iter().map(one).fold([0.0; 3], add)
+    }
+
+    /// Solves for the place of the tool where force and slack depend on each other: `solved` gives place and
+    /// force for a slack.
+    ///
+    /// # Errors
+    /// Those of `solved`.
+    pub fn settle<E>(
+        &self,
+        held: &Held,
+        slack: V3,
+        solved: impl Fn(V3) -> Result<(V3, V3), E>,
+    ) -> Result<(V3, V3, V3), E> {
+        let (mut slack, mut found) = (slack, solved(slack)?);
+        for round in 0..STATIC {
+            let next = self.slack(held, found.1);
+            // what flips to and fro between two sides rests between them
+            let step = if round < 2 { 1.0 } else { 0.5 };
+            let moved = scale(step, add(next, scale(-1.0, slack)));
+            slack = add(slack, moved);
+            found = solved(slack)?;
+            if dot(moved, moved) < 1e-20 {
+                break;
+            }
+        }
+        Ok((found.0, found.1, slack))
+    }
+
+    /// Goes to rest under weight and a force (N) at a pose.
+    pub fn rest(&mut self, held: &Held, force: V3) {
+        for hinge in &mut self.hinges {
+            let place = hinge.under(hinge.load(held, force));
+            hinge.go(place);
+        }
+    }
+}
+
+impl Hinge {
+    /// Mean of k x − T(x) on the way to `to`, N·m, and its slope.
+    fn missing(&self, to: f64) -> (f64, f64) {
+        let mean = self.law.mean(&self.memory, self.place, to);
+        let spring = 0.5 * self.stiffness * (self.place + to);
+        (spring - mean.torque, 0.5 * self.stiffness - mean.slope)
+    }
+
+    /// Goes on; what is lost to dry contacts, J.
+    fn go(&mut self, to: f64) -> f64 {
+        let before = self.law.stored(&self.memory);
+        let work = self.law.mean(&self.memory, self.place, to).torque * (to - self.place);
+        self.law.advance(&mut self.memory, self.place, to);
+        self.place = to;
+        work - (self.law.stored(&self.memory) - before)
+    }
+
+    /// Torque on it from weight and a force at the tool, N·m.
+    fn load(&self, held: &Held, force: V3) -> f64 {
+        dot(held.linear.tool[self.coordinate], force) - held.weight[self.coordinate]
+    }
+
+    fn under(&self, torque: f64) -> f64 {
+        self.law.under(&self.memory, self.place, torque)
+    }
+}
+
+fn along(row: &[f64], state: &[f64]) -> f64 {
+    row.iter().zip(state).map(|(r, x)| r * x).sum()
+}
