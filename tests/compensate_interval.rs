@@ -1,22 +1,27 @@
 //! What is said about the rest of a corrected part, against plants drawn as uncertain as it is stated: every
 //! stiffness, damping and coefficient by a tenth. `IDENT_COVERAGE_PLANTS=200` asks for more plants.
 
-use crate::part_bench::{CORNER, job, plant, ready};
+use crate::part_bench::{CORNER, SLOT, job, plant, ready};
 use ident::compensation::limits::certainty;
 use ident::compensation::method::{METHODS, with};
 use ident::compensation::online::Sensor;
 use ident::compensation::remaining::{Size, remaining};
 use ident::compensation::{Task, search};
+use ident::ground::spatial::{norm, scale, sub};
 use ident::ground::stats::Z95;
 use ident::process::setup::{Setup, Support};
-use ident::process::uncertainty::doubts;
+use ident::process::uncertainty::{changes, doubts};
 
 /// Relative standard deviation of everything.
 const SPREAD: f64 = 0.1;
 
-fn stated(mut setup: Setup) -> Setup {
+fn stated(setup: Setup) -> Setup {
+    known_to(setup, SPREAD)
+}
+
+fn known_to(mut setup: Setup, spread: f64) -> Setup {
     for (_, spring) in setup.robot.springs_mut() {
-        let ends = |value: f64| [-1.0, 1.0].map(|z| value * (1.0 + z * Z95 * SPREAD));
+        let ends = |value: f64| [-1.0, 1.0].map(|z| value * (1.0 + z * Z95 * spread));
         spring.ci95.stiffness = Some(ends(spring.stiffness));
         spring.ci95.damping = Some(ends(spring.damping));
     }
@@ -75,4 +80,32 @@ fn the_interval_of_what_is_left_holds_the_truth_and_yes_is_never_wrong() {
     assert!(known, "knowing a number cannot widen the interval");
     let next = said.next.unwrap();
     assert!(next.high_after_m < high, "{} of {high}", next.high_after_m);
+}
+
+/// Small doubts of springs are carried to first order: so much per share as larger ones that are simulated.
+#[test]
+fn small_doubts_do_what_simulations_say() {
+    let folder = tempfile::tempdir().unwrap();
+    let (_, setup) = ready(&job(folder.path(), SLOT, 3000.0, ""));
+    let middle = 0.5 * (setup.way.span()[0] + setup.way.span()[1]);
+    let of = |spread: f64| {
+        let setup = known_to(setup.clone(), spread);
+        let mut all = doubts(&setup.robot, &setup, &[]);
+        all.retain(|doubt| doubt.name == "stiffness");
+        let moved = changes(&setup, Support::Static, &all, &[middle]).unwrap();
+        let share = |(moved, doubt): (&Vec<_>, &_)| {
+            let doubt: &ident::process::uncertainty::Doubt = doubt;
+            scale(1.0 / doubt.rel_std, moved[0])
+        };
+        moved.iter().zip(&all).map(share).collect::<Vec<_>>()
+    };
+    let (small, large) = (of(0.019), of(0.021));
+    let largest = large.iter().map(|v| norm(*v)).fold(0.0, f64::max);
+    assert!(largest > 1e-6, "{largest}");
+    for (a, b) in small.iter().zip(&large) {
+        assert!(
+            norm(sub(*a, *b)) < 0.15 * largest,
+            "{a:?} {b:?} of {largest}"
+        );
+    }
 }

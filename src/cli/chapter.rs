@@ -1,8 +1,12 @@
 //! What one verb did for a campaign, as a chapter of the campaign's report.
 
 use super::Ending;
-use crate::ground::problem::Problem;
+use crate::ground::problem::{Outcome, Problem};
+use crate::measurement::job::Job;
+use crate::measurement::toolpath::Toolpath;
 use crate::measurement::workspace::Place;
+use crate::process::Planned;
+use crate::robot::load::load;
 use crate::sheet::page::{Block, Page, Tone};
 use std::path::PathBuf;
 
@@ -75,6 +79,29 @@ impl Chapter {
 pub fn part(place: &Place) -> Option<PathBuf> {
     let job = place.measurements().join("part").join("job.toml");
     job.is_file().then_some(job)
+}
+
+/// The part of a campaign, planned with the robot that the campaign identified, where its job names the one that
+/// this started from.
+///
+/// # Errors
+/// Whatever cannot be read; a place that the robot does not reach.
+pub fn planned_part(place: &Place) -> Outcome<Option<Planned>> {
+    let Some(path) = part(place) else {
+        return Ok(None);
+    };
+    let mut job = Job::read(&path)?;
+    let toolpath = Toolpath::read(&job.toolpath)?;
+    let identified = place.fits().join("robot.toml");
+    if identified.is_file() {
+        let own = identified.display().to_string();
+        let named = load(&job.robot, Some(&job.path))?.robot.name;
+        if load(&own, None)?.robot.name == named {
+            job.robot = own;
+        }
+    }
+    let planned = Planned::of(job, toolpath)?;
+    planned.map(Some).map_err(|unplanned| unplanned.problem)
 }
 
 /// Leaves out headings that nothing stands under any more.

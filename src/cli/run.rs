@@ -4,7 +4,8 @@ use super::chapter::Chapter;
 use super::output::print;
 use super::progress::Progress;
 use super::{
-    Ending, Verb, arguments, damping, diagnose, parsed, plan, screw, sensor, stiffness, validate,
+    Ending, Verb, arguments, compensate, damping, diagnose, parsed, plan, screw, sensor, stiffness,
+    validate,
 };
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::workspace::Place;
@@ -58,6 +59,7 @@ const STEPS: &[Step] = &[
     ("screw", screw::chapter),
     ("diagnose", diagnose::chapter),
     ("plan", plan::chapter),
+    ("compensate", compensate::chapter),
 ];
 
 fn run(matches: &ArgMatches) -> Outcome<Ending> {

@@ -6,6 +6,7 @@
 
 pub mod answering;
 pub mod calm;
+pub mod corrected;
 pub mod correction;
 pub mod executed;
 pub mod limits;

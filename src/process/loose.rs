@@ -24,6 +24,10 @@ struct Hinge {
     memory: Memory,
     /// Present deflection, rad.
     place: f64,
+    /// Torque c over the last step, N·m.
+    last: f64,
+    /// Energy in it, J.
+    stored: f64,
 }
 
 /// All of a robot.
@@ -45,8 +49,10 @@ pub struct Ports {
     by_force: Vec<V3>,
 }
 
-/// Newton's steps at most; the laws are chains of straight pieces.
-const ROUNDS: usize = 12;
+/// Rounds at most; the laws are chains of straight pieces.
+const ROUNDS: usize = 16;
+/// The first rounds put the torques of the last one in: short steps hardly move a joint. Then by Newton.
+const PLAIN: usize = 4;
 /// A torque this near to its law is met, as a share of the spring's own over the largest deflection.
 const NEAR: f64 = 1e-9;
 /// Static rounds: force and gap settle between each other.
@@ -63,10 +69,13 @@ impl Loose {
                 (!plain).then_some(())?;
                 let law = HingeLaw::of(spring);
                 let place = law.settled(-held.weight[coordinate]);
+                let memory = law.at_rest(place);
                 Some(Hinge {
                     coordinate,
                     stiffness: spring.stiffness,
-                    memory: law.at_rest(place),
+                    last: spring.stiffness * place - law.torque(&memory),
+                    stored: law.stored(&memory),
+                    memory,
                     law,
                     place,
                 })
@@ -115,35 +124,24 @@ impl Loose {
         let free: Vec<f64> = free
             .map(|(row, by)| along(row, state) + dot(*by, force))
             .collect();
-        let mut x = DVector::from_vec(free.clone());
-        let mut torque = vec![0.0; x.len()];
-        for _ in 0..ROUNDS {
+        let free = DVector::from_vec(free);
+        let mut torque = DVector::from_iterator(free.len(), self.hinges.iter().map(|h| h.last));
+        let mut x = &free + &ports.answer * &torque;
+        for round in 0..ROUNDS {
             let means: Vec<(f64, f64)> = (self.hinges.iter().zip(x.iter()))
                 .map(|(hinge, to)| hinge.missing(*to))
                 .collect();
-            torque = means.iter().map(|m| m.0).collect();
-            let c = DVector::from_column_slice(&torque);
-            let rest = &ports.answer * c + DVector::from_column_slice(&free) - &x;
+            torque.iter_mut().zip(&means).for_each(|(c, m)| *c = m.0);
+            let rest = &ports.answer * &torque + &free - &x;
             if rest.amax() <= NEAR * x.amax() {
                 break;
             }
-            let slope = DMatrix::from_fn(x.len(), x.len(), |i, j| {
-                f64::from(u8::from(i == j)) - ports.answer[(i, j)] * means[j].1
-            });
-            match slope.lu().solve(&rest) {
-                Some(step) => x += step,
-                None => x += rest,
-            }
+            x += match round < PLAIN {
+                true => rest,
+                false => ports.newton(&means, rest),
+            };
         }
-        torque
-    }
-
-    /// Adds what such torques change, `sign` times.
-    pub fn push(&self, ports: &Ports, state: &mut [f64], torques: &[f64], sign: f64) {
-        for (gain, torque) in ports.gains.iter().zip(torques) {
-            let own = state.iter_mut().zip(gain);
-            own.for_each(|(value, gain)| *value += sign * torque * gain);
-        }
+        torque.as_slice().to_vec()
     }
 
     /// Takes the step to `state`.
@@ -154,9 +152,7 @@ impl Loose {
 
     /// What they keep beyond the springs of the linear robot, J.
     pub fn stored(&self) -> f64 {
-        let own = |hinge: &Hinge| {
-            hinge.law.stored(&hinge.memory) - 0.5 * hinge.stiffness * hinge.place.powi(2)
-        };
+        let own = |hinge: &Hinge| hinge.stored - 0.5 * hinge.stiffness * hinge.place.powi(2);
         self.hinges.iter().map(own).sum()
     }
 
@@ -205,6 +201,25 @@ impl Loose {
     }
 }
 
+impl Ports {
+    /// Adds what torques on the joints change.
+    pub fn push(&self, state: &mut [f64], torques: &[f64]) {
+        for (gain, torque) in self.gains.iter().zip(torques) {
+            let own = state.iter_mut().zip(gain);
+            own.for_each(|(value, gain)| *value += torque * gain);
+        }
+    }
+
+    /// Newton's step from what is left of the deflections, rad; `means` hold the slopes of the torques.
+    fn newton(&self, means: &[(f64, f64)], rest: DVector<f64>) -> DVector<f64> {
+        let n = rest.len();
+        let slope = DMatrix::from_fn(n, n, |i, j| {
+            f64::from(u8::from(i == j)) - self.answer[(i, j)] * means[j].1
+        });
+        slope.lu().solve(&rest).unwrap_or(rest)
+    }
+}
+
 impl Hinge {
     /// Mean of k x − T(x) on the way to `to`, N·m, and its slope.
     fn missing(&self, to: f64) -> (f64, f64) {
@@ -215,11 +230,13 @@ impl Hinge {
 
     /// Goes on; what is lost to dry contacts, J.
     fn go(&mut self, to: f64) -> f64 {
-        let before = self.law.stored(&self.memory);
-        let work = self.law.mean(&self.memory, self.place, to).torque * (to - self.place);
+        let mean = self.law.mean(&self.memory, self.place, to).torque;
+        self.last = 0.5 * self.stiffness * (self.place + to) - mean;
+        let work = mean * (to - self.place);
         self.law.advance(&mut self.memory, self.place, to);
         self.place = to;
-        work - (self.law.stored(&self.memory) - before)
+        let before = std::mem::replace(&mut self.stored, self.law.stored(&self.memory));
+        work - (self.stored - before)
     }
 
     /// Torque on it from weight and a force at the tool, N·m.

@@ -147,21 +147,11 @@ impl Swinging {
         oscillator.carry(&self.state, rest, &mut self.next);
     }
 
-    /// Adds to `next` what gaps and contacts do over the step, the force of the cut being added already or still
-    /// to come; the torques.
-    fn loosen(&mut self, coarse: bool, to_come: V3) -> Vec<f64> {
+    /// Adds to `next` what gaps and contacts do over the step, the force of the cut being still to come.
+    fn loosen(&mut self, coarse: bool, to_come: V3) {
         let ports = if coarse { &self.far } else { &self.near };
         let torques = self.loose.torques(ports, &self.next, to_come);
-        self.loose.push(ports, &mut self.next, &torques, 1.0);
-        torques
-    }
-
-    /// The same anew with the force that the cut answered with.
-    fn loosen_again(&mut self, guessed: &[f64]) {
-        if !self.loose.is_empty() {
-            self.loose.push(&self.near, &mut self.next, guessed, -1.0);
-            self.loosen(false, [0.0; 3]);
-        }
+        ports.push(&mut self.next, &torques);
     }
 
     /// Books the energy of a step and takes it.
@@ -219,7 +209,7 @@ impl Structure for Swinging {
             let share = (q + 1) as f64 / count as f64;
             let told = add(tick.from.tip, scale(share, sub(tick.to.tip, tick.from.tip)));
             self.carry(&rest, false);
-            let guessed = self.loosen(false, self.force);
+            self.loosen(false, self.force);
             let free = sub(self.fine.tool(&self.next), self.calibrated);
             let guess = add(free, rotate(&answer, self.force));
             let place = add(told, guess);
@@ -231,7 +221,6 @@ impl Structure for Swinging {
             let right = add(load.force, rotate(&load.slope, sub(free, guess)));
             self.force = solve3(&one_less(&load.slope, &answer), right)?;
             self.fine.push(&mut self.next, self.force);
-            self.loosen_again(&guessed);
             self.take(&rest, self.force, false);
             self.turned += 1.0;
             let deviation = self.deviation();

@@ -30,6 +30,9 @@ enum Which {
     Coefficient(usize),
 }
 
+/// Springs and dampers known better than this are not simulated anew: first order is closer than that.
+const SMALL: f64 = 0.02;
+
 /// Standard deviation of a place anywhere within a gap, over the gap: 1/√12.
 const ANYWHERE: f64 = 0.288_675;
 
@@ -95,6 +98,15 @@ impl Doubt {
         }
     }
 
+    /// Whether only a simulation says what it does to the part.
+    fn asks_for_a_run(&self) -> bool {
+        match self.which {
+            Which::Gap(_) => false,
+            Which::Spring(_) | Which::Damper(_) => self.rel_std > SMALL,
+            Which::Coefficient(_) => true,
+        }
+    }
+
     /// The same job with this number one standard deviation larger.
     pub fn moved(&self, setup: &Setup) -> Setup {
         let mut setup = setup.clone();
@@ -128,27 +140,78 @@ pub fn changes(
     doubts: &[Doubt],
     times: &[f64],
 ) -> Outcome<Vec<Vec<V3>>> {
-    let deviations = |setup: &Setup| -> Outcome<Vec<V3>> {
+    let seen = |setup: &Setup| -> Outcome<Seen> {
         let (out, _) = setup.run(support, |_| {})?;
-        Ok(times.iter().map(|t| out.deviation_at(*t)).collect())
+        let of = |value: &dyn Fn(f64) -> V3| times.iter().map(|t| value(*t)).collect();
+        Ok(Seen {
+            deviations: of(&|t| out.deviation_at(t)),
+            forces: of(&|t| out.force_at(t)),
+        })
     };
-    let runs = (0..=doubts.len()).into_par_iter().map(|i| match i {
-        0 => deviations(setup),
-        _ if matches!(doubts[i - 1].which, Which::Gap(_)) => Ok(Vec::new()),
-        _ => deviations(&doubts[i - 1].moved(setup)),
+    let needed: Vec<&Doubt> = doubts.iter().filter(|d| d.asks_for_a_run()).collect();
+    let runs = (0..=needed.len()).into_par_iter().map(|i| match i {
+        0 => seen(setup),
+        _ => seen(&needed[i - 1].moved(setup)),
     });
-    let runs = runs
+    let mut runs = runs
         .collect::<Vec<_>>()
         .into_iter()
-        .collect::<Outcome<Vec<_>>>()?;
-    let change = |(moved, doubt): (&Vec<V3>, &Doubt)| match doubt.which {
-        Which::Gap(gap) => across(setup, &doubt.site, gap * doubt.rel_std, times),
-        _ => {
-            let pairs = moved.iter().zip(&runs[0]);
+        .collect::<Outcome<Vec<_>>>()?
+        .into_iter();
+    let base = runs.next().unwrap_or_default();
+    let change = |doubt: &Doubt| match doubt.which {
+        _ if doubt.asks_for_a_run() => {
+            let moved = runs.next().unwrap_or_default();
+            let pairs = moved.deviations.iter().zip(&base.deviations);
             Ok(pairs.map(|(a, b)| sub(*a, *b)).collect())
         }
+        Which::Gap(gap) => across(setup, &doubt.site, gap * doubt.rel_std, times),
+        Which::Damper(_) => calmer(setup, doubt.rel_std, &base, times),
+        _ => stiffer(setup, doubt, &base, times),
     };
-    runs[1..].iter().zip(doubts).map(change).collect()
+    doubts.iter().map(change).collect()
+}
+
+/// A simulation at some times.
+#[derive(Debug, Default)]
+struct Seen {
+    /// Deviation, m, workpiece frame.
+    deviations: Vec<V3>,
+    /// Force of the cut, N, workpiece frame.
+    forces: Vec<V3>,
+}
+
+/// What a spring that is stiffer by its small doubt takes from the bend under force and weight, m: first order, the
+/// force staying as it is.
+fn stiffer(setup: &Setup, doubt: &Doubt, base: &Seen, times: &[f64]) -> Outcome<Vec<V3>> {
+    let mut carrier = setup.carrier();
+    let mut bent = |time: f64, force: V3| -> Outcome<V3> {
+        let held = carrier.held(&setup.way.at(time).joints)?;
+        let (linear, own) = (&held.linear, &doubt.site);
+        let Some(i) = linear.names.iter().position(|name| name == own) else {
+            return Ok([0.0; 3]);
+        };
+        let torque = dot(linear.tool[i], force) - held.weight[i];
+        let turned = torque / linear.stiffness[i * linear.n + i];
+        Ok(scale(turned, linear.tool[i]))
+    };
+    let calibrated = bent(setup.way.span()[0], [0.0; 3])?;
+    let of = |(time, force): (&f64, &V3)| {
+        let bend = sub(bent(*time, *force)?, calibrated);
+        Ok(scale(-doubt.rel_std, bend))
+    };
+    times.iter().zip(&base.forces).map(of).collect()
+}
+
+/// What a damper off by a small share changes at most, m: that share of what is not the bend of springs.
+fn calmer(setup: &Setup, rel_std: f64, base: &Seen, times: &[f64]) -> Outcome<Vec<V3>> {
+    let mut springs = setup.springs()?;
+    let of = |((time, force), deviation): ((&f64, &V3), &V3)| {
+        let still = springs.bent(&setup.way.at(*time), *force)?;
+        Ok(scale(rel_std, sub(*deviation, still)))
+    };
+    let forced = times.iter().zip(&base.forces);
+    forced.zip(&base.deviations).map(of).collect()
 }
 
 /// What an angle of one spring does to the tip at some times, m: the simulation is linear, and a gap lies

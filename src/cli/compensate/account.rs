@@ -1,11 +1,12 @@
 //! What `ident compensate` says in words.
 
-use super::{Met, Result, Written};
+use super::Written;
+use crate::compensation::corrected::{Corrected, Met};
 use crate::compensation::proof::Checked;
 use crate::sheet::number::significant;
 
 /// The account on standard output.
-pub fn text(result: &Result, written: &Written) -> String {
+pub fn text(result: &Corrected, written: &Written) -> String {
     let mut said: String = sentences(result).into_iter().map(|s| s + "\n").collect();
     for file in [&written.path, &written.program, &written.report]
         .into_iter()
@@ -17,7 +18,7 @@ pub fn text(result: &Result, written: &Written) -> String {
 }
 
 /// The result in a few sentences.
-pub fn sentences(result: &Result) -> Vec<String> {
+pub fn sentences(result: &Corrected) -> Vec<String> {
     let mm = |x: f64| significant(1e3 * x, 3);
     let fell = result.reduction_percent().map_or(String::new(), |percent| {
         format!(", {} % less", significant(percent, 3))
@@ -57,7 +58,7 @@ pub fn sentences(result: &Result) -> Vec<String> {
     said
 }
 
-fn verdict(result: &Result) -> String {
+fn verdict(result: &Corrected) -> String {
     let Some(tolerance) = result.planned.job.limits.tolerance else {
         return "The job states no tolerance_mm: whether the part is good is not certain.".into();
     };
@@ -72,7 +73,7 @@ fn verdict(result: &Result) -> String {
 }
 
 /// What limits the accuracy, and what to measure next.
-fn limited(result: &Result) -> Option<String> {
+fn limited(result: &Corrected) -> Option<String> {
     let certainty = &result.certainty;
     let (limit, next) = (certainty.limits.first()?, certainty.next.as_ref()?);
     let mm = |x: f64| significant(1e3 * x, 3);
@@ -100,7 +101,7 @@ fn failed(c: &Checked) -> String {
 }
 
 /// What the reader should know.
-pub fn remarks(result: &Result) -> Vec<String> {
+pub fn remarks(result: &Corrected) -> Vec<String> {
     let mut said = Vec::new();
     if result.doubts.is_empty() {
         said.push(

@@ -1,6 +1,7 @@
 //! The JSON of `ident compensate`.
 
-use super::{Result, Written};
+use super::Written;
+use crate::compensation::corrected::Corrected;
 use crate::compensation::remaining::Size;
 use crate::ground::stats::Z95;
 use crate::report::json::{number, numbers};
@@ -8,7 +9,7 @@ use serde_json::{Value, json};
 use std::path::PathBuf;
 
 /// The body.
-pub fn body(result: &Result, written: &Written) -> Value {
+pub fn body(result: &Corrected, written: &Written) -> Value {
     let found = &result.found;
     json!({
         "method": result.method.name,

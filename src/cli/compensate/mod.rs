@@ -5,25 +5,19 @@ mod account;
 mod json;
 mod page;
 
+use super::chapter::{self, Chapter};
 use super::output::{print, print_result, tell};
 use super::{Ending, Verb, arguments, parsed};
-use crate::compensation::calm::calm;
-use crate::compensation::executed::executed;
-use crate::compensation::limits::{Certainty, certainty};
-use crate::compensation::method::{METHODS, Search};
+use crate::compensation::Method;
+use crate::compensation::corrected::{Corrected, Request, correct, corrected_path, inputs};
+use crate::compensation::method::METHODS;
 use crate::compensation::online::Sensor;
-use crate::compensation::proof::{Checked, proof};
-use crate::compensation::remaining::{Size, Station, remaining};
-use crate::compensation::shifted::shifted;
-use crate::compensation::text::text;
-use crate::compensation::{Correction, Method, Task, search};
 use crate::fit::force_sensor::store::StoredSensor;
 use crate::ground::problem::{Outcome, Problem};
-use crate::measurement::workspace::job_results;
-use crate::path::programs::{EXPORTERS, Exporter, ProgramFile};
+use crate::measurement::workspace::{Place, job_results};
+use crate::path::programs::{EXPORTERS, Exporter};
 use crate::process::Planned;
-use crate::process::setup::{Setup, Support};
-use crate::process::uncertainty::{self, Doubt};
+use crate::process::setup::Support;
 use crate::report::folder;
 use clap::{ArgMatches, Args};
 use std::path::{Path, PathBuf};
@@ -63,55 +57,6 @@ struct Arguments {
     dry_run: bool,
 }
 
-/// Whether the part will be within its tolerance.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Met {
-    Yes,
-    No,
-    NotCertain,
-}
-
-impl Met {
-    fn word(self) -> &'static str {
-        match self {
-            Self::Yes => "yes",
-            Self::No => "no",
-            Self::NotCertain => "not-certain",
-        }
-    }
-
-    /// From what is left (m), what it will not exceed (m) and the tolerance.
-    fn of(max: f64, at_most: Option<f64>, tolerance: Option<f64>) -> Self {
-        match (at_most, tolerance) {
-            (_, Some(tolerance)) if max > tolerance => Self::No,
-            (Some(at_most), Some(tolerance)) if at_most <= tolerance => Self::Yes,
-            _ => Self::NotCertain,
-        }
-    }
-}
-
-/// A compensated job.
-struct Result {
-    planned: Planned,
-    plant: Option<Planned>,
-    method: &'static Method,
-    found: Search,
-    /// The corrected path as a file, and the programs that run it.
-    text: String,
-    programs: Vec<ProgramFile>,
-    before: Size,
-    after: Size,
-    stations: [Vec<Station>; 2],
-    /// Rapid motions are slowed to the feed.
-    slowed: bool,
-    /// What the method that it improves on leaves, by its name.
-    beside: Option<(&'static str, Vec<Station>)>,
-    certainty: Certainty,
-    doubts: Vec<Doubt>,
-    met: Met,
-    checked: Vec<Checked>,
-}
-
 /// What was written.
 #[derive(Default)]
 struct Written {
@@ -135,7 +80,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
     for remark in account::remarks(&result) {
         tell(&format!("{}: {remark}", result.planned.job.path.display()));
     }
-    Ok(result.ending())
+    Ok(ending(&result))
 }
 
 fn method(name: &str) -> Outcome<&'static Method> {
@@ -151,95 +96,51 @@ fn method(name: &str) -> Outcome<&'static Method> {
         })
 }
 
-fn act(arguments: &Arguments) -> Outcome<Result> {
-    let method = method(&arguments.method)?;
-    let exporter = Exporter::named(&arguments.program)?;
-    let planned = Planned::read(&arguments.job)?;
-    let in_job = |problem: Problem| problem.in_file(&planned.job.path);
-    let support = arguments.support();
-    let calmed = match support {
-        Support::Coupled => calm(&planned)?,
-        _ => None,
-    };
-    let base = calmed.as_ref().unwrap_or(&planned);
-    let (drawn, setup) = (planned.setup(None)?, base.setup(None)?);
-    let plant = arguments.plant.as_deref().map(Planned::read).transpose()?;
-    let of_plant = |setup: &Setup| {
-        plant
-            .as_ref()
-            .map_or(Ok(setup.clone()), |p| of_plant(setup, p))
-    };
-    let truth = of_plant(&setup)?;
-    let task = Task {
-        setup: &setup,
-        truth: &truth,
-        plan: &base.plan,
-        support,
+fn act(arguments: &Arguments) -> Outcome<Corrected> {
+    let request = Request {
+        method: method(&arguments.method)?,
+        exporter: Exporter::named(&arguments.program)?,
+        plant: arguments.plant.as_deref().map(Planned::read).transpose()?,
         sensor: sensor(arguments.sensor.as_deref())?,
+        support: arguments.support(),
     };
-    let found = search(method, &task).map_err(in_job)?;
-    let inputs = inputs(&planned, plant.as_ref());
-    let synthetic = planned.toolpath.synthetic || planned.job.synthetic;
-    let text = text(
-        &base.plan,
-        &found.correction,
-        method.name,
-        &inputs,
-        synthetic,
-    );
-    let executed = match method.live {
-        true => None,
-        false => Some(executed(base, &corrected_path(&planned), &text)?),
+    correct(Planned::read(&arguments.job)?, request)
+}
+
+/// What correcting the part of a campaign found, with the robot that the campaign identified; written.
+///
+/// # Errors
+/// As those of the verb.
+pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
+    let Some(planned) = chapter::planned_part(place)? else {
+        return Ok(None);
     };
-    let way = match &executed {
-        Some(executed) => executed.way.clone(),
-        None => shifted(&base.plan, &found.correction).map_err(in_job)?,
+    if planned.job.cutter.is_none() || planned.job.material.is_none() {
+        return Ok(None);
+    }
+    let request = Request {
+        method: &METHODS[0],
+        exporter: &EXPORTERS[0],
+        plant: None,
+        sensor: Sensor::default(),
+        support: Support::Coupled,
     };
-    let runner = executed.as_ref().map_or(base, |e| &e.planned);
-    let programs = runner.programs(exporter, &inputs)?;
-    let none = Correction::none(base.plan.path.length);
-    let corrected = |setup: &Setup| Setup {
-        way: way.clone(),
-        ..setup.clone()
-    };
-    let (first, _) = of_plant(&drawn)?.run(support, |_| {}).map_err(in_job)?;
-    let (second, _) = corrected(&truth).run(support, |_| {}).map_err(in_job)?;
-    let before = remaining(&first, &none, &drawn.way);
-    let after = remaining(&second, &found.correction, &setup.way);
-    let model = corrected(&setup);
-    let expected = match &plant {
-        None => after.clone(),
-        Some(_) => {
-            let (milled, _) = model.run(support, |_| {}).map_err(in_job)?;
-            remaining(&milled, &found.correction, &setup.way)
-        }
-    };
-    let beside = beside(method, &task).map_err(in_job)?;
-    let doubts = uncertainty::doubts(&setup.robot, &setup, &planned.coefficient_stds());
-    let certainty = certainty(&model, &setup, support, &doubts, &expected).map_err(in_job)?;
-    let size = Size::of(&after);
-    let checked = proof(&planned.plan, &way, &found.correction, &second);
-    Ok(Result {
-        met: Met::of(
-            size.max_m,
-            certainty.at_most_m,
-            planned.job.limits.tolerance,
-        ),
-        before: Size::of(&before),
-        after: size,
-        stations: [before, after],
-        slowed: calmed.is_some(),
-        beside,
-        text,
-        programs,
-        planned,
-        plant,
-        method,
-        found,
-        certainty,
-        doubts,
-        checked,
-    })
+    let result = correct(planned, request)?;
+    write(&result)?;
+    let input = |(path, hash): &(String, String)| (PathBuf::from(path), hash.clone());
+    Ok(Some(Chapter {
+        title: "The part, corrected".into(),
+        ending: ending(&result),
+        inputs: result.planned.inputs.iter().map(input).collect(),
+        page: page::page(&result),
+    }))
+}
+
+fn ending(result: &Corrected) -> Ending {
+    match result.is_proven() {
+        true => Ending::Done,
+        false => Ending::Attention,
+    }
 }
 
 impl Arguments {
@@ -249,26 +150,6 @@ impl Arguments {
             false => Support::Coupled,
         }
     }
-}
-
-/// What the method that a method improves on leaves.
-fn beside(method: &Method, task: &Task) -> Outcome<Option<(&'static str, Vec<Station>)>> {
-    let Some(other) = METHODS.iter().find(|m| Some(m.name) == method.beside) else {
-        return Ok(None);
-    };
-    let found = search(other, task)?;
-    let corrected = Setup {
-        way: shifted(task.plan, &found.correction)?,
-        ..task.truth.clone()
-    };
-    let (milled, _) = corrected.run(task.support, |_| {})?;
-    let left = remaining(&milled, &found.correction, &task.setup.way);
-    Ok(Some((other.name, left)))
-}
-
-/// Where the corrected path goes.
-fn corrected_path(planned: &Planned) -> PathBuf {
-    job_results(&planned.job.path).join("compensated.csv")
 }
 
 /// What the sensor's model leaves of weight, offset and hoses.
@@ -283,44 +164,8 @@ fn sensor(path: Option<&Path>) -> Outcome<Sensor> {
     }
 }
 
-/// The job's motion, stock and tool with the robot and the material of the plant.
-fn of_plant(setup: &Setup, plant: &Planned) -> Outcome<Setup> {
-    let other = plant.setup(None)?;
-    Ok(Setup {
-        robot: other.robot,
-        material: other.material,
-        ..setup.clone()
-    })
-}
-
-/// Path and hash of every file, the job first.
-fn inputs(planned: &Planned, plant: Option<&Planned>) -> Vec<(String, String)> {
-    let mut all = planned.inputs.clone();
-    for input in plant.iter().flat_map(|plant| &plant.inputs) {
-        if !all.contains(input) {
-            all.push(input.clone());
-        }
-    }
-    all
-}
-
-impl Result {
-    /// Good, or something needs attention.
-    fn ending(&self) -> Ending {
-        match self.met == Met::Yes && self.checked.iter().all(|c| c.ok) {
-            true => Ending::Done,
-            false => Ending::Attention,
-        }
-    }
-
-    /// By how much the largest deviation fell, percent.
-    fn reduction_percent(&self) -> Option<f64> {
-        (self.before.max_m > 0.0).then(|| 100.0 * (1.0 - self.after.max_m / self.before.max_m))
-    }
-}
-
 /// Writes everything, or nothing.
-fn write(result: &Result) -> Outcome<Written> {
+fn write(result: &Corrected) -> Outcome<Written> {
     let place = job_results(&result.planned.job.path);
     let corrected = corrected_path(&result.planned);
     let mut files = vec![(corrected.clone(), result.text.clone())];

@@ -1,7 +1,8 @@
 //! The report page of `ident compensate`.
 
 use super::super::part_map::{classes, thinned};
-use super::{Met, Result, account};
+use super::account;
+use crate::compensation::corrected::{Corrected, Met};
 use crate::compensation::remaining::Station;
 use crate::ground::spatial::norm;
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
@@ -15,7 +16,7 @@ const POINTS: usize = 2000;
 const PLACES: usize = 3000;
 
 /// The page.
-pub fn page(result: &Result) -> Page {
+pub fn page(result: &Corrected) -> Page {
     let path = &result.planned.toolpath.path;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let subtitle = format!(
@@ -41,7 +42,7 @@ pub fn page(result: &Result) -> Page {
 }
 
 /// What is left over the path, before and after.
-fn deviations(result: &Result) -> Chart {
+fn deviations(result: &Corrected) -> Chart {
     let over = |stations: &[Station]| {
         let every = stations.len().div_ceil(POINTS).max(1);
         let cutting = stations.iter().step_by(every).filter(|s| s.cutting);
@@ -66,7 +67,7 @@ fn deviations(result: &Result) -> Chart {
 }
 
 /// The part from above before and after, in the same classes.
-fn map(result: &Result) -> Chart {
+fn map(result: &Corrected) -> Chart {
     let top = 1e3 * result.before.max_m;
     let panel = |stations: &[Station], note: &str| {
         let cutting: Vec<Station> = stations.iter().filter(|s| s.cutting).copied().collect();
@@ -90,7 +91,7 @@ fn map(result: &Result) -> Chart {
         .synthetic(result.planned.job.synthetic)
 }
 
-fn checked(result: &Result) -> Table {
+fn checked(result: &Corrected) -> Table {
     let header = ["what", "where", "worst", "limit", "unit", "at mm", "holds"];
     let table = Table::new("Along the corrected path", header).numeric([2, 3, 5]);
     result.checked.iter().fold(table, |table, c| {

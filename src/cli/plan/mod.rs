@@ -7,7 +7,7 @@ mod page;
 
 use super::chapter::{self, Chapter};
 use super::output::{print, print_result, tell};
-use super::{Ending, Verb, arguments, from_words, parsed};
+use super::{Ending, Verb, arguments, parsed};
 use crate::ground::problem::Outcome;
 use crate::measurement::workspace::{Place, job_results};
 use crate::path::programs::{Exporter, ProgramFile};
@@ -53,10 +53,9 @@ struct Written {
 /// # Errors
 /// A job that cannot be planned, results that cannot be written.
 pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
-    let Some(job) = chapter::part(place) else {
+    let Some(planned) = chapter::planned_part(place)? else {
         return Ok(None);
     };
-    let planned = planned(&from_words::<Arguments>(&[job]))?;
     write(&planned, Vec::new())?;
     let input = |(path, hash): &(String, String)| (PathBuf::from(path), hash.clone());
     Ok(Some(Chapter {
