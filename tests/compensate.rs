@@ -276,3 +276,27 @@ fn results_are_the_same_bytes_every_time_and_whole_after_a_kill() {
     }
     assert_eq!(finished(3000.0), new);
 }
+
+/// A campaign with a part: the robot that its axis test found corrects it, and the last chapter says so.
+#[test]
+fn a_campaign_ends_with_its_part_corrected() {
+    let folder = tempfile::tempdir().unwrap();
+    let part = folder.path().join("measurements/c/part");
+    std::fs::create_dir_all(&part).unwrap();
+    job(&part, "-16,20,-2\n20,20,-2\n", 3000.0, "");
+    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("measurements/kr210/axis6.csv");
+    std::fs::copy(example, part.with_file_name("axis6.csv")).unwrap();
+    let (status, run) = ident(folder.path(), &["run", "measurements/c", "--json"]);
+    assert_eq!(status, 0);
+    let steps = run["steps"].as_array().unwrap();
+    let last = steps.last().unwrap();
+    assert_eq!(last["verb"], "compensate");
+    let said = last["sentences"][0].as_str().unwrap();
+    assert!(said.contains("normal to the feed falls from"), "{said}");
+    let results = folder.path().join("reports/c");
+    let corrected = std::fs::read_to_string(results.join("part/compensated.csv")).unwrap();
+    assert!(corrected.contains("fits/c/robot.toml"), "{corrected}");
+    assert!(results.join("part/compensated.src").is_file());
+    let page = std::fs::read_to_string(results.join("index.html")).unwrap();
+    assert!(page.contains("The part, corrected") && page.contains("compensate-map"));
+}

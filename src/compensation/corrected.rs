@@ -129,7 +129,12 @@ pub fn correct(planned: Planned, request: Request) -> Outcome<Corrected> {
         support,
         sensor,
     };
-    let found = search(method, &task).map_err(in_job)?;
+    let uncorrected = of_plant(&drawn)?;
+    let (found, first) = rayon::join(
+        || search(method, &task),
+        || uncorrected.run(support, |_| {}),
+    );
+    let (found, (first, _)) = (found.map_err(in_job)?, first.map_err(in_job)?);
     let inputs = inputs(&planned, plant.as_ref());
     let synthetic = planned.toolpath.synthetic || planned.job.synthetic;
     let text = text(
@@ -154,21 +159,20 @@ pub fn correct(planned: Planned, request: Request) -> Outcome<Corrected> {
         way: way.clone(),
         ..setup.clone()
     };
-    let (first, _) = of_plant(&drawn)?.run(support, |_| {}).map_err(in_job)?;
     let (second, _) = corrected(&truth).run(support, |_| {}).map_err(in_job)?;
     let before = remaining(&first, &none, &drawn.way);
     let after = remaining(&second, &found.correction, &setup.way);
     let model = corrected(&setup);
-    let expected = match &plant {
-        None => after.clone(),
-        Some(_) => {
-            let (milled, _) = model.run(support, |_| {}).map_err(in_job)?;
-            remaining(&milled, &found.correction, &setup.way)
-        }
+    let of_model = match &plant {
+        None => None,
+        Some(_) => Some(model.run(support, |_| {}).map_err(in_job)?.0),
     };
+    let expected = of_model.as_ref().unwrap_or(&second);
+    let left = remaining(expected, &found.correction, &setup.way);
     let beside = beside(method, &task).map_err(in_job)?;
     let doubts = uncertainty::doubts(&setup.robot, &setup, &planned.coefficient_stds());
-    let certainty = certainty(&model, &setup, support, &doubts, &expected).map_err(in_job)?;
+    let certainty =
+        certainty(&model, &setup, support, &doubts, (expected, &left)).map_err(in_job)?;
     let size = Size::of(&after);
     let checked = proof(&planned.plan, &way, &found.correction, &second);
     Ok(Corrected {

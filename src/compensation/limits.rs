@@ -3,6 +3,7 @@
 use super::remaining::{Station, interval};
 use crate::ground::problem::Outcome;
 use crate::ground::spatial::{V3, norm};
+use crate::process::Milled;
 use crate::process::setup::{Setup, Support};
 use crate::process::uncertainty::{self, Doubt};
 use crate::process::way::normal_part;
@@ -45,7 +46,7 @@ const STATIONS: usize = 1500;
 const RANKED: usize = 200;
 
 /// How sure the model is of what its corrected job leaves. `corrected`: the model on the corrected path;
-/// `drawn`: on the programmed one; `left`: what the model leaves there.
+/// `drawn`: on the programmed one; `milled` and `left`: what the model does there, and leaves.
 ///
 /// # Errors
 /// As the runs.
@@ -54,7 +55,7 @@ pub fn certainty(
     drawn: &Setup,
     support: Support,
     doubts: &[Doubt],
-    left: &[Station],
+    (milled, left): (&Milled, &[Station]),
 ) -> Outcome<Certainty> {
     let cutting: Vec<&Station> = left.iter().filter(|s| s.cutting).collect();
     if doubts.is_empty() || cutting.is_empty() {
@@ -62,7 +63,7 @@ pub fn certainty(
     }
     let chosen = thinned(cutting);
     let times: Vec<f64> = chosen.iter().map(|s| s.time_s).collect();
-    let mut changes = uncertainty::changes(corrected, support, doubts, &times)?;
+    let mut changes = uncertainty::changes(corrected, support, doubts, &times, Some(milled))?;
     for list in &mut changes {
         for (change, station) in list.iter_mut().zip(&chosen) {
             *change = normal_part(*change, drawn.way.feed(station.time_s));

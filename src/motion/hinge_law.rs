@@ -33,6 +33,7 @@ pub struct Memory {
 }
 
 /// A piece of path.
+#[derive(Clone, Copy)]
 struct Way {
     /// How far the spring is bent, rad: the rest crosses the gap.
     travel: f64,
@@ -105,8 +106,12 @@ impl HingeLaw {
     /// Mean torque between two deflections, rad. What it adds to the stored energy or loses to the
     /// contacts is exactly torque times way.
     pub fn mean(&self, memory: &Memory, from: f64, to: f64) -> Mean {
+        self.mean_along(memory, (from, to), self.way(memory, from, to))
+    }
+
+    fn mean_along(&self, memory: &Memory, (from, to): (f64, f64), along: Way) -> Mean {
         let (way, sign) = ((to - from).abs(), (to - from).signum());
-        let Way { travel, floats } = self.way(memory, from, to);
+        let Way { travel, floats } = along;
         let spring = Mean {
             torque: self.stiffness * (memory.bend + 0.5 * sign * travel),
             slope: 0.5 * self.stiffness,
@@ -135,7 +140,19 @@ impl HingeLaw {
 
     /// Moves on between two deflections, rad.
     pub fn advance(&self, memory: &mut Memory, from: f64, to: f64) {
-        let moved = self.way(memory, from, to).travel * (to - from).signum();
+        let travel = self.way(memory, from, to).travel;
+        self.bend(memory, travel * (to - from).signum());
+    }
+
+    /// Moves on, and says the mean torque on the way, N·m.
+    pub fn step(&self, memory: &mut Memory, from: f64, to: f64) -> f64 {
+        let way = self.way(memory, from, to);
+        let mean = self.mean_along(memory, (from, to), way).torque;
+        self.bend(memory, way.travel * (to - from).signum());
+        mean
+    }
+
+    fn bend(&self, memory: &mut Memory, moved: f64) {
         memory.bend += moved;
         for (slider, stop) in self.sliders.iter().zip(&mut memory.stops) {
             *stop = (*stop + moved).clamp(-slider.reach, slider.reach);
@@ -147,7 +164,8 @@ impl HingeLaw {
         let (way, sign) = ((to - from).abs(), (to - from).signum());
         let place = (from - memory.bend).clamp(-self.half_gap, self.half_gap);
         let room = self.half_gap - sign * place;
-        if room <= 0.0 {
+        // most steps of a pressed hinge are too short to reach its gap
+        if room <= 0.0 || self.pushed(memory, sign, way).0 < 0.0 {
             return Way {
                 travel: way,
                 floats: false,

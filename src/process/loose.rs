@@ -54,7 +54,7 @@ const ROUNDS: usize = 16;
 /// The first rounds put the torques of the last one in: short steps hardly move a joint. Then by Newton.
 const PLAIN: usize = 4;
 /// A torque this near to its law is met, as a share of the spring's own over the largest deflection.
-const NEAR: f64 = 1e-9;
+const NEAR: f64 = 1e-7;
 /// Static rounds: force and gap settle between each other.
 const STATIC: usize = 8;
 
@@ -124,24 +124,27 @@ impl Loose {
         let free: Vec<f64> = free
             .map(|(row, by)| along(row, state) + dot(*by, force))
             .collect();
-        let free = DVector::from_vec(free);
-        let mut torque = DVector::from_iterator(free.len(), self.hinges.iter().map(|h| h.last));
-        let mut x = &free + &ports.answer * &torque;
+        let mut torque: Vec<f64> = self.hinges.iter().map(|hinge| hinge.last).collect();
+        let mut x = free.clone();
+        ports.answered(&torque, &mut x);
+        let mut means = vec![(0.0, 0.0); free.len()];
+        let mut rest = vec![0.0; free.len()];
         for round in 0..ROUNDS {
-            let means: Vec<(f64, f64)> = (self.hinges.iter().zip(x.iter()))
-                .map(|(hinge, to)| hinge.missing(*to))
-                .collect();
-            torque.iter_mut().zip(&means).for_each(|(c, m)| *c = m.0);
-            let rest = &ports.answer * &torque + &free - &x;
-            if rest.amax() <= NEAR * x.amax() {
+            for (i, hinge) in self.hinges.iter().enumerate() {
+                means[i] = hinge.missing(x[i]);
+                torque[i] = means[i].0;
+                rest[i] = free[i] - x[i];
+            }
+            ports.answered(&torque, &mut rest);
+            if largest(&rest) <= NEAR * largest(&x) {
                 break;
             }
-            x += match round < PLAIN {
-                true => rest,
-                false => ports.newton(&means, rest),
-            };
+            if round >= PLAIN {
+                rest = ports.newton(&means, rest);
+            }
+            x.iter_mut().zip(&rest).for_each(|(x, step)| *x += step);
         }
-        torque.as_slice().to_vec()
+        torque
     }
 
     /// Takes the step to `state`.
@@ -210,14 +213,28 @@ impl Ports {
         }
     }
 
+    /// Adds the deflections under torques.
+    fn answered(&self, torques: &[f64], sum: &mut [f64]) {
+        for (j, torque) in torques.iter().enumerate() {
+            let own = self.answer.column(j);
+            let own = sum.iter_mut().zip(own.iter());
+            own.for_each(|(sum, answer)| *sum += answer * torque);
+        }
+    }
+
     /// Newton's step from what is left of the deflections, rad; `means` hold the slopes of the torques.
-    fn newton(&self, means: &[(f64, f64)], rest: DVector<f64>) -> DVector<f64> {
+    fn newton(&self, means: &[(f64, f64)], rest: Vec<f64>) -> Vec<f64> {
         let n = rest.len();
         let slope = DMatrix::from_fn(n, n, |i, j| {
             f64::from(u8::from(i == j)) - self.answer[(i, j)] * means[j].1
         });
-        slope.lu().solve(&rest).unwrap_or(rest)
+        let solved = slope.lu().solve(&DVector::from_column_slice(&rest));
+        solved.map_or(rest, |x| x.as_slice().to_vec())
     }
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |m, v| m.max(v.abs()))
 }
 
 impl Hinge {
@@ -230,10 +247,9 @@ impl Hinge {
 
     /// Goes on; what is lost to dry contacts, J.
     fn go(&mut self, to: f64) -> f64 {
-        let mean = self.law.mean(&self.memory, self.place, to).torque;
+        let mean = self.law.step(&mut self.memory, self.place, to);
         self.last = 0.5 * self.stiffness * (self.place + to) - mean;
         let work = mean * (to - self.place);
-        self.law.advance(&mut self.memory, self.place, to);
         self.place = to;
         let before = std::mem::replace(&mut self.stored, self.law.stored(&self.memory));
         work - (self.stored - before)

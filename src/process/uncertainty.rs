@@ -3,10 +3,12 @@
 //! Linearised: every spring, damper and coefficient is moved by one standard deviation, the part is
 //! milled again, and the changes at the station are summed as independent.
 
+use super::run::Outcome as Milled;
 use super::setup::{Setup, Support};
 use crate::ground::problem::Outcome;
-use crate::ground::spatial::{V3, dot, norm, scale, sub};
+use crate::ground::spatial::{V3, add, dot, norm, scale, sub};
 use crate::ground::stats::Z95;
+use crate::motion::Linear;
 use crate::robot::Robot;
 use rayon::prelude::*;
 
@@ -139,18 +141,19 @@ pub fn changes(
     support: Support,
     doubts: &[Doubt],
     times: &[f64],
+    base: Option<&Milled>,
 ) -> Outcome<Vec<Vec<V3>>> {
-    let seen = |setup: &Setup| -> Outcome<Seen> {
-        let (out, _) = setup.run(support, |_| {})?;
+    let at_times = |out: &Milled| {
         let of = |value: &dyn Fn(f64) -> V3| times.iter().map(|t| value(*t)).collect();
-        Ok(Seen {
+        Seen {
             deviations: of(&|t| out.deviation_at(t)),
             forces: of(&|t| out.force_at(t)),
-        })
+        }
     };
+    let seen = |setup: &Setup| Ok(at_times(&setup.run(support, |_| {})?.0));
     let needed: Vec<&Doubt> = doubts.iter().filter(|d| d.asks_for_a_run()).collect();
     let runs = (0..=needed.len()).into_par_iter().map(|i| match i {
-        0 => seen(setup),
+        0 => base.map_or_else(|| seen(setup), |base| Ok(at_times(base))),
         _ => seen(&needed[i - 1].moved(setup)),
     });
     let mut runs = runs
@@ -187,13 +190,14 @@ fn stiffer(setup: &Setup, doubt: &Doubt, base: &Seen, times: &[f64]) -> Outcome<
     let mut carrier = setup.carrier();
     let mut bent = |time: f64, force: V3| -> Outcome<V3> {
         let held = carrier.held(&setup.way.at(time).joints)?;
-        let (linear, own) = (&held.linear, &doubt.site);
-        let Some(i) = linear.names.iter().position(|name| name == own) else {
-            return Ok([0.0; 3]);
+        let linear = &held.linear;
+        let one = |i: usize| {
+            let torque = dot(linear.tool[i], force) - held.weight[i];
+            let turned = torque / linear.stiffness[i * linear.n + i];
+            scale(turned, linear.tool[i])
         };
-        let torque = dot(linear.tool[i], force) - held.weight[i];
-        let turned = torque / linear.stiffness[i * linear.n + i];
-        Ok(scale(turned, linear.tool[i]))
+        let all = coordinates(linear, &doubt.site);
+        Ok(all.map(one).fold([0.0; 3], add))
     };
     let calibrated = bent(setup.way.span()[0], [0.0; 3])?;
     let of = |(time, force): (&f64, &V3)| {
@@ -201,6 +205,12 @@ fn stiffer(setup: &Setup, doubt: &Doubt, base: &Seen, times: &[f64]) -> Outcome<
         Ok(scale(-doubt.rel_std, bend))
     };
     times.iter().zip(&base.forces).map(of).collect()
+}
+
+/// The elastic coordinates of a site: a bearing tilts about two axes.
+fn coordinates<'a>(linear: &'a Linear, site: &'a str) -> impl Iterator<Item = usize> + 'a {
+    let named = linear.names.iter().enumerate();
+    named.filter(move |(_, name)| *name == site).map(|(i, _)| i)
 }
 
 /// What a damper off by a small share changes at most, m: that share of what is not the bend of springs.
@@ -220,8 +230,8 @@ fn across(setup: &Setup, site: &str, angle: f64, times: &[f64]) -> Outcome<Vec<V
     let mut carrier = setup.carrier();
     let moved = |time: &f64| {
         let linear = carrier.held(&setup.way.at(*time).joints)?.linear;
-        let own = linear.names.iter().position(|name| name == site);
-        Ok(own.map_or([0.0; 3], |i| scale(angle, linear.tool[i])))
+        let one = |i: usize| scale(angle, linear.tool[i]);
+        Ok(coordinates(&linear, site).map(one).fold([0.0; 3], add))
     };
     times.iter().map(moved).collect()
 }

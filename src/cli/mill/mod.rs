@@ -220,7 +220,8 @@ fn worst(setup: &Setup, milled: &Milled, doubts: &[Doubt]) -> Outcome<Option<Wor
     let ci95 = match doubts.is_empty() {
         true => None,
         false => {
-            let changes = uncertainty::changes(setup, Support::Static, doubts, &[cut.time_s])?;
+            let changes =
+                uncertainty::changes(setup, Support::Static, doubts, &[cut.time_s], None)?;
             let half = Z95 * uncertainty::spread(&changes, 0, cut.deviation);
             Some([(size(&cut) - half).max(0.0), size(&cut) + half])
         }
