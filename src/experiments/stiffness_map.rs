@@ -266,7 +266,8 @@ impl StiffnessMap {
         let line: Vec<[f64; 2]> = line.iter().map(|p| [p[a], p[b]]).collect();
         let tool = line.last().copied().unwrap_or_default();
         panel = panel
-            .with(Series::line("robot", line).emphasised())
+            .with(Series::line("robot", line.clone()).emphasised())
+            .with(Series::points("joints and tool", line))
             .named(tool, "tool")
             .noted("stiffness in N/µm");
         let caption = "Tool orientation and arm as drawn; blank: not reached so, inside the limits of the joints. Springs without gaps, bodies rigid.";

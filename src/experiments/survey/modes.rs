@@ -1,7 +1,7 @@
 //! The modes of a survey: poles from a few combinations of all responses, shapes from all of them.
 
 use crate::experiments::hammer_frf::{HammerFrf, Settings};
-use crate::experiments::hammer_modes::{channels, lines, modes};
+use crate::experiments::hammer_modes::{channels, lines};
 use crate::experiments::{hammer_force::ForceWindow, hammer_given};
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::frf_uff::{Given, GivenPair};
@@ -9,7 +9,7 @@ use crate::measurement::hammer::HammerRecord;
 use crate::measurement::survey::Survey;
 use crate::signal::mac::{phase_collinearity, upright};
 use crate::signal::modal_shapes::{Shapes, principal, shapes};
-use crate::signal::modes::Mode;
+use crate::signal::modes::{LeftOut, Mode, identify};
 use rustfft::num_complex::Complex64;
 
 /// Combinations in which poles are sought.
@@ -35,7 +35,7 @@ pub struct SurveyMode {
 pub struct SurveyModes {
     /// By frequency.
     pub modes: Vec<SurveyMode>,
-    /// Per response, the share of its power up to the band that the modes leave.
+    /// Per response, the share of its power that the modes leave, those above the band counted too.
     pub left: Vec<f64>,
     /// What a reader should know.
     pub remarks: Vec<String>,
@@ -63,19 +63,22 @@ pub fn find(survey: &Survey, to_hz: f64) -> Outcome<SurveyModes> {
     }
     let few = combined(record, &given, &all, &lines);
     let few = hammer_given::frf(&few, few.given.as_ref().unwrap_or(&given), &settings);
-    let found = modes(&few, to_hz);
+    // Modes above the band reach into it: the shapes need them too.
+    let found = identify(&channels(&few, &lines), &LeftOut::new(), f64::INFINITY);
     let poles: Vec<Complex64> = found.iter().map(|mode| mode.pole).collect();
-    // Residues of modes far above the band are terms of the fit: the same lines as for the poles.
     let shapes = shapes(&channels(&all, &lines), &poles);
+    let mut modes: Vec<SurveyMode> = found
+        .into_iter()
+        .zip(&shapes.at_outputs)
+        .map(together)
+        .collect();
+    modes.retain(|one| one.mode.frequency_hz <= to_hz);
+    let told: Vec<Mode> = modes.iter().map(|one| one.mode.clone()).collect();
     let mut remarks = Vec::new();
-    remarks.extend(hammer_given::undecayed(&all, &found));
+    remarks.extend(hammer_given::undecayed(&all, &told));
     remarks.extend(outstanding(survey, &shapes));
     Ok(SurveyModes {
-        modes: found
-            .into_iter()
-            .zip(&shapes.at_outputs)
-            .map(together)
-            .collect(),
+        modes,
         left: shapes.left,
         remarks,
     })

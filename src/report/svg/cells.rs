@@ -10,7 +10,8 @@ use plotters::style::Color;
 /// Inks the cells of a series; neighbours along x become one rectangle.
 pub(super) fn ink(series: &Series, frame: &Frame, look: &Look) -> Outcome<String> {
     let [wide, tall] = series.cell.map(|side| 0.5 * side);
-    layer(frame, "", |area| {
+    // Neighbouring rows would show a hair of paper between them.
+    layer(frame, " shape-rendering=\"crispEdges\"", |area| {
         for [from, to, y] in rows(&series.points, series.cell[0]) {
             let corners = [(from - wide, y - tall), (to + wide, y + tall)];
             area.draw(&Rectangle::new(corners, look.color.filled()))?;
