@@ -270,3 +270,26 @@ fn what_changed_is_explained_by_a_known_cause_or_told_as_not_separable() {
         ran.out
     );
 }
+
+#[test]
+fn a_campaign_is_dated_by_its_files() {
+    use crate::bench_of_files::{rows, with_rows};
+    let bench = Bench::new();
+    let dated = |date: &str| format!("# date = {date}\n{}", with_rows(&rows(600)));
+    bench.put("measurements/c/a.csv", dated("2026-11-20").as_bytes());
+    bench.put("measurements/c/b.csv", dated("\"2026-11-22\"").as_bytes());
+    let ran = bench.run(&["run", "measurements/c"]);
+    assert_eq!(ran.status, 0, "{}", ran.errors);
+    let page = bench.text("reports/c/index.html");
+    assert!(
+        page.contains("measured 2026-11-20 to 2026-11-22"),
+        "{page:.600}"
+    );
+    bench.put("measurements/c/b.csv", dated("\"last week\"").as_bytes());
+    let ran = bench.run(&["run", "measurements/c"]);
+    assert!(
+        ran.status == 2 && ran.errors.contains("is no date") && ran.errors.contains("b.csv"),
+        "{}",
+        ran.errors
+    );
+}

@@ -209,7 +209,15 @@ fn every_measured_mode_finds_its_simulated_one() {
 fn what_is_not_certain_is_refused() {
     let says = |links: &str, told: &str| {
         let (bench, _) = laboratory(links);
-        let ran = bench.run(&["survey", "robot.unv", "--to-Hz", "60", "--dry-run"]);
+        let ran = bench.run(&[
+            "survey",
+            "robot.unv",
+            "--to-Hz",
+            "60",
+            "--robot",
+            "kr210",
+            "--dry-run",
+        ]);
         assert_eq!(ran.status, 2, "{links}: {}", ran.out);
         assert!(
             ran.errors.contains(told) && ran.errors.contains("help:"),
@@ -231,4 +239,11 @@ fn what_is_not_certain_is_refused() {
         "node 999 is not in the survey",
     );
     says("survey_origin_mm = [9000, 0, 0]", "was certain for 0 of");
+    let (bench, _) = laboratory("");
+    let ran = bench.run(&["survey", "robot.unv", "--to-Hz", "60", "--dry-run"]);
+    assert!(
+        ran.status < 2 && ran.errors.contains("not held beside the simulation"),
+        "{}",
+        ran.errors
+    );
 }

@@ -3,7 +3,7 @@
 //! nptdms and pyuff (`tests/data/foreign/make.py`), the texts by the writers below.
 
 use crate::bench_of_files::Bench;
-use crate::milling_bench::{Cutter, Pass, Recording, record};
+use crate::milling_bench::{Cutter, Pass, Recording, csv, record};
 use ident::ground::random::Random;
 use serde_json::Value;
 use std::f64::consts::{PI, TAU};
@@ -323,4 +323,48 @@ fn twelve_exports_need_at_most_two_commands_each() {
             }
         }
     }
+}
+
+/// The cuts of the guide are what this generator makes of [`TRUTH`] (`IDENT_WRITE_EXAMPLE=1` writes them anew).
+#[test]
+fn the_cuts_of_the_guide_are_what_their_truth_makes() {
+    let cutter = Cutter {
+        radius: 8e-3,
+        teeth: 2,
+        helix: 30.0 * PI / 180.0,
+        runout: 5e-6,
+        runout_angle: 0.7,
+        chip: 0.0,
+    };
+    let pass = |feed: f64, depth: f64, width: f64, side: &'static str| Pass {
+        rpm: 6000.0,
+        feed,
+        depth,
+        width,
+        side,
+    };
+    let passes = [
+        pass(1440.0, 1.5, 16.0, "slot"),
+        pass(2880.0, 1.5, 16.0, "slot"),
+        pass(2400.0, 2.0, 5.0, "down"),
+        pass(3600.0, 2.0, 8.0, "up"),
+    ];
+    let recording = Recording {
+        rate_hz: 5000.0,
+        turns: 3.0,
+        bandwidth_hz: None,
+        noise: 2.0,
+        colour: 0.0,
+        clipped: true,
+        ring: None,
+    };
+    let rows = record(&cutter, &passes, &TRUTH, &recording, &mut Random::new(5));
+    let text = csv(&cutter, &passes, &recording, &rows);
+    let path =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("measurements/dynamometer/cuts.csv");
+    if std::env::var_os("IDENT_WRITE_EXAMPLE").is_some() {
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(&path, &text).unwrap();
+    }
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
 }

@@ -125,16 +125,34 @@ impl Arguments {
         let survey = survey::read(&self.file, self.geometry.as_deref())?;
         let found = find(&survey, self.to_hz).map_err(|p| p.in_file(&self.file))?;
         let shapes: Vec<_> = found.modes.iter().map(|mode| mode.shape.clone()).collect();
-        let named = self.robot.clone().or(survey.record.robot.clone());
-        let robot = named
-            .map(|name| self.beside(&name, &survey, &found))
-            .transpose()?;
+        let mut survey = survey;
+        let robot = match self.standing(&mut survey) {
+            Some(name) => Some(self.beside(&name, &survey, &found)?),
+            None => None,
+        };
         Ok(Told {
             auto: mac::matrix(&shapes, &shapes),
             survey,
             found,
             robot,
         })
+    }
+
+    /// The robot to stand beside: as asked, else as stated, where its pose and the place of the survey are too.
+    fn standing(&self, survey: &mut Survey) -> Option<String> {
+        let stated = survey.record.robot.clone();
+        let posed = self.joints_deg.is_some() || survey.record.joint_angles.is_some();
+        match (&self.robot, stated) {
+            (Some(asked), _) => Some(asked.clone()),
+            (None, Some(stated)) if posed && survey.placement.origin.is_some() => Some(stated),
+            (None, Some(stated)) => {
+                survey.remarks.push(format!(
+                    "not held beside the simulation of {stated}: joint_angles_deg and survey_origin_mm have to be stated for that"
+                ));
+                None
+            }
+            (None, None) => None,
+        }
     }
 
     fn beside(&self, name: &str, survey: &Survey, found: &SurveyModes) -> Outcome<RobotBeside> {

@@ -72,7 +72,9 @@ pub fn find(survey: &Survey, to_hz: f64) -> Outcome<SurveyModes> {
         .zip(&shapes.at_outputs)
         .map(together)
         .collect();
-    modes.retain(|one| one.mode.frequency_hz <= to_hz);
+    // Below the first line nothing is seen.
+    let first = all.frequency_hz[lines[0]];
+    modes.retain(|one| (first..=to_hz).contains(&one.mode.frequency_hz));
     let told: Vec<Mode> = modes.iter().map(|one| one.mode.clone()).collect();
     let mut remarks = Vec::new();
     remarks.extend(hammer_given::undecayed(&all, &told));

@@ -1,22 +1,20 @@
 //! How stiff the robot is at its tool over a plane of its workspace.
 
+mod chart;
+mod places;
+
 use crate::ground::problem::{Outcome, Problem};
-use crate::ground::spatial::{M3, Pose, V3, norm, sub};
+use crate::ground::spatial::{M3, V3, norm, sub};
 use crate::motion::inverse::SphericalWrist;
 use crate::motion::kinematics::{forward_kinematics, place};
 use crate::motion::skeleton::skeleton;
-use crate::motion::{Chain, Work, elastic, numeric, rigid, statics};
+use crate::motion::{Chain, Work, elastic, rigid, statics};
 use crate::robot::Robot;
-use crate::sheet::chart::{Axis, Chart, Panel, Series};
-use crate::sheet::number::significant;
 use nalgebra::{Matrix3, SymmetricEigen};
-use std::collections::{BTreeMap, VecDeque};
+use places::{Places, closed, walked};
 
 /// Most cells of a map.
 const MOST: usize = 250_000;
-/// Classes of a map.
-const CLASSES: usize = 6;
-const MICROMETRE: f64 = 1e-6;
 
 /// What is mapped.
 #[derive(Debug, Clone, PartialEq)]
@@ -108,93 +106,6 @@ fn reach(robot: &Robot, asked: &Asked) -> f64 {
     long + asked.step
 }
 
-/// The places of a map: the plane through the tool, cells counted from the axis of the base.
-struct Places<'a> {
-    goal: Pose,
-    asked: &'a Asked,
-    count: i64,
-}
-
-impl Places<'_> {
-    fn at(&self, [i, j]: [i64; 2]) -> V3 {
-        let mut at = self.goal.point;
-        at[self.asked.plane[0]] = i as f64 * self.asked.step;
-        at[self.asked.plane[1]] = j as f64 * self.asked.step;
-        at
-    }
-
-    fn pose(&self, cell: [i64; 2]) -> Pose {
-        Pose {
-            rotation: self.goal.rotation,
-            point: self.at(cell),
-        }
-    }
-
-    fn all(&self) -> impl Iterator<Item = [i64; 2]> + '_ {
-        let row = |j| (-self.count..=self.count).map(move |i| [i, j]);
-        (-self.count..=self.count).flat_map(row)
-    }
-}
-
-/// By the closed form, with the arm as in the given posture.
-fn closed(wrist: &SphericalWrist, places: &Places) -> Vec<(V3, Vec<f64>)> {
-    let Ok(seed) = <[f64; 6]>::try_from(&places.asked.joints[..]) else {
-        return Vec::new();
-    };
-    let own = wrist.solve(&places.goal, &seed);
-    let apart = |q: &[f64; 6]| {
-        q.iter()
-            .zip(&seed)
-            .map(|(a, b)| (a - b).abs())
-            .fold(0.0, f64::max)
-    };
-    let nearest = own
-        .as_slice()
-        .iter()
-        .min_by(|a, b| apart(&a.q).total_cmp(&apart(&b.q)));
-    let Some(arm) = nearest.map(|posture| [posture.branch[0], posture.branch[1]]) else {
-        return Vec::new();
-    };
-    let reached = |cell: [i64; 2]| {
-        let pose = places.pose(cell);
-        let found = wrist.solve_arm(&pose, &seed, arm);
-        let posture = found.nearest(&seed)?;
-        Some((pose.point, posture.q.to_vec()))
-    };
-    places.all().filter_map(reached).collect()
-}
-
-/// By Newton's method from place to place, where no closed form is known.
-fn walked(chain: &Chain, limits: &[[f64; 2]], places: &Places) -> Vec<(V3, Vec<f64>)> {
-    let mut work = Work::new(chain);
-    let index =
-        |k: usize| (places.goal.point[places.asked.plane[k]] / places.asked.step).round() as i64;
-    let inside = |q: &[f64]| {
-        q.iter()
-            .zip(limits)
-            .all(|(q, [low, high])| (*low..=*high).contains(q))
-    };
-    let mut found: BTreeMap<[i64; 2], Vec<f64>> = BTreeMap::new();
-    let mut queue = VecDeque::from([([index(0), index(1)], places.asked.joints.clone())]);
-    while let Some((at, seed)) = queue.pop_front() {
-        let outside = at.iter().any(|k| k.abs() > places.count);
-        let key = [at[1], at[0]];
-        if outside || found.contains_key(&key) {
-            continue;
-        }
-        let solved = numeric::solve(chain, &mut work, &places.pose(at), &seed);
-        let Some(q) = solved.ok().filter(|q| inside(q)) else {
-            continue;
-        };
-        for [di, dj] in [[1, 0], [-1, 0], [0, 1], [0, -1]] {
-            queue.push_back(([at[0] + di, at[1] + dj], q.clone()));
-        }
-        found.insert(key, q);
-    }
-    let cells = found.into_iter();
-    cells.map(|([j, i], q)| (places.at([i, j]), q)).collect()
-}
-
 fn cell(chain: &Chain, work: &mut Work, at: V3, joints: Vec<f64>) -> Cell {
     place(chain, work, &chain.spread(&joints));
     let compliance = statics::compliance(chain, work);
@@ -235,67 +146,6 @@ impl StiffnessMap {
         let low = self.cells.iter().min_by(order).unwrap_or(&self.cells[0]);
         [low, self.cells.iter().max_by(order).unwrap_or(low)]
     }
-
-    /// A map of one quantity (N/m) with the robot in it.
-    pub fn chart(
-        &self,
-        robot: &Robot,
-        name: &str,
-        title: &str,
-        of: impl Fn(&Cell) -> f64,
-    ) -> Chart {
-        let [a, b] = self.asked.plane;
-        let axis = |k: usize| Axis::new(["x", "y", "z"][k], "m");
-        let values: Vec<f64> = self
-            .cells
-            .iter()
-            .map(|cell| MICROMETRE * of(cell))
-            .collect();
-        let edges = edges(&values);
-        let side = [self.asked.step; 2];
-        let mut panel = Panel::new(axis(a), axis(b)).equal_axes();
-        for pair in edges.windows(2) {
-            let inside =
-                |v: f64| v >= pair[0] && (v < pair[1] || pair[1] == edges[edges.len() - 1]);
-            let cells = self.cells.iter().zip(&values).filter(|(_, v)| inside(**v));
-            let places = cells.map(|(cell, _)| [cell.at[a], cell.at[b]]).collect();
-            let name = format!("{} to {}", significant(pair[0], 2), significant(pair[1], 2));
-            panel = panel.with(Series::cells(name, places, side));
-        }
-        let line = skeleton(robot, &self.asked.joints).line;
-        let line: Vec<[f64; 2]> = line.iter().map(|p| [p[a], p[b]]).collect();
-        let tool = line.last().copied().unwrap_or_default();
-        panel = panel
-            .with(Series::line("robot", line.clone()).emphasised())
-            .with(Series::points("joints and tool", line))
-            .named(tool, "tool")
-            .noted("stiffness in N/µm");
-        let caption = "Tool orientation and arm as drawn; blank: not reached so, inside the limits of the joints. Springs without gaps, bodies rigid.";
-        Chart::new(name, title, caption).with(panel)
-    }
-}
-
-/// Edges of classes with about as many cells in each, on round numbers.
-fn edges(values: &[f64]) -> Vec<f64> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let last = sorted.len() - 1;
-    let mut edges = vec![round(sorted[0], f64::floor)];
-    for k in 1..CLASSES {
-        edges.push(round(sorted[k * last / CLASSES], f64::round));
-    }
-    edges.push(round(sorted[last], f64::ceil));
-    edges.dedup_by(|a, b| *a <= *b);
-    if let [alone] = edges[..] {
-        edges.push(1.1 * alone);
-    }
-    edges
-}
-
-/// Two digits.
-fn round(value: f64, how: fn(f64) -> f64) -> f64 {
-    let unit = 10f64.powf(value.abs().max(1e-12).log10().floor() - 1.0);
-    how(value / unit) * unit
 }
 
 #[cfg(test)]
@@ -344,14 +194,5 @@ mod tests {
                 assert!(k > 0.999 * least && k < 1.001 * greatest);
             }
         }
-    }
-
-    #[test]
-    fn classes_have_round_edges_that_rise() {
-        let values: Vec<f64> = (0..100).map(|k| 0.123 + 0.01 * f64::from(k)).collect();
-        let found = edges(&values);
-        assert!(found.windows(2).all(|pair| pair[0] < pair[1]), "{found:?}");
-        assert!(found[0] <= 0.123 && found[found.len() - 1] >= 1.113);
-        assert_eq!(edges(&[2.0]).len(), 2);
     }
 }

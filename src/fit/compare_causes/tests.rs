@@ -1,5 +1,6 @@
-use super::super::compare::AnyFit;
 use super::*;
+use crate::fit::compare::AnyFit;
+use crate::fit::parameter::Identified;
 use crate::ground::random::Random;
 
 /// Six axes: stiffness and gap each, relative errors of one per cent, and what happened to them.
