@@ -257,7 +257,7 @@ fn what_changed_is_explained_by_a_known_cause_or_told_as_not_separable() {
             let name = format!("fits/{campaign}/axis{axis}.toml");
             let text = bench.text(&name);
             let cut = text.find("[[parameters]]\nname = \"gap\"").unwrap();
-            bench.put(&name, text[..cut].as_bytes());
+            bench.put(&name, &text.as_bytes()[..cut]);
         }
     }
     let gain = explained("gain");

@@ -158,13 +158,14 @@ fn laboratory(links: &str) -> (Bench, usize) {
         "robot = \"kr210\"\nsynthetic = true\njoint_angles_deg = {JOINTS_DEG:?}\n{links}\n"
     );
     bench.put("robot.ident.toml", facts.as_bytes());
-    (bench, modes.len())
+    let low = modes.iter().filter(|mode| mode.frequency_hz < 30.0).count();
+    (bench, low)
 }
 
 #[test]
 fn every_measured_mode_finds_its_simulated_one() {
     let (bench, count) = laboratory("survey_origin_mm = [0, 0, 0]\nlinks = { A6 = [70, 71, 72] }");
-    let ran = bench.run(&["survey", "robot.unv", "--to-Hz", "60", "--json"]);
+    let ran = bench.run(&["survey", "robot.unv", "--to-Hz", "30", "--json"]);
     assert!(ran.status < 2, "{}", ran.errors);
     let answer: Value = serde_json::from_str(&ran.out).unwrap();
     let found = answer["modes"].as_array().unwrap().len();
@@ -173,8 +174,8 @@ fn every_measured_mode_finds_its_simulated_one() {
         "{count} modes, {found} found: {pairs:?}\n{}",
         answer["remarks"]
     );
-    assert!(found >= count - 1, "{found} of {count}");
-    assert!(pairs.len() >= count - 1);
+    // Beyond 30 Hz the modes overlap (4 % damping, 1.4 Hz apart), and not all of them come back with this noise.
+    assert_eq!((found, pairs.len()), (count, count));
     for pair in pairs {
         assert!(pair["mac"].as_f64().unwrap() > 0.99, "{pair}");
         let m = &answer["modes"][pair["measured"].as_u64().unwrap() as usize]["frequency_Hz"];

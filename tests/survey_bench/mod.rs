@@ -145,21 +145,27 @@ pub fn accelerances(
     forces: &[Dof],
     responses: &[Dof],
 ) -> Vec<Vec<Vec<Complex64>>> {
-    let mut all = vec![vec![vec![Complex64::default(); LINES]; responses.len()]; forces.len()];
-    for (f, (hit, i)) in forces.iter().enumerate() {
-        for line in 1..LINES {
-            let w = TAU * STEP_HZ * line as f64;
-            for chain in 0..3 {
-                let x = receptance(chain, points[*hit].storey, w);
-                let push = FRAME[*i][chain] * points[*hit].lever;
-                for (r, (point, o)) in responses.iter().enumerate() {
-                    let seen = FRAME[*o][chain] * points[*point].lever;
-                    all[f][r][line] -= w * w * push * seen * x[points[*point].storey];
-                }
-            }
-        }
-    }
-    all
+    let circular = |line: usize| TAU * STEP_HZ * line as f64;
+    let of = |(hit, i): &Dof| -> Vec<Vec<Complex64>> {
+        let storey = points[*hit].storey;
+        let answers: Vec<[Vec<Complex64>; 3]> = (1..LINES)
+            .map(|line| [0, 1, 2].map(|chain| receptance(chain, storey, circular(line))))
+            .collect();
+        let response = |(point, o): &Dof| -> Vec<Complex64> {
+            let levers = points[*hit].lever * points[*point].lever;
+            let at = |(k, x): (usize, &[Vec<Complex64>; 3])| {
+                let part = |chain: usize| {
+                    FRAME[*i][chain] * FRAME[*o][chain] * x[chain][points[*point].storey]
+                };
+                let sum: Complex64 = (0..3).map(part).sum();
+                -sum * levers * circular(k + 1).powi(2)
+            };
+            let nothing = std::iter::once(Complex64::default());
+            nothing.chain(answers.iter().enumerate().map(at)).collect()
+        };
+        responses.iter().map(response).collect()
+    };
+    forces.iter().map(of).collect()
 }
 
 /// Noise of this share of the rms of every response.

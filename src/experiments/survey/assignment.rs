@@ -9,8 +9,8 @@ use crate::motion::skeleton::Skeleton;
 const FAR: f64 = 0.6;
 /// The nearest link counts if every other one is so many times as far.
 const CLEAR: f64 = 2.0;
-/// Links shorter than this are a point, m.
-const SHORT: f64 = 0.02;
+/// Nearer than this to two links, a point is at their joint, m.
+const JOINT: f64 = 0.02;
 /// Fewest points on links for a comparison.
 pub const FEWEST: usize = 3;
 
@@ -104,22 +104,21 @@ fn nearest(at: V3, robot: &Skeleton) -> Option<usize> {
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (least, link) = *found.first()?;
     let mut others = found.iter().filter(|other| other.1 != link);
-    let clear = others.all(|other| other.0 >= CLEAR * least && other.0 > SHORT);
+    let clear = others.all(|other| other.0 >= CLEAR * least && other.0 > JOINT);
     (least <= FAR && clear).then_some(link)
 }
 
-/// Straight links: number, from, to. The flange and the tool ride on the last one.
+/// Straight links: number, from, to; some are a point. The flange and the tool ride on the last one.
 fn segments(robot: &Skeleton) -> Vec<(usize, V3, V3)> {
     let joints = robot.names.len();
     let pairs = robot.line.windows(2).enumerate();
     let all = pairs.map(|(k, pair)| (k.min(joints), pair[0], pair[1]));
-    all.filter(|(_, from, to)| norm(sub(*to, *from)) > SHORT)
-        .collect()
+    all.collect()
 }
 
 fn distance(at: V3, from: V3, to: V3) -> f64 {
     let along = sub(to, from);
-    let share = dot(sub(at, from), along) / dot(along, along);
+    let share = dot(sub(at, from), along) / dot(along, along).max(f64::MIN_POSITIVE);
     norm(sub(at, add(from, scale(share.clamp(0.0, 1.0), along))))
 }
 

@@ -64,10 +64,10 @@ pub fn explain(comparison: &Comparison) -> Explained {
         .collect();
     for chosen in subsets(&wide) {
         let found = grown(&rows, &suspects, &chosen);
+        keep(&mut sets, weighed(&rows, &suspects, &found));
         for other in replaced(&found, &suspects) {
             keep(&mut sets, weighed(&rows, &suspects, &other));
         }
-        keep(&mut sets, weighed(&rows, &suspects, &found));
     }
     // Rounding must not decide between sets that are weighed alike.
     let rank = |set: &Explanation| ((1e6 * set.score).round(), set.blamed.len());

@@ -56,7 +56,7 @@ fn labels(record: &Record) -> Outcome<Vec<i64>> {
         .chunks(WIDTH)
         .map(|field| field.iter().collect::<String>());
     let columns: Option<Vec<i64>> = columns.map(|field| field.trim().parse().ok()).collect();
-    let words = || text.split_whitespace().map(|word| label(word)).collect();
+    let words = || text.split_whitespace().map(label).collect();
     columns.or_else(words).ok_or_else(|| {
         Problem::new(
             format!(
