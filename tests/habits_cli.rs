@@ -204,3 +204,92 @@ fn effects_of_every_kind_are_explained() {
     }
     assert_eq!(bench.run(&["effects", "corner_lga"]).status, 2);
 }
+
+/// Stiffness and gap of six axes of one campaign, the stiffnesses times a factor that may depend on the axis.
+fn six_axes(bench: &Bench, campaign: &str, factor: impl Fn(usize) -> f64) {
+    for axis in 1..=6 {
+        // Deviations of half a standard error, other ones in each campaign.
+        let off = 0.5 * (axis as f64 * if campaign == "before" { 1.7 } else { 2.9 }).sin();
+        let text = fit(
+            factor(axis) * 1e6 * (1.0 + 0.01 * off),
+            Some(5e-5 + 1e-6 * off),
+        );
+        let text = text.replace("\"A3\"", &format!("\"A{axis}\""));
+        bench.put(&format!("fits/{campaign}/axis{axis}.toml"), text.as_bytes());
+    }
+}
+
+#[test]
+fn what_changed_is_explained_by_a_known_cause_or_told_as_not_separable() {
+    let bench = Bench::new();
+    six_axes(&bench, "before", |_| 1.0);
+    six_axes(&bench, "soft", |axis| if axis == 4 { 0.85 } else { 1.0 });
+    six_axes(&bench, "gain", |_| 1.08);
+    six_axes(&bench, "same", |_| 1.0);
+    let explained = |after: &str| {
+        let ran = bench.run(&["compare", "before", after, "--json", "--dry-run"]);
+        assert!(ran.status < 2, "{}", ran.errors);
+        json(&ran.out)["explanation"].clone()
+    };
+    let names = |answer: &serde_json::Value| -> Vec<String> {
+        let set = answer["sets"][0]["causes"].as_array().unwrap();
+        set.iter()
+            .map(|c| {
+                format!(
+                    "{} {}",
+                    c["cause"].as_str().unwrap_or("-"),
+                    c["site"].as_str().unwrap()
+                )
+            })
+            .collect()
+    };
+    let soft = explained("soft");
+    assert_eq!(names(&soft), ["drive_stiffness A4"]);
+    assert!((soft["sets"][0]["causes"][0]["percent"].as_f64().unwrap() + 16.2).abs() < 2.0);
+    assert_eq!(
+        (names(&explained("gain")), &explained("gain")["separable"]),
+        (vec!["force_gain ".to_string()], &true.into())
+    );
+    assert!(names(&explained("same")).is_empty());
+    // Without the gaps a force that was read wrong and a displacement that was read wrong look alike.
+    for campaign in ["before", "gain"] {
+        for axis in 1..=6 {
+            let name = format!("fits/{campaign}/axis{axis}.toml");
+            let text = bench.text(&name);
+            let cut = text.find("[[parameters]]\nname = \"gap\"").unwrap();
+            bench.put(&name, &text.as_bytes()[..cut]);
+        }
+    }
+    let gain = explained("gain");
+    assert_eq!(gain["separable"], false);
+    let ran = bench.run(&["compare", "before", "gain", "--dry-run"]);
+    assert!(
+        ran.out
+            .contains("Not separable by these fits: force_gain, or sensor_gain"),
+        "{}",
+        ran.out
+    );
+}
+
+#[test]
+fn a_campaign_is_dated_by_its_files() {
+    use crate::bench_of_files::{rows, with_rows};
+    let bench = Bench::new();
+    let dated = |date: &str| format!("# date = {date}\n{}", with_rows(&rows(600)));
+    bench.put("measurements/c/a.csv", dated("2026-11-20").as_bytes());
+    bench.put("measurements/c/b.csv", dated("\"2026-11-22\"").as_bytes());
+    let ran = bench.run(&["run", "measurements/c"]);
+    assert_eq!(ran.status, 0, "{}", ran.errors);
+    let page = bench.text("reports/c/index.html");
+    assert!(
+        page.contains("measured 2026-11-20 to 2026-11-22"),
+        "{page:.600}"
+    );
+    bench.put("measurements/c/b.csv", dated("\"last week\"").as_bytes());
+    let ran = bench.run(&["run", "measurements/c"]);
+    assert!(
+        ran.status == 2 && ran.errors.contains("is no date") && ran.errors.contains("b.csv"),
+        "{}",
+        ran.errors
+    );
+}

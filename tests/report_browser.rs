@@ -83,6 +83,7 @@ fn the_report_of_a_campaign_in_a_browser() {
     tells_the_story(&dom);
     is_drawn(&profile, &page);
     prints_everything(&profile, &page);
+    prints_a_summary_of_four_pages(&profile, &page);
     keyboard_reaches_everything(&profile, &page, &dom);
     let bytes = std::fs::metadata(&page).unwrap().len();
     assert!(bytes < 2_500_000, "{bytes} bytes");
@@ -145,7 +146,7 @@ fn tells_the_story(dom: &str) {
         "What to measure next",
         "Set-ups to measure next",
         "figure-next-setups",
-        "Experiment by experiment",
+        "Appendix",
     ];
     let story = &dom[dom.find("<main").unwrap()..];
     let places = order.map(|words| story.find(words).unwrap_or_else(|| panic!("no `{words}`")));
@@ -179,6 +180,32 @@ fn is_drawn(profile: &Path, page: &Path) {
     }
 }
 
+/// How many pages a printer would need.
+fn printed(profile: &Path, page: &Path) -> usize {
+    let pdf = page.with_extension("pdf");
+    let to = format!("--print-to-pdf={}", pdf.display());
+    browse(profile, page, &[&to, "--no-pdf-header-footer"]).unwrap();
+    let pdf = std::fs::read(pdf).unwrap();
+    let key = b"/Type /Page\n";
+    pdf.windows(key.len()).filter(|part| part == key).count()
+}
+
+/// The whole story stands before the appendix, on four sheets at most, and says when it was measured.
+fn prints_a_summary_of_four_pages(profile: &Path, page: &Path) {
+    let text = std::fs::read_to_string(page).unwrap();
+    let (summary, rest) = text.split_once("<section class=\"appendix\"").unwrap();
+    assert!(rest.contains("<details>") && !summary.contains("<details>"));
+    assert!(summary.contains("date of the measurement not stated"));
+    let cut = page.with_file_name("summary.html");
+    let end = "<section class=\"appendix\"><h2>Appendix</h2></section></main></body></html>";
+    std::fs::write(&cut, format!("{summary}{end}")).unwrap();
+    let sheets = printed(profile, &cut);
+    assert!(
+        (3..=5).contains(&sheets),
+        "{sheets} sheets with that of the appendix"
+    );
+}
+
 /// What is folded away on the screen is open on paper.
 fn prints_everything(profile: &Path, page: &Path) {
     let text = std::fs::read_to_string(page).unwrap();
@@ -188,15 +215,7 @@ fn prints_everything(profile: &Path, page: &Path) {
         text.replace("details::details-content", "nothing-of-this"),
     )
     .unwrap();
-    let pages = |page: &Path| {
-        let pdf = page.with_extension("pdf");
-        let to = format!("--print-to-pdf={}", pdf.display());
-        browse(profile, page, &[&to, "--no-pdf-header-footer"]).unwrap();
-        let pdf = std::fs::read(pdf).unwrap();
-        let key = b"/Type /Page\n";
-        pdf.windows(key.len()).filter(|part| part == key).count()
-    };
-    let (open, shut) = (pages(page), pages(&folded));
+    let (open, shut) = (printed(profile, page), printed(profile, &folded));
     assert!(open > shut + 10, "{open} pages, {shut} when folded");
 }
 

@@ -165,3 +165,86 @@ fn the_page_of_the_dampings_shows_the_tuned_robot_swing() {
         "the first mode measured lies at 11.57 Hz"
     );
 }
+
+#[test]
+fn a_map_of_stiffness_says_what_is_reached_and_how_stiff_it_is_there() {
+    let bench = Bench::new();
+    let joints = "--joints-deg=0,-90,90,0,40,0";
+    let words = [
+        "robot",
+        "map",
+        "kr210",
+        joints,
+        "--step-mm",
+        "200",
+        "--json",
+    ];
+    let ran = bench.run(&words);
+    assert_eq!(ran.status, 0, "{}", ran.errors);
+    let body = document(&ran);
+    let cells = body["cells"].as_array().unwrap();
+    assert!(cells.len() > 50 && body["not_reached"].as_u64().unwrap() > 50);
+    let robot = builtin::named("kr210").unwrap().unwrap();
+    let chain = elastic(&robot);
+    let mut work = Work::new(&chain);
+    let list = |value: &serde_json::Value| -> Vec<f64> {
+        value
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|v| v.as_f64().unwrap())
+            .collect()
+    };
+    for cell in cells.iter().step_by(7) {
+        let q = list(&cell["joints_rad"]);
+        for (joint, angle) in robot.joints.iter().zip(&q) {
+            assert!(joint.limits[0] - 1e-9 <= *angle && *angle <= joint.limits[1] + 1e-9);
+        }
+        let at = forward_kinematics(&chain, &mut work, &chain.spread(&q)).point;
+        let told = list(&cell["at_m"]);
+        assert!((0..3).all(|k| (at[k] - told[k]).abs() < 1e-9));
+        // The least is what the softest direction gives, by the deflection under a force.
+        let soft = list(&cell["softest_direction"]);
+        let moved = displacement(&chain, &work, [soft[0], soft[1], soft[2]]);
+        let least = cell["least_N_m"].as_f64().unwrap();
+        assert!((norm(moved) * least - 1.0).abs() < 1e-9);
+        for force in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.6, 0.0, 0.8]] {
+            let k = 1.0 / norm(displacement(&chain, &work, force));
+            assert!(
+                k > least * (1.0 - 1e-9)
+                    && k < cell["greatest_N_m"].as_f64().unwrap() * (1.0 + 1e-9)
+            );
+        }
+    }
+    assert!(
+        bench.path("reports/kr210/map-least.svg").is_file()
+            || bench.files().iter().any(|f| f.ends_with("map-least.svg"))
+    );
+    for (more, told) in [
+        ("0", "--step-mm"),
+        ("0.001", "--step-mm"),
+        ("nan", "--step-mm"),
+        ("1", "--step-mm"),
+    ] {
+        let ran = bench.run(&[
+            "robot",
+            "map",
+            "kr210",
+            joints,
+            "--step-mm",
+            more,
+            "--dry-run",
+        ]);
+        assert!(
+            ran.status == 2 && ran.errors.contains(told),
+            "{more}: {}",
+            ran.errors
+        );
+    }
+    let ran = bench.run(&["robot", "map", "kr210", "--joints-deg=0,0", "--dry-run"]);
+    assert!(
+        ran.status == 2 && ran.errors.contains("2 angles for 6 joints"),
+        "{}",
+        ran.errors
+    );
+}

@@ -15,6 +15,7 @@ mod paths;
 mod robot_blind;
 mod robot_common;
 mod stranger_generator;
+mod survey_bench;
 mod toy;
 
 // The suites.
@@ -92,6 +93,7 @@ mod robot_swing;
 mod screw;
 mod stiffness;
 mod stranger;
+mod survey;
 mod toolpath_fuzz;
 mod toolpath_readers;
 mod uff_files;

@@ -10,6 +10,9 @@ use crate::robot::load::load;
 use crate::sheet::page::{Block, Page, Tone};
 use std::path::PathBuf;
 
+/// Rows from which a table is folded away.
+const LONG: usize = 20;
+
 /// A chapter.
 pub struct Chapter {
     /// Its title.
@@ -63,7 +66,8 @@ impl Chapter {
         let in_the_open = |block: &Block| match block {
             Block::Verdict { .. } => true,
             Block::Chart(_) => std::mem::take(&mut figure),
-            Block::Table(_) => std::mem::take(&mut table),
+            // A long one beside the figure that shows it belongs to the rest.
+            Block::Table(rows) => rows.rows.len() <= LONG && std::mem::take(&mut table),
             _ => false,
         };
         let (mut open, rest): (Vec<Block>, Vec<Block>) =
@@ -105,7 +109,7 @@ pub fn planned_part(place: &Place) -> Outcome<Option<Planned>> {
 }
 
 /// Leaves out headings that nothing stands under any more.
-fn without_empty_sections(blocks: Vec<Block>) -> Vec<Block> {
+pub fn without_empty_sections(blocks: Vec<Block>) -> Vec<Block> {
     let is_heading = |block: &Block| matches!(block, Block::Heading(_));
     let next = blocks.iter().skip(1).map(is_heading).chain([true]);
     let empty: Vec<bool> = blocks

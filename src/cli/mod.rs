@@ -26,6 +26,7 @@ mod screw;
 mod sensor;
 mod simulate;
 mod stiffness;
+mod survey;
 mod validate;
 
 pub use output::tell;
@@ -70,6 +71,7 @@ pub const VERBS: &[Verb] = &[
     run::VERB,
     report::VERB,
     frf::VERB,
+    survey::VERB,
     validate::VERB,
     plan::VERB,
     robot::VERB,

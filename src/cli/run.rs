@@ -1,6 +1,6 @@
 //! `ident run`: a whole campaign, from the raw files to the report.
 
-use super::chapter::Chapter;
+use super::chapter::{Chapter, without_empty_sections};
 use super::output::print;
 use super::progress::Progress;
 use super::{
@@ -8,9 +8,10 @@ use super::{
     validate,
 };
 use crate::ground::problem::{Outcome, Problem};
+use crate::measurement::leading::front_of;
 use crate::measurement::workspace::Place;
 use crate::report::{folder, json};
-use crate::sheet::page::{Block, Page, Tone};
+use crate::sheet::page::{APPENDIX, Block, Page, Tone};
 use clap::{ArgMatches, Args, ValueEnum};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -82,12 +83,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
         true => as_json(&place, &chapters, &over),
         false => as_text(&place, &chapters, &over),
     };
-    let mut page = page(&place, chapters);
-    if !over.is_empty() {
-        page.blocks.push(Block::heading("Files that no step took"));
-        page.blocks
-            .push(Block::text(format!("{}.", over.join("; "))));
-    }
+    let page = page(&place, chapters, &over)?;
     folder::write_as(&place.reports(), "index.html", &page)?;
     print(&said)?;
     Ok(match attention {
@@ -133,14 +129,15 @@ fn nothing(place: &Place) -> Problem {
 }
 
 /// Causes first, then what was identified.
-fn page(place: &Place, chapters: Vec<(&str, Chapter)>) -> Page {
+fn page(place: &Place, chapters: Vec<(&str, Chapter)>, over: &[String]) -> Outcome<Page> {
     let inputs = chapters.iter().flat_map(|c| &c.1.inputs);
     let files: BTreeSet<&PathBuf> = inputs.map(|(path, _)| path).collect();
     let title = format!("Campaign {}", place.campaign);
     let subtitle = format!(
-        "{}, {}",
+        "{}, {}, {}",
         counted(files.len(), "measurement file"),
-        counted(chapters.len(), "step")
+        counted(chapters.len(), "step"),
+        measured(&files)?
     );
     let mut page = Page::new(title, subtitle);
     page.synthetic = chapters.iter().any(|c| c.1.page.synthetic);
@@ -149,7 +146,39 @@ fn page(place: &Place, chapters: Vec<(&str, Chapter)>) -> Page {
     page.blocks.extend(blocks);
     page.blocks
         .extend(rest.into_iter().flat_map(|c| c.1.blocks()));
-    page
+    if !over.is_empty() {
+        page = page
+            .with(Block::heading("Files that no step took"))
+            .with(Block::text(format!("{}.", over.join("; "))));
+    }
+    page.blocks = summary_first(page.blocks);
+    Ok(page)
+}
+
+/// What is folded away comes last, as the appendix: the pages before it are the summary that is printed.
+fn summary_first(blocks: Vec<Block>) -> Vec<Block> {
+    let folded = |block: &Block| matches!(block, Block::Details { .. });
+    let (appendix, summary): (Vec<Block>, Vec<Block>) = blocks.into_iter().partition(folded);
+    let mut all = without_empty_sections(summary);
+    if !appendix.is_empty() {
+        all.push(Block::heading(APPENDIX));
+        all.extend(appendix);
+    }
+    all
+}
+
+/// When the files were measured, by their fact `date`.
+fn measured(files: &BTreeSet<&PathBuf>) -> Outcome<String> {
+    let mut dates = BTreeSet::new();
+    for path in files {
+        let front = front_of(path)?;
+        dates.extend(front.date().map_err(|problem| problem.in_file(path))?);
+    }
+    Ok(match (dates.first(), dates.last()) {
+        (Some(first), Some(last)) if first == last => format!("measured {first}"),
+        (Some(first), Some(last)) => format!("measured {first} to {last}"),
+        _ => "date of the measurement not stated".into(),
+    })
 }
 
 /// `1 step`, `4 steps`.

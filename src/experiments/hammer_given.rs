@@ -9,6 +9,7 @@ use crate::signal::frf::{CrossSpectra, Line};
 use crate::signal::local_rational;
 use crate::signal::modes::Mode;
 use crate::signal::outliers::median;
+use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 
 /// Least coherence that is taken for one: digits end there.
@@ -56,7 +57,10 @@ pub fn frf(record: &HammerRecord, given: &Given, settings: &Settings) -> HammerF
     let frequency_hz = [vec![0.0; lead], kept].concat();
     let from = scatter_from(given);
     let input = |(name, row): (&String, &Vec<GivenPair>)| {
-        let scatter = row.iter().map(|pair| scatter(pair, given, from, step));
+        let scatter: Vec<Vec<f64>> = row
+            .par_iter()
+            .map(|pair| scatter(pair, given, from, step))
+            .collect();
         let cut = |mut values: Vec<f64>| {
             values.truncate(frequency_hz.len() - lead);
             [vec![0.0; lead], values].concat()
@@ -67,7 +71,7 @@ pub fn frf(record: &HammerRecord, given: &Given, settings: &Settings) -> HammerF
             sums: sums(row, given, (lead, frequency_hz.len())),
             noise_power: vec![0.0; row.len()],
             force_noise: None,
-            scatter: Some(scatter.map(cut).collect()),
+            scatter: Some(scatter.into_iter().map(cut).collect()),
         }
     };
     let top = frequency_hz.last().copied().unwrap_or(step);

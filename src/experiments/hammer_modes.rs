@@ -70,7 +70,8 @@ pub fn stabilisation(frf: &HammerFrf, to_hz: f64) -> Vec<Point> {
     }
 }
 
-fn lines(frf: &HammerFrf, to_hz: f64) -> Vec<usize> {
+/// The lines of `frf` that carry the modes up to `to_hz`.
+pub fn lines(frf: &HammerFrf, to_hz: f64) -> Vec<usize> {
     let top = (MARGIN * to_hz).min(to_hz.max(UNFILTERED / frf.interval_s));
     let inside = |k: &usize| {
         let f = frf.frequency_hz[*k];
@@ -88,7 +89,8 @@ fn lines(frf: &HammerFrf, to_hz: f64) -> Vec<usize> {
     lines.take_while(excited).collect()
 }
 
-fn channels(frf: &HammerFrf, lines: &[usize]) -> Channels {
+/// What the modes are fitted to.
+pub fn channels(frf: &HammerFrf, lines: &[usize]) -> Channels {
     Channels {
         frequency_hz: lines.iter().map(|k| frf.frequency_hz[*k]).collect(),
         rate: rate(frf),

@@ -15,4 +15,6 @@ pub mod load_cycle;
 pub mod milling_force;
 pub mod robot_picture;
 pub mod schedule;
+pub mod stiffness_map;
+pub mod survey;
 pub mod workspace;

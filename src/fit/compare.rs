@@ -21,6 +21,8 @@ pub struct AnyFit {
     pub path: PathBuf,
     /// SHA-256 of the file.
     pub sha256: String,
+    /// Which kind of fit: its `schema`.
+    pub kind: String,
     /// What was identified.
     pub parameters: Vec<Identified>,
 }
@@ -30,6 +32,8 @@ pub struct AnyFit {
 pub struct Pair {
     /// Name of the files without ending.
     pub fit: String,
+    /// Which kind of fit, as [`AnyFit::kind`].
+    pub kind: String,
     /// The parameter before and after.
     pub sides: [Identified; 2],
     /// After less before, and its standard error; `None` where a side has no number.
@@ -61,12 +65,10 @@ pub fn read(path: &Path) -> Outcome<Option<AnyFit>> {
     };
     let text = std::str::from_utf8(&bytes).map_err(|_| refused("not UTF-8 text"))?;
     let mut table: toml::Table = text.parse().map_err(|_| refused("not TOML"))?;
-    if !table
-        .get("schema")
-        .is_some_and(|s| s.as_str().is_some_and(|s| s.starts_with("ident-")))
-    {
+    let kind = table.get("schema").and_then(toml::Value::as_str);
+    let Some(kind) = kind.filter(|s| s.starts_with("ident-")).map(String::from) else {
         return Ok(None);
-    }
+    };
     let Some(parameters) = table.remove("parameters") else {
         return Ok(None);
     };
@@ -78,6 +80,7 @@ pub fn read(path: &Path) -> Outcome<Option<AnyFit>> {
             .iter()
             .map(|b| format!("{b:02x}"))
             .collect(),
+        kind,
         parameters,
     }))
 }
@@ -116,6 +119,7 @@ impl Comparison {
             match after.parameters.iter().find(|second| same(first, second)) {
                 Some(second) => self.pairs.push(Pair {
                     fit: before.name(),
+                    kind: before.kind.clone(),
                     change: change(first, second),
                     sides: [first.clone(), second.clone()],
                     changed: false,
@@ -168,18 +172,25 @@ impl Pair {
     }
 }
 
-/// After less before with its standard error; `None` without numbers of one unit on both sides.
+/// After less before with its standard error; `None` without numbers of one unit on both sides, where a limit
+/// on what was not found counts as one.
 fn change(before: &Identified, after: &Identified) -> Option<[f64; 2]> {
     if before.unit != after.unit {
         return None;
     }
-    let error = |p: &Identified| {
-        let half = p.ci95.map(|[low, high]| 0.5 * (high - low) / Z95);
-        half.or(p.stderr)
+    // What is not there, and how large it may be at most: zero, with that as its 95 % end.
+    let side = |p: &Identified| match (p.value, p.limit95) {
+        (Some(value), _) => {
+            let half = p.ci95.map(|[low, high]| 0.5 * (high - low) / Z95);
+            Some([value, half.or(p.stderr)?])
+        }
+        (None, Some(limit)) => Some([0.0, limit / Z95]),
+        (None, None) => None,
     };
-    let error = error(before)?.hypot(error(after)?);
-    let change = after.value? - before.value?;
-    (error > 0.0).then_some([change, error])
+    let ([from, first], [to, second]) = (side(before)?, side(after)?);
+    let error = first.hypot(second);
+    let known = before.value.is_some() || after.value.is_some();
+    (known && error > 0.0).then_some([to - from, error])
 }
 
 #[cfg(test)]
@@ -201,6 +212,7 @@ mod tests {
         AnyFit {
             path: format!("{name}.toml").into(),
             sha256: String::new(),
+            kind: "ident-fit/1".into(),
             parameters: values.iter().enumerate().map(one).collect(),
         }
     }

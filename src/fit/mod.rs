@@ -4,6 +4,7 @@ pub mod axis_tests;
 pub mod bootstrap;
 pub mod candidates;
 pub mod compare;
+pub mod compare_causes;
 pub mod compliance;
 pub mod convex;
 pub mod cubes;

@@ -31,6 +31,7 @@ pub(super) const COMMON: &[&str] = &[
     "columns",
     "skip_rows",
     "encoding",
+    "date",
 ];
 
 impl Front {
@@ -154,6 +155,25 @@ impl Front {
                 format!("write `# {key} = \"...\"`"),
             )),
         }
+    }
+
+    /// The day of the measurement, as `2026-11-22`, if given.
+    ///
+    /// # Errors
+    /// It is no date.
+    pub fn date(&self) -> Outcome<Option<String>> {
+        let date = match self.facts.get("date") {
+            None => return Ok(None),
+            Some(Value::Datetime(at)) => at.date,
+            Some(other) => {
+                let text = other.as_str().unwrap_or_default();
+                text.parse::<toml::value::Datetime>()
+                    .ok()
+                    .and_then(|at| at.date)
+            }
+        };
+        let wrong = || self.problem("date", "is no date", "write `# date = 2026-11-22`");
+        date.map(|date| Some(date.to_string())).ok_or_else(wrong)
     }
 
     /// Refuses a file of another kind than `wanted`, or of none.

@@ -25,6 +25,7 @@ pub mod recorded_joints;
 pub mod rig;
 pub mod screw;
 pub mod stl;
+pub mod survey;
 pub mod table;
 pub mod test;
 pub mod toolpath;

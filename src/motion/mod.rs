@@ -13,6 +13,7 @@ pub mod kinematics;
 pub mod linear;
 pub mod modes;
 pub mod numeric;
+pub mod on_links;
 pub mod posture;
 pub mod receptance;
 pub mod servo;

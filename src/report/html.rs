@@ -6,7 +6,7 @@ use super::prose::{bound, is_long, is_word, prose};
 use super::{scene, svg};
 use crate::ground::problem::Outcome;
 use crate::sheet::chart::Chart;
-use crate::sheet::page::{Block, Page, Tone, file};
+use crate::sheet::page::{APPENDIX, Block, Page, Tone, file};
 use crate::sheet::scene::Scene;
 use crate::sheet::table::Table;
 use std::fmt::Write as _;
@@ -102,10 +102,15 @@ impl Writer {
             };
             number += 1;
             let id = format!("section-{number}");
+            let class = if text == APPENDIX {
+                " class=\"appendix\""
+            } else {
+                ""
+            };
+            let text = escape(text);
             let _ = writeln!(
                 self.out,
-                "<section aria-labelledby=\"{id}\">\n<h2 id=\"{id}\">{}</h2>",
-                escape(text)
+                "<section{class} aria-labelledby=\"{id}\">\n<h2 id=\"{id}\">{text}</h2>"
             );
             self.inner(&section[1..])?;
             self.out.push_str("</section>\n");

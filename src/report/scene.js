@@ -25,13 +25,16 @@
     scene.forEach(function (strand, k) {
       var colour = colours[k % colours.length];
       if (strand.tint !== undefined) { colour = "hsl(" + Math.round(220 - 220 * strand.tint) + ",75%,40%)"; }
-      pen.beginPath(); pen.strokeStyle = colour; pen.lineWidth = strand.thin ? 0.6 : robot ? 4 : 1.6;
+      pen.beginPath(); pen.strokeStyle = colour; pen.lineWidth = strand.thin ? 0.6 : robot && strand.points.length < 20 ? 4 : 1.6;
       pen.fillStyle = colour; pen.font = "13px sans-serif";
       var open = false;
       strand.points.forEach(function (p, i) {
         if (!p) { open = false; return; }
         var by = strand.swing ? Math.sin(phase) : 0, w = strand.swing ? strand.swing[i] : p;
-        var x = p[0] + by * w[0] - middle[0], y = p[1] + by * w[1] - middle[1], z = p[2] + by * w[2] - middle[2];
+        var early = strand.lead ? Math.cos(phase) : 0, l = strand.lead ? strand.lead[i] : p;
+        var x = p[0] + by * w[0] + early * l[0] - middle[0];
+        var y = p[1] + by * w[1] + early * l[1] - middle[1];
+        var z = p[2] + by * w[2] + early * l[2] - middle[2];
         var u = wide / 2 + scale * (ct * x - st * y);
         var v = tall / 2 - scale * (cl * z + sl * (st * x + ct * y));
         if (strand.disc) {

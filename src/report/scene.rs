@@ -37,6 +37,9 @@ fn strands(strands: &[Strand]) -> String {
         if !strand.swing.is_empty() {
             let _ = write!(more, ",swing:[{}]", listed(&strand.swing));
         }
+        if !strand.lead.is_empty() {
+            let _ = write!(more, ",lead:[{}]", listed(&strand.lead));
+        }
         format!("{{name:\"{name}\",thin:{thin},points:[{points}]{more}}}")
     };
     strands.iter().map(one).collect::<Vec<_>>().join(",\n")

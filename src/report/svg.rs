@@ -15,6 +15,7 @@
 
 mod axes;
 mod canvas;
+mod cells;
 mod layout;
 mod legend;
 mod letters;
@@ -142,7 +143,7 @@ fn ink_panel(placed: &Placed, looks: &Looks, chart: &Chart) -> Outcome<String> {
 /// Bands first, then bars, clouds, lines; emphasised markers on top; else as given.
 fn order(panel: &Panel) -> Vec<usize> {
     let rank = |i: &usize| match (panel.series[*i].mark, panel.series[*i].emphasis) {
-        (Mark::Band, _) => 0,
+        (Mark::Band | Mark::Cells, _) => 0,
         (Mark::Bars, _) => 1,
         (Mark::Points, false) => 2,
         // A wide line shows on both sides of a thin one above it.

@@ -47,6 +47,8 @@ pub enum Mark {
     Bars,
     /// Each value holds until the next point.
     Steps,
+    /// A rectangle of [`Series::cell`] about each point: one class of a map, the classes from little to much.
+    Cells,
 }
 
 /// Points that belong together under one name. A name keeps its look in all panels of a chart.
@@ -62,6 +64,8 @@ pub struct Series {
     pub lower_upper: Option<Vec<[f64; 2]>>,
     /// Drawn stronger than its neighbours: lines wide and below thinner ones, markers large and on top.
     pub emphasis: bool,
+    /// Width and height of a cell, in the units of the axes.
+    pub cell: [f64; 2],
 }
 
 impl Series {
@@ -111,6 +115,14 @@ impl Series {
     pub fn bars(name: impl Into<String>, values: &[f64]) -> Self {
         let points = values.iter().enumerate().map(|(i, &y)| [i as f64, y]);
         Self::new(name, Mark::Bars, points.collect())
+    }
+
+    /// Cells of one class of a map about their middles.
+    pub fn cells(name: impl Into<String>, points: Vec<[f64; 2]>, cell: [f64; 2]) -> Self {
+        Self {
+            cell,
+            ..Self::new(name, Mark::Cells, points)
+        }
     }
 
     /// The same series with lower and upper ends.

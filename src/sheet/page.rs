@@ -31,6 +31,9 @@ impl Tone {
     }
 }
 
+/// Heading of the section that begins on a sheet of its own where a page is printed.
+pub const APPENDIX: &str = "Appendix";
+
 /// One piece of a page.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Block {

@@ -15,6 +15,8 @@ pub struct Strand {
     pub disc: bool,
     /// How far each point swings to either side, in the scene's unit; empty: it stands still.
     pub swing: Vec<[f64; 3]>,
+    /// The same a quarter of a period earlier, where points do not pass their ends together; empty: they do.
+    pub lead: Vec<[f64; 3]>,
 }
 
 /// A view in space. It stands beside a figure that shows the same on paper.

@@ -39,6 +39,7 @@ entries! {
     "hammer, diagnose": ["diagnose", "--dry-run", "hammer.csv"] ["hammer.csv"];
     "universal file, inspect": ["inspect", "records.uff"] ["records.uff"];
     "universal file, frf": ["frf", "records.uff"] ["records.uff"];
+    "survey, survey": ["survey", "--dry-run", "--to-Hz", "40", "survey.unv"] ["survey.unv"];
     "joint motion, inspect": ["inspect", "motion.csv"] ["motion.csv"];
     "joint motion, diagnose": ["diagnose", "--dry-run", "motion.csv"] ["motion.csv"];
     "cubes, inspect": ["inspect", "cubes.csv"] ["cubes.csv"];
@@ -56,6 +57,7 @@ entries! {
     "robot, pose": ["simulate", "pose", "--robot", "robot.toml", "--joints-deg", "0,-90,90,0,0,0"] ["robot.toml"];
     "robot, deflection": ["simulate", "deflection", "--robot", "robot.toml", "--joints-deg", "0,-90,90,0,0,0", "--force-N", "100,0,0"] ["robot.toml"];
     "robot, frf": ["simulate", "frf", "--robot", "robot.toml", "--joints-deg", "0,-90,90,0,0,0"] ["robot.toml"];
+    "robot, map": ["robot", "map", "--dry-run", "--step-mm", "400", "--joints-deg", "0,-90,90,0,0,0", "robot.toml"] ["robot.toml"];
     "urdf, check": ["robot", "check", "robot.urdf"] ["robot.urdf"];
     "urdf, convert": ["robot", "convert", "robot.urdf"] ["robot.urdf"];
     "job, plan": ["plan", "--dry-run", "job.toml"] ["job.toml", "part.csv"];

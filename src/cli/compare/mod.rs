@@ -1,5 +1,6 @@
-//! `ident compare`: two campaigns or two fits, and what changed beyond its intervals.
+//! `ident compare`: two campaigns or two fits, what changed beyond its intervals, and which cause would explain it.
 
+mod causes;
 mod page;
 
 use super::output::{print, print_result};
@@ -17,7 +18,7 @@ use std::path::{Path, PathBuf};
 /// The verb.
 pub const VERB: Verb = Verb {
     name: "compare",
-    about: "Compare two campaigns or two fits: what changed beyond its intervals",
+    about: "Compare two campaigns or two fits: what changed beyond its intervals, and which cause would explain it",
     arguments: arguments::<Arguments>,
     run,
 };
@@ -133,9 +134,12 @@ fn folder_of(names: &[String; 2]) -> PathBuf {
 /// A side as it is told.
 fn told(side: &Identified) -> String {
     let interval = side.value.zip(side.ci95);
-    interval.map_or(ABSENT.into(), |(value, [low, high])| {
-        with_interval(value, low, high)
-    })
+    let limit = || {
+        side.limit95
+            .map(|limit| format!("at most {}", significant(limit, 2)))
+    };
+    let told = interval.map(|(value, [low, high])| with_interval(value, low, high));
+    told.or_else(limit).unwrap_or(ABSENT.into())
 }
 
 /// One change in words.
@@ -183,6 +187,9 @@ fn text(names: &[String; 2], comparison: &Comparison, page: Option<&Path>) -> St
     for pair in comparison.changed() {
         said.push_str(&format!("  {}\n", sentence(pair)));
     }
+    for line in causes::sentences(comparison) {
+        said.push_str(&format!("{line}\n"));
+    }
     for line in alone(names, comparison) {
         said.push_str(&format!("{line}\n"));
     }
@@ -223,6 +230,7 @@ fn body(comparison: &Comparison, page: Option<&Path>) -> Value {
     json!({
         "parameters": comparison.pairs.iter().map(pair).collect::<Value>(),
         "changed": comparison.changed().len(),
+        "explanation": causes::json(comparison),
         "only": only.collect::<Value>(),
         "report": page.map(|page| page.display().to_string()),
     })

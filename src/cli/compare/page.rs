@@ -1,6 +1,6 @@
 //! The report page of `ident compare`.
 
-use super::{alone, sentence, told, verdict};
+use super::{alone, causes, sentence, told, verdict};
 use crate::fit::compare::{Comparison, Pair};
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
 use crate::sheet::number::{ABSENT, significant};
@@ -18,6 +18,9 @@ pub fn page(names: &[String; 2], comparison: &Comparison) -> Page {
     page = page.with(Block::verdict(tone, verdict(comparison)));
     for pair in comparison.changed() {
         page = page.with(Block::text(sentence(pair)));
+    }
+    for line in causes::sentences(comparison) {
+        page = page.with(Block::text(line));
     }
     page = page
         .with(Block::Chart(chart(comparison)))

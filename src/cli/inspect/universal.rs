@@ -42,6 +42,9 @@ pub fn account(path: &Path) -> Outcome<Account> {
     let sets: Vec<Value> = file.functions.iter().map(set_json).collect();
     account.json.insert("functions".into(), json!(sets));
     account.json.insert("nodes".into(), json!(file.nodes.len()));
+    account
+        .json
+        .insert("trace_lines".into(), json!(file.traces.len()));
     account.json.insert("skipped".into(), json!(file.skipped));
     Ok(account)
 }
@@ -88,7 +91,10 @@ fn lines(file: &UniversalFile) -> Vec<String> {
         None => "units: none stated (data set 164), taken as SI".into(),
     });
     if !file.nodes.is_empty() {
-        said.push(format!("{} nodes (data set 15)", file.nodes.len()));
+        let (nodes, wires) = (file.nodes.len(), file.traces.len());
+        said.push(format!(
+            "{nodes} nodes (data sets 15, 2411), {wires} trace lines (82)"
+        ));
     }
     said.extend(file.functions.iter().take(LISTED).map(set_line));
     let more = file.functions.len().saturating_sub(LISTED);

@@ -1,5 +1,6 @@
-//! `ident robot show | check | convert | report`: look at a robot file, doubt it, rewrite it, draw it.
+//! `ident robot show | check | convert | report | map`: look at a robot file, doubt it, rewrite it, draw it.
 
+mod map;
 mod report;
 
 use super::output::{print, print_result, tell};
@@ -40,6 +41,8 @@ enum What {
     Convert(Convert),
     /// Draw it in space, with what gives way how much and its modes as they swing
     Report(report::Report),
+    /// Map how stiff it is at the tool over a plane of its workspace
+    Map(map::Map),
 }
 
 #[derive(Debug, Args)]
@@ -73,6 +76,7 @@ pub fn run(matches: &ArgMatches) -> Outcome<Ending> {
         What::Check(file) => check_file(&file),
         What::Convert(convert) => convert.run(),
         What::Report(report) => report.run(),
+        What::Map(map) => map.run(),
     }
 }
 

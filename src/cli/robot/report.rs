@@ -52,6 +52,27 @@ pub struct Report {
     dry_run: bool,
 }
 
+/// Joint angles as typed, in rad: one per joint.
+pub(super) fn angles(degrees: &[f64], count: usize) -> Outcome<Vec<f64>> {
+    match degrees.len() == count && degrees.iter().all(|q| q.is_finite()) {
+        true => Ok(degrees.iter().map(|q| q * DEGREE).collect()),
+        false => {
+            let what = format!("{} angles for {count} joints", degrees.len());
+            let remedy = "give one finite angle per joint, in degrees";
+            Err(Problem::new(what, remedy).in_column("--joints-deg"))
+        }
+    }
+}
+
+/// The reports of a robot's campaign, else those of its name.
+pub(super) fn results(loaded: &Loaded) -> PathBuf {
+    let place = Place::of(Path::new(&loaded.path));
+    match place.campaign.is_empty() {
+        true => Path::new("reports").join(stem(&loaded.robot.name)),
+        false => place.reports(),
+    }
+}
+
 /// What the report tells.
 struct Told {
     loaded: Loaded,
@@ -70,7 +91,7 @@ impl Report {
         let remarks = check::remarks(&told.loaded.robot);
         let written = match self.dry_run {
             true => None,
-            false => write_as(&told.folder(), "robot.html", &told.page())?.pop(),
+            false => write_as(&results(&told.loaded), "robot.html", &told.page())?.pop(),
         };
         match self.json {
             true => print_result(
@@ -88,7 +109,10 @@ impl Report {
 
     fn told(&self) -> Outcome<Told> {
         let loaded = load(&self.robot, None)?;
-        let joints = self.angles(loaded.robot.dof())?;
+        let joints = match self.joints_deg.is_empty() {
+            true => vec![0.0; loaded.robot.dof()],
+            false => angles(&self.joints_deg, loaded.robot.dof())?,
+        };
         let robot = skeleton(&loaded.robot, &joints);
         let shares = match self.force()? {
             Some(force) => shares(&loaded.robot, &joints, force),
@@ -106,23 +130,6 @@ impl Report {
             modes,
             without_modes,
         })
-    }
-
-    fn angles(&self, count: usize) -> Outcome<Vec<f64>> {
-        let given = &self.joints_deg;
-        match given.len() {
-            0 => Ok(vec![0.0; count]),
-            n if n == count && given.iter().all(|q| q.is_finite()) => {
-                Ok(given.iter().map(|q| q * DEGREE).collect())
-            }
-            n => {
-                let problem = Problem::new(
-                    format!("{n} angles for {count} joints"),
-                    "give one finite angle per joint, in degrees",
-                );
-                Err(problem.in_column("--joints-deg"))
-            }
-        }
     }
 
     fn force(&self) -> Outcome<Option<V3>> {
@@ -145,15 +152,6 @@ impl Report {
 }
 
 impl Told {
-    /// The reports of its campaign, else those of its name.
-    fn folder(&self) -> PathBuf {
-        let place = Place::of(Path::new(&self.loaded.path));
-        match place.campaign.is_empty() {
-            true => Path::new("reports").join(stem(&self.loaded.robot.name)),
-            false => place.reports(),
-        }
-    }
-
     fn posture(&self) -> String {
         let degrees: Vec<String> = self.joints.iter().map(|q| fixed(q / DEGREE, 1)).collect();
         format!("joints at {} °", degrees.join(", "))

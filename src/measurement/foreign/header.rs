@@ -14,7 +14,7 @@ pub struct Head {
     pub delimiter: char,
     /// Titles.
     pub titles: Vec<String>,
-    /// Units below them.
+    /// Units below them; seconds over times of day.
     pub units: Option<Vec<String>>,
 }
 
@@ -59,17 +59,33 @@ fn head(lines: &[&str], at: usize, delimiter: char) -> Option<Head> {
     };
     let units = after(1).filter(is_units);
     let first = 1 + usize::from(units.is_some());
-    let numbers = after(first).is_some_and(|row| {
+    let row = after(first).filter(|row| {
         let count = row.iter().filter(|c| number(c).is_some()).count();
         row.len() == titles.len() && count >= 2
-    });
-    numbers.then_some(Head {
+    })?;
+    let units = stamped(&row, units);
+    Some(Head {
         titles_line: at,
         first_line: at + first,
         delimiter,
         titles,
         units,
     })
+}
+
+/// Units with seconds over cells that hold a time of day: these become seconds.
+fn stamped(row: &[String], units: Option<Vec<String>>) -> Option<Vec<String>> {
+    let is_clock = |cell: &String| cell.contains(':') && number(cell).is_some();
+    if !row.iter().any(is_clock) {
+        return units;
+    }
+    let own = units.unwrap_or_else(|| vec![String::new(); row.len()]);
+    let cells = row.iter().zip(own);
+    let unit = |(cell, own): (&String, String)| match is_clock(cell) {
+        true => "s".into(),
+        false => own,
+    };
+    Some(cells.map(unit).collect())
 }
 
 /// The cells of a line, without blanks and quotes.

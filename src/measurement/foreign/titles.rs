@@ -238,6 +238,8 @@ pub fn name_of(title: &str, below: Option<&str>) -> Option<String> {
         (Some(wanted), Some(unit)) if unit.dimension == *wanted => {
             Some(format!("{stem}_{}", unit.name))
         }
+        // The text files of LabVIEW name their axis so, in seconds, and write no unit.
+        (Some(_), None) if words == "x_value" => Some("time_s".into()),
         _ => None,
     }
 }

@@ -73,6 +73,8 @@ pub fn read(file: &UniversalFile, front: &Front, rate: f64) -> Outcome<(Vec<Stri
         inputs: names(&inputs),
         rate,
         pairs: inputs.iter().map(row).collect(),
+        forces: inputs,
+        responses: outputs.clone(),
         averages: None,
         remarks,
     };

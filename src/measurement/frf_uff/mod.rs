@@ -6,6 +6,8 @@ mod grid;
 mod matrix;
 mod units;
 
+pub use dofs::Place;
+
 use super::foreign::Sidecar;
 use super::front::Front;
 use super::hammer::{self, HammerRecord};
@@ -21,6 +23,10 @@ pub struct Given {
     pub frequency_hz: Vec<f64>,
     /// Degrees of freedom of the forces: `x`, or `12z` where there are several nodes.
     pub inputs: Vec<String>,
+    /// Where the forces acted, in the order of `inputs`, without signs: they are in the values.
+    pub forces: Vec<Place>,
+    /// Where the responses were taken, likewise.
+    pub responses: Vec<Place>,
     /// Rate of the exponential window on both channels, 1/s.
     pub rate: f64,
     /// `pairs[input][output]`
@@ -41,7 +47,16 @@ pub struct GivenPair {
 }
 
 /// Facts of such a file beside those of a hammer test.
-pub(super) const FACTS: &[&str] = &["averages", "response_unit", "force_unit", "tool_nodes"];
+pub(super) const FACTS: &[&str] = &[
+    "averages",
+    "response_unit",
+    "force_unit",
+    "tool_nodes",
+    "geometry_unit",
+    "survey_origin_mm",
+    "survey_yaw_deg",
+    "links",
+];
 
 /// Most averages that a file may state.
 const MOST_AVERAGES: f64 = 1e6;

@@ -1,4 +1,4 @@
-//! Universal files: data set 58 (ASCII and binary), 151, 164 and 15, read tolerantly and written
+//! Universal files: data set 58 (ASCII and binary), 151, 164, 15, 2411 and 82, read tolerantly and written
 //! to the letter of the SDRC text.
 //!
 //! A file is a row of blocks between `    -1` lines; a block is a type line and records. Unknown
@@ -12,6 +12,7 @@ mod function;
 mod header;
 mod nodes;
 mod read;
+mod traces;
 mod units;
 mod write;
 
@@ -19,6 +20,7 @@ pub use axis::{Axis, Quantity};
 pub use function::{Abscissa, Dof, Function, Kind, Values};
 pub use header::Header;
 pub use nodes::Node;
+pub use traces::Trace;
 pub use units::Units;
 pub use write::{Encoding, write};
 
@@ -35,8 +37,10 @@ pub struct UniversalFile {
     pub header: Option<Header>,
     /// Data set 164. Without it the numbers are taken as SI, and the user is told so.
     pub units: Option<Units>,
-    /// Data sets 15.
+    /// Data sets 15 and 2411.
     pub nodes: Vec<Node>,
+    /// Data sets 82.
+    pub traces: Vec<Trace>,
     /// Data sets 58, in the units of the file.
     pub functions: Vec<Function>,
     /// The line on which each of them begins.
@@ -87,6 +91,8 @@ impl UniversalFile {
             Block::Text { set: 151, records } => self.header = Some(header::parse(&records)),
             Block::Text { set: 164, records } => self.units = Some(units::parse(&records)?),
             Block::Text { set: 15, records } => self.nodes.extend(nodes::parse(&records)?),
+            Block::Text { set: 2411, records } => self.nodes.extend(nodes::parse_double(&records)?),
+            Block::Text { set: 82, records } => self.traces.push(traces::parse(&records)?),
             Block::Text { set, .. } => *self.skipped.entry(set).or_default() += 1,
         }
         Ok(())

@@ -67,11 +67,13 @@ fn small(series: &Series, cloud: bool) -> Series {
         Mark::Points if cloud => (vec![[0.25, 0.3], [0.5, 0.7], [0.75, 0.4]], None),
         Mark::Points => (vec![[0.5, 0.5]], Some(vec![ends])),
         Mark::Bars => (vec![[0.5, 0.95]], None),
+        Mark::Cells => (vec![[0.5, 0.5]], None),
         _ => (vec![[0.0, 0.5], [1.0, 0.5]], Some(vec![ends, ends])),
     };
     let has_band = series.lower_upper.is_some() || series.mark == Mark::Band;
     Series {
         points,
+        cell: [0.9, 1.0],
         lower_upper: between.filter(|_| has_band),
         ..series.clone()
     }

@@ -1,6 +1,7 @@
 //! The series of a panel, drawn by `plotters`.
 
 use super::canvas::{Area, Fault, Frame, layer, tenths};
+use super::cells;
 use super::letters::px;
 use super::markers;
 use super::scale::{Scale, spacing};
@@ -40,6 +41,7 @@ pub(super) fn ink(series: &Series, pen: &Pen) -> Outcome<String> {
     match series.mark {
         Mark::Points => points(series, pen),
         Mark::Bars => bars(series, pen),
+        Mark::Cells => cells::ink(series, pen.frame, &pen.look),
         Mark::Band => band(series, pen),
         Mark::Line | Mark::Dashed | Mark::Dotted => {
             Ok(band(series, pen)? + &line(&series.points, pen)?)

@@ -89,6 +89,7 @@ pub(super) fn x_of(panels: &[&Panel]) -> Scale {
 fn x_values(series: &Series) -> Vec<f64> {
     let half = match series.mark {
         Mark::Bars => 0.5 * spacing(&series.points),
+        Mark::Cells => 0.5 * series.cell[0],
         _ => 0.0,
     };
     let ends = series
@@ -136,8 +137,16 @@ fn y_values(series: &Series) -> Vec<f64> {
     let ends = series.lower_upper.iter().flatten().flatten().copied();
     match series.mark {
         Mark::Band => ends.collect(),
+        Mark::Cells => edges(series),
         _ => middle.chain(ends).collect(),
     }
+}
+
+/// Lower and upper edges of cells.
+fn edges(series: &Series) -> Vec<f64> {
+    let half = 0.5 * series.cell[1];
+    let ends = series.points.iter();
+    ends.flat_map(|p| [p[1] - half, p[1] + half]).collect()
 }
 
 /// Smallest distance between neighbouring points: the room of one bar.

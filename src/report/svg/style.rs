@@ -77,6 +77,15 @@ const POINTS: [RGBColor; 4] = [
 ];
 /// A cloud of points stands behind the line that explains it.
 const CLOUD: RGBColor = RGBColor(0x8A, 0x8A, 0x8A);
+/// Classes of a map from little to much, light to dark.
+const CELLS: [RGBColor; 6] = [
+    RGBColor(0xF0, 0xEE, 0xB8),
+    RGBColor(0xB4, 0xDC, 0xB2),
+    RGBColor(0x69, 0xBF, 0xBB),
+    RGBColor(0x2E, 0x93, 0xBC),
+    RGBColor(0x22, 0x5D, 0xA3),
+    RGBColor(0x14, 0x2C, 0x6A),
+];
 const BANDS: [RGBColor; 2] = [RGBColor(0x60, 0x60, 0x60), RGBColor(0xC7, 0x7C, 0x02)];
 
 const SHAPES: [Shape; 5] = [
@@ -145,6 +154,7 @@ fn family(mark: Mark) -> u8 {
         Mark::Line | Mark::Dashed | Mark::Dotted | Mark::Steps => 1,
         Mark::Band => 2,
         Mark::Bars => 3,
+        Mark::Cells => 4,
     }
 }
 
@@ -161,6 +171,7 @@ fn look(series: &Series, count: usize, before: &[(Series, Look)]) -> Look {
         Mark::Points => POINTS[kin % POINTS.len()],
         Mark::Band => BANDS[kin % BANDS.len()],
         Mark::Bars => BARS[kin % BARS.len()],
+        Mark::Cells => CELLS[kin % CELLS.len()],
         _ => LINES[kin % LINES.len()],
     };
     let dash: &[f64] = match mark {
