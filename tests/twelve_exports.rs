@@ -314,66 +314,10 @@ fn twelve_exports_need_at_most_two_commands_each() {
             Tells::Mode => {
                 let modes = answer["modes"].as_array().unwrap();
                 let off = |m: &Value| (m["frequency_Hz"].as_f64().unwrap() - 10.0).abs();
-                let nearest = modes.iter().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap();
+                let nearest = modes.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+                let nearest = nearest.unwrap();
                 near(name, &nearest["frequency_Hz"], 10.0, 2e-3);
                 near(name, &nearest["damping_ratio"], 0.02, 0.05);
-            }
-            Tells::Forces,
-        ),
-        (
-            "frf_type4.uff",
-            made("frf_type4.uff"),
-            vec![vec!["frf", "frf_type4.uff", "--modes", "--json"]],
-            Tells::Mode,
-        ),
-        (
-            "hits.unv",
-            hits(),
-            vec![vec!["frf", "hits.unv", "--modes", "--json"]],
-            Tells::Mode,
-        ),
-    ]
-}
-
-fn near(name: &str, value: &Value, truth: f64, share: f64) {
-    let value = value.as_f64().unwrap_or_else(|| panic!("{name}: {value}"));
-    println!("{name}: {value} for {truth}");
-    assert!(
-        (value / truth - 1.0).abs() < share,
-        "{name}: {value} for {truth}"
-    );
-}
-
-#[test]
-fn twelve_exports_need_at_most_two_commands_each() {
-    let all = exports();
-    assert_eq!(all.len(), 12);
-    for (name, bytes, commands, tells) in all {
-        assert!(commands.len() <= 2);
-        let bench = Bench::new();
-        bench.put(name, &bytes);
-        let mut last = None;
-        for words in &commands {
-            let ran = bench.run(words);
-            assert!(ran.status < 2, "{name}: {}{}", ran.out, ran.errors);
-            last = Some(ran);
-        }
-        assert_eq!(
-            bench.bytes(name),
-            bytes,
-            "{name}: the raw file stays as it is"
-        );
-        let answer: Value = serde_json::from_str(&last.unwrap().out).unwrap();
-        match tells {
-            Tells::Stiffness => near(
-                name,
-                &answer["results"][0]["parameters"][0]["value"],
-                2.0e6,
-                0.01,
-            ),
-            Tells::Mode => {
-                near(name, &answer["modes"][0]["frequency_Hz"], 10.0, 2e-3);
-                near(name, &answer["modes"][0]["damping_ratio"], 0.02, 0.05);
             }
             Tells::Forces => {
                 let found = answer["parameters"].as_array().unwrap();
