@@ -312,8 +312,12 @@ fn twelve_exports_need_at_most_two_commands_each() {
                 0.01,
             ),
             Tells::Mode => {
-                near(name, &answer["modes"][0]["frequency_Hz"], 10.0, 2e-3);
-                near(name, &answer["modes"][0]["damping_ratio"], 0.02, 0.05);
+                let modes = answer["modes"].as_array().unwrap();
+                let off = |m: &Value| (m["frequency_Hz"].as_f64().unwrap() - 10.0).abs();
+                let nearest = modes.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+                let nearest = nearest.unwrap();
+                near(name, &nearest["frequency_Hz"], 10.0, 2e-3);
+                near(name, &nearest["damping_ratio"], 0.02, 0.05);
             }
             Tells::Forces => {
                 let found = answer["parameters"].as_array().unwrap();

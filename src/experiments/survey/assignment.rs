@@ -9,8 +9,8 @@ use crate::motion::skeleton::Skeleton;
 const FAR: f64 = 0.6;
 /// The nearest link counts if every other one is so many times as far.
 const CLEAR: f64 = 2.0;
-/// Nearer than this to two links, a point is at their joint, m.
-const JOINT: f64 = 0.02;
+/// Nearer than this to two links, a point is at their joint, m: a housing is as thick.
+const JOINT: f64 = 0.1;
 /// Fewest points on links for a comparison.
 pub const FEWEST: usize = 3;
 

@@ -97,7 +97,12 @@ fn numbers<'a>(table: &'a Table, stem: &str, dimension: Option<Dimension>) -> Ou
 }
 
 fn records(table: &Table, facts: &Facts) -> Outcome<(Vec<Record>, usize)> {
-    let cut = numbers(table, "cut", None)?;
+    // The program of a dynamometer writes one cut to a file, and no column for that.
+    let alone = vec![1.0; table.rows];
+    let cut = match (table.column("cut"), facts.cuts.len()) {
+        (None, 1) => &alone[..],
+        _ => numbers(table, "cut", None)?,
+    };
     let time = numbers(table, "time", Some(Dimension::Time))?;
     let mut force = Vec::new();
     for stem in ["fx", "fy", "fz"] {
