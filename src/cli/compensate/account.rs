@@ -20,15 +20,21 @@ pub fn text(result: &Corrected, written: &Written) -> String {
 /// The result in a few sentences.
 pub fn sentences(result: &Corrected) -> Vec<String> {
     let mm = |x: f64| significant(1e3 * x, 3);
+    let worse = result.after.max_m > result.before.max_m;
+    let (moves, than) = if worse {
+        ("rises", "more")
+    } else {
+        ("falls", "less")
+    };
     let fell = result.reduction_percent().map_or(String::new(), |percent| {
-        format!(", {} % less", significant(percent, 3))
+        format!(", {} % {than}", significant(percent.abs(), 3))
     });
     let left = match result.certainty.ci95 {
         Some([low, high]) => format!(" (95 %: {} to {} mm)", mm(low), mm(high)),
         None => String::new(),
     };
     let mut said = vec![format!(
-        "The largest deviation normal to the feed falls from {} to {} mm{left}{fell}.",
+        "The largest deviation normal to the feed {moves} from {} to {} mm{left}{fell}.",
         mm(result.before.max_m),
         mm(result.after.max_m)
     )];
@@ -107,6 +113,11 @@ pub fn remarks(result: &Corrected) -> Vec<String> {
         said.push(
             "neither the robot nor the material states how well it is known: no interval, nothing is certain"
                 .to_string(),
+        );
+    }
+    if result.after.max_m > result.before.max_m {
+        said.push(
+            "the corrected path leaves more than the programmed one: do not run it; try another --method, or plunge more gently".into(),
         );
     }
     if !result.found.converged {
