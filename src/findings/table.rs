@@ -2,6 +2,7 @@
 //! readings.
 
 use super::engine::{Blamed, Member, Suspect};
+use crate::inference::gaussian::Size;
 
 /// Parameters of a cause: name, value SI, unit.
 pub type Parameters = Vec<(&'static str, f64, &'static str)>;
@@ -55,12 +56,67 @@ fn own<C>(effect: &Effect<C>, case: &C) -> Vec<Suspect> {
         mechanism: effect.mechanism,
         share,
         members: place.members,
+        named: true,
     };
     places
         .into_iter()
         .filter(|place| !place.members.is_empty())
         .map(suspect)
         .collect()
+}
+
+/// A pattern that no cause of a kind has: it competes with them and is never named.
+pub struct Pattern<C> {
+    /// Name among the sets that were compared.
+    pub name: &'static str,
+    /// What is seen where it is at work, a phrase.
+    pub summary: &'static str,
+    /// Its shapes in this case.
+    pub members: fn(&C) -> Vec<Member>,
+}
+
+/// The patterns of a kind.
+pub fn patterns<C>(table: &[Pattern<C>], case: &C) -> Vec<Suspect> {
+    let suspect = |pattern: &Pattern<C>| Suspect {
+        effect: pattern.name,
+        site: String::new(),
+        summary: pattern.summary,
+        mechanism: pattern.name,
+        share: 0.0,
+        members: (pattern.members)(case),
+        named: false,
+    };
+    table
+        .iter()
+        .map(suspect)
+        .filter(|s| !s.members.is_empty())
+        .collect()
+}
+
+/// Sizes of a flexible pattern, noise deviations rms: each within a factor of two of what any size wants.
+const FLEXIBLE: [f64; 4] = [1.0, 4.0, 16.0, 64.0];
+
+/// Columns as one flexible pattern, their amounts drawn together about zero at one of some sizes: what a prior
+/// of that size does not need costs nothing, so that many columns need no price of their own.
+pub fn flexible(columns: &[Vec<f64>], noise: f64) -> Vec<Member> {
+    let rows = columns.first().map_or(0, Vec::len).max(1) as f64;
+    let square: f64 = columns.iter().flatten().map(|x| x * x).sum();
+    if square <= 0.0 {
+        return Vec::new();
+    }
+    let unit = noise * (rows / square).sqrt();
+    let scaled = |size: f64| {
+        let own = columns
+            .iter()
+            .map(|c| c.iter().map(|x| x * unit * size).collect());
+        Member {
+            columns: own.collect(),
+            size: Size::Given(1.0),
+            positive: None,
+            shape: vec![size],
+        }
+    };
+    FLEXIBLE.map(scaled).to_vec()
 }
 
 /// Parameters of a named cause.

@@ -1,5 +1,6 @@
 //! The statement of a cubes test for the engine.
 
+use super::patterns::PATTERNS;
 use super::{Case, EFFECTS};
 use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, White};
 use crate::findings::physics;
@@ -13,20 +14,40 @@ impl Experiment for Case {
         "m"
     }
 
+    /// Loads turned by degrees, and causes that multiply, are not linear.
+    fn is_linear(&self) -> bool {
+        false
+    }
+
+    fn state_beside(&self, about: &[Blamed], uncertain: &[f64]) -> Statement {
+        match about {
+            [] => self.state(&[]),
+            _ => {
+                let case = self.beside(about, uncertain);
+                let mut statement = case.state(&[]);
+                case.whole(&mut statement);
+                statement
+            }
+        }
+    }
+
     fn state(&self, _: &[Blamed]) -> Statement {
         let stated = self.test.facts.noise.iter().all(Option::is_some);
         let mut suspects = physics::suspects(self);
         suspects.extend(table::suspects(EFFECTS, self));
+        suspects.extend(table::patterns(PATTERNS, self));
+        let known = self
+            .robot
+            .springs()
+            .filter(|(site, _)| self.springs.contains(site));
+        let springs = known.map(|(site, spring)| physics::spring(self, &site, spring));
         Statement {
             reading: self.missed.clone(),
             noise: Box::new(White {
                 spread: vec![self.noise; self.rows.len()],
                 rows: if stated { WORTH } else { 0.0 },
             }),
-            nuisances: physics::springs(self)
-                .into_iter()
-                .chain(self.frame())
-                .collect(),
+            nuisances: springs.chain(self.frame()).collect(),
             suspects,
             span: self.span(),
             splits: self.splits(),

@@ -1,19 +1,23 @@
 //! What is wrong with a robot, its measuring cubes, its frame or its load: cubes less the simulation.
 
+mod about;
 mod experiment;
 mod force_gain;
 mod frame_motion;
 mod load_misalignment;
 mod loose_cube;
+mod patterns;
 mod rows;
 mod softer;
 
-use super::physics::OnRobot;
+use super::physics::{self, OnRobot};
 use super::table::Effect;
+use crate::causes::Cause;
 use crate::experiments::cubes::Setup;
 use crate::ground::problem::Outcome;
 use crate::measurement::cubes::CubeTest;
 use crate::robot::Robot;
+use about::About;
 pub use rows::Row;
 
 /// Effects of instruments and of elastic axes that the robot has; those of [`crate::causes`] come beside.
@@ -37,6 +41,12 @@ pub struct Case {
     pub setup: Setup,
     /// Its rows, one for each number that was measured.
     pub rows: Vec<Row>,
+    /// What was found, where it is stated about it; nothing at first.
+    pub(super) about: About,
+    /// Sites of the springs that the readings show.
+    springs: Vec<String>,
+    /// What the simulation says with cubes that sit fast, row by row, m.
+    pub(super) fixed: Vec<f64>,
     /// What the simulation says, row by row, m.
     pub simulated: Vec<f64>,
     /// Measured less simulated, m.
@@ -66,7 +76,10 @@ impl Case {
             .zip(&simulated)
             .map(|(row, s)| row.measured - s)
             .collect();
-        Ok(Self {
+        let mut case = Self {
+            about: About::default(),
+            springs: Vec::new(),
+            fixed: simulated.clone(),
             noise: noise[0],
             missed,
             simulated,
@@ -75,7 +88,9 @@ impl Case {
             arm,
             robot,
             test,
-        })
+        };
+        case.springs = physics::shown_springs(&case);
+        Ok(case)
     }
 
     /// Numbers of the tests, in the order of the file.
@@ -96,15 +111,24 @@ impl OnRobot for Case {
     }
 
     fn change(&self, robot: &Robot) -> Vec<f64> {
-        let Ok(setup) = Setup::new(&self.test, robot) else {
+        let fixed = self.fixed(robot, self.about.gain(), self.about.turn());
+        if fixed.is_empty() {
             return Vec::new();
-        };
-        let other = rows::model(&setup, &self.test, &self.rows, self.arm, |load| load);
-        other
+        }
+        let there = self.loosened(&fixed);
+        there
             .iter()
             .zip(&self.simulated)
             .map(|(a, b)| a - b)
             .collect()
+    }
+
+    fn with_cause(&self, cause: &'static dyn Cause, site: &str, amounts: &[f64]) -> Robot {
+        self.altered(None, Some((cause.card().name, site, amounts.to_vec())))
+    }
+
+    fn with_softer(&self, site: &str, excess: f64) -> Robot {
+        self.altered(Some((site, excess)), None)
     }
 
     fn noise(&self) -> f64 {

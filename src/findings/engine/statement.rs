@@ -120,6 +120,9 @@ pub struct Suspect {
     pub share: f64,
     /// Its shapes.
     pub members: Vec<Member>,
+    /// Whether it is a cause of the library. A pattern that none of them has competes with them, so that it
+    /// takes none of their names, and is never named.
+    pub named: bool,
 }
 
 /// The linear statement of a diagnosis: reading = nuisances + causes + noise.
@@ -174,6 +177,11 @@ pub trait Experiment: Sync {
     fn unit(&self) -> &'static str;
     /// The linear statement about these causes; linear kinds ignore them.
     fn state(&self, about: &[Blamed]) -> Statement;
+    /// The same with what is merely uncertain as found too, an amount for each nuisance of the statement; in
+    /// the new statement these too are totals. Kinds whose readings are linear in it ignore it.
+    fn state_beside(&self, about: &[Blamed], _uncertain: &[f64]) -> Statement {
+        self.state(about)
+    }
     /// Whether [`Experiment::state`] depends on the causes.
     fn is_linear(&self) -> bool {
         true

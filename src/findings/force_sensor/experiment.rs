@@ -1,5 +1,6 @@
 //! The statement of a force-sensor test for the engine.
 
+use super::patterns::PATTERNS;
 use super::{Case, EFFECTS};
 use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, White};
 use crate::findings::table;
@@ -15,6 +16,15 @@ impl Experiment for Case {
         "N"
     }
 
+    /// Turns of some degrees, and two causes that multiply, are not linear.
+    fn is_linear(&self) -> bool {
+        false
+    }
+
+    fn state_beside(&self, about: &[Blamed], uncertain: &[f64]) -> Statement {
+        self.beside(about, uncertain).state(&[])
+    }
+
     fn state(&self, _: &[Blamed]) -> Statement {
         let (noise, worth) = self.noise;
         Statement {
@@ -24,7 +34,11 @@ impl Experiment for Case {
                 rows: worth,
             }),
             nuisances: self.nuisances(),
-            suspects: table::suspects(EFFECTS, self),
+            suspects: [
+                table::suspects(EFFECTS, self),
+                table::patterns(PATTERNS, self),
+            ]
+            .concat(),
             span: self.span(),
             splits: self.splits(),
         }

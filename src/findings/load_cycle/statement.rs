@@ -169,6 +169,7 @@ fn anonymous(member: &Member) -> Suspect {
         mechanism: "",
         share: 0.0,
         members: vec![member.clone()],
+        named: true,
     }
 }
 
