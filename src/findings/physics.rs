@@ -74,6 +74,7 @@ fn of(case: &dyn OnRobot, cause: &'static dyn Cause) -> Vec<Suspect> {
             share,
             members,
             named: true,
+            law_error: 0.0,
         })
     };
     sites.into_iter().filter_map(suspect).collect()

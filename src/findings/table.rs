@@ -57,12 +57,22 @@ fn own<C>(effect: &Effect<C>, case: &C) -> Vec<Suspect> {
         share,
         members: place.members,
         named: true,
+        law_error: 0.0,
     };
     places
         .into_iter()
         .filter(|place| !place.members.is_empty())
         .map(suspect)
         .collect()
+}
+
+/// Says which laws are only nearly right: by name, the share of its size by which each misses nature.
+pub fn rough(mut suspects: Vec<Suspect>, errors: &[(&str, f64)]) -> Vec<Suspect> {
+    for suspect in &mut suspects {
+        let own = errors.iter().find(|(name, _)| *name == suspect.effect);
+        suspect.law_error = own.map_or(0.0, |e| e.1);
+    }
+    suspects
 }
 
 /// A pattern that no cause of a kind has: it competes with them and is never named.
@@ -75,6 +85,9 @@ pub struct Pattern<C> {
     pub members: fn(&C) -> Vec<Member>,
 }
 
+/// Logarithm of how much rarer what nobody has thought of is than one of the known causes.
+const RARER: f64 = -3.0;
+
 /// The patterns of a kind.
 pub fn patterns<C>(table: &[Pattern<C>], case: &C) -> Vec<Suspect> {
     let suspect = |pattern: &Pattern<C>| Suspect {
@@ -82,9 +95,10 @@ pub fn patterns<C>(table: &[Pattern<C>], case: &C) -> Vec<Suspect> {
         site: String::new(),
         summary: pattern.summary,
         mechanism: pattern.name,
-        share: 0.0,
+        share: RARER,
         members: (pattern.members)(case),
         named: false,
+        law_error: 0.0,
     };
     table
         .iter()
@@ -93,30 +107,16 @@ pub fn patterns<C>(table: &[Pattern<C>], case: &C) -> Vec<Suspect> {
         .collect()
 }
 
-/// Sizes of a flexible pattern, noise deviations rms: each within a factor of two of what any size wants.
-const FLEXIBLE: [f64; 4] = [1.0, 4.0, 16.0, 64.0];
-
-/// Columns as one flexible pattern, their amounts drawn together about zero at one of some sizes: what a prior
-/// of that size does not need costs nothing, so that many columns need no price of their own.
-pub fn flexible(columns: &[Vec<f64>], noise: f64) -> Vec<Member> {
-    let rows = columns.first().map_or(0, Vec::len).max(1) as f64;
-    let square: f64 = columns.iter().flatten().map(|x| x * x).sum();
-    if square <= 0.0 {
-        return Vec::new();
-    }
-    let unit = noise * (rows / square).sqrt();
-    let scaled = |size: f64| {
-        let own = columns
-            .iter()
-            .map(|c| c.iter().map(|x| x * unit * size).collect());
-        Member {
-            columns: own.collect(),
-            size: Size::Given(1.0),
-            positive: None,
-            shape: vec![size],
-        }
+/// Columns as one flexible member, their amounts drawn together about zero; none where there is no column.
+pub fn flexible(columns: Vec<Vec<f64>>) -> Vec<Member> {
+    let member = Member {
+        columns,
+        size: Size::Drawn,
+        positive: None,
+        shape: Vec::new(),
     };
-    FLEXIBLE.map(scaled).to_vec()
+    let acts = member.columns.iter().flatten().any(|x| *x != 0.0);
+    acts.then_some(member).into_iter().collect()
 }
 
 /// Parameters of a named cause.

@@ -6,6 +6,7 @@ mod force_gain;
 mod frame_motion;
 mod load_misalignment;
 mod loose_cube;
+mod noise;
 mod patterns;
 mod rows;
 mod softer;
@@ -53,12 +54,17 @@ pub struct Case {
     pub missed: Vec<f64>,
     /// Noise of a row, m.
     pub noise: f64,
+    /// Readings that it is worth.
+    pub worth: f64,
     /// Length by which rotations are multiplied, so that their noise is that of displacements, m.
     pub arm: f64,
 }
 
 /// Noise where none is stated: m and rad (source 002's laser sensors).
 const NOISE: [f64; 2] = [2e-6, 1e-5];
+
+/// Readings that a stated noise is worth.
+const WORTH: f64 = 60.0;
 
 impl Case {
     /// Of a file and its robot.
@@ -67,20 +73,35 @@ impl Case {
     /// The file does not fit the robot.
     pub fn new(test: CubeTest, robot: Robot) -> Outcome<Self> {
         let setup = Setup::new(&test, &robot)?;
-        let noise = [0, 1].map(|k| test.facts.noise[k].unwrap_or(NOISE[k]));
-        let arm = noise[0] / noise[1];
-        let rows = rows::rows(&test, arm);
-        let simulated = rows::model(&setup, &test, &rows, arm, |load| load);
-        let missed = rows
-            .iter()
-            .zip(&simulated)
-            .map(|(row, s)| row.measured - s)
-            .collect();
+        let look = |noise: [f64; 2]| {
+            let arm = noise[0] / noise[1];
+            let rows = rows::rows(&test, arm);
+            let simulated = rows::model(&setup, &test, &rows, arm, |load| load);
+            let each = rows.iter().zip(&simulated);
+            let missed: Vec<f64> = each.map(|(row, s)| row.measured - s).collect();
+            (arm, rows, simulated, missed)
+        };
+        let (arm, rows, _, missed) = look(NOISE);
+        let told = noise::told(&test, &rows, &missed, arm);
+        let own = |k: usize| {
+            test.facts.noise[k]
+                .or(told[k].map(|t| t.0))
+                .unwrap_or(NOISE[k])
+        };
+        let noise = [own(0), own(1)];
+        let shown = |k: usize| rows.iter().any(|row| row.component / 3 == k);
+        let worth = |k: usize| match (shown(k), test.facts.noise[k]) {
+            (false, _) | (_, Some(_)) => WORTH,
+            _ => told[k].map_or(0.0, |t| t.1.min(WORTH)),
+        };
+        let worth = worth(0).min(worth(1));
+        let (arm, rows, simulated, missed) = look(noise);
         let mut case = Self {
             about: About::default(),
             springs: Vec::new(),
             fixed: simulated.clone(),
             noise: noise[0],
+            worth,
             missed,
             simulated,
             rows,

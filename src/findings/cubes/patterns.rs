@@ -57,29 +57,18 @@ fn of_spring(case: &Case, site: &str) -> Option<Member> {
         .map(|x| x / TRIED)
         .collect();
     let tests = case.tests();
-    let of_test = |test: i64| -> Vec<f64> {
-        let rows = case.rows.iter().zip(&part);
-        rows.map(|(row, p)| if row.test == test { *p } else { 0.0 })
-            .collect()
-    };
+    let at = |row: &super::Row| tests.iter().position(|t| *t == row.test).unwrap_or(0);
     // the turn in a test along that of the largest: cubes move alike, by more or less
-    let parts: Vec<Vec<f64>> = tests.iter().map(|t| of_test(*t)).collect();
-    let place = |row: &super::Row| (row.cube, row.component);
-    let along = |a: &[f64], b: &[f64]| -> f64 {
-        let own = case.rows.iter().zip(a).filter(|(_, x)| **x != 0.0);
-        own.map(|(row, x)| {
-            let other = case
-                .rows
-                .iter()
-                .zip(b)
-                .find(|(r, y)| place(r) == place(row) && **y != 0.0);
-            other.map_or(0.0, |(_, y)| x * y)
-        })
-        .sum()
-    };
-    let size = |a: &[f64]| along(a, a);
-    let largest = parts.iter().max_by(|a, b| size(a).total_cmp(&size(b)))?;
-    let whole = size(largest);
+    let places = 6 * case.test.facts.cubes.len();
+    let mut parts = vec![vec![0.0; places]; tests.len()];
+    for (row, p) in case.rows.iter().zip(&part) {
+        parts[at(row)][6 * row.cube + row.component] += p;
+    }
+    let along = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+    let largest = parts
+        .iter()
+        .max_by(|a, b| along(a, a).total_cmp(&along(b, b)))?;
+    let whole = along(largest, largest);
     if whole.sqrt() < case.noise {
         return None;
     }
@@ -131,6 +120,6 @@ fn shifts(case: &Case) -> Vec<Member> {
             .collect::<Vec<_>>()
     };
     (0..=case.robot.dof())
-        .flat_map(|joint| table::flexible(&behind(joint), case.noise))
+        .flat_map(|joint| table::flexible(behind(joint)))
         .collect()
 }

@@ -8,8 +8,9 @@ use super::posterior::Posterior;
 use super::rest::{Rest, Span, explained};
 use super::search::{Scored, search};
 use super::statement::{Blamed, Experiment, Statement};
-use super::verdict::{Named, name, verdict};
-use crate::findings::answer::{Answer, Candidate, Discrepancy, Structure, Verdict};
+use super::told::answer;
+use super::verdict::name;
+use crate::findings::answer::{Answer, Verdict};
 use crate::ground::stats::rms;
 use nalgebra::DVector;
 
@@ -43,13 +44,16 @@ const ARRIVED: f64 = 0.03;
 const WORSE: f64 = 1.15;
 /// Diagnoses.
 pub fn diagnose(experiment: &dyn Experiment, judgement: &Judgement) -> Found {
-    let first = stated(experiment, &[], &[]);
-    let mut found = about(experiment, &first, judgement);
+    let mut last = stated(experiment, &[], &[]);
+    let mut found = about(experiment, &last, judgement);
     if experiment.is_linear() || found.lead.is_empty() {
         return found;
     }
     for _ in 0..ROUNDS {
         let statement = stated(experiment, &found.lead, &found.uncertain);
+        if experiment.is_settled(&last, &statement) {
+            break;
+        }
         let next = about(experiment, &statement, judgement);
         if rms(&next.left) > WORSE * rms(&found.left) {
             break;
@@ -62,6 +66,7 @@ pub fn diagnose(experiment: &dyn Experiment, judgement: &Judgement) -> Found {
         if arrived {
             break;
         }
+        last = statement;
     }
     found
 }
@@ -277,53 +282,4 @@ fn blamed(bank: &Bank, fit: &Fit) -> Vec<Blamed> {
             }
         });
     each.collect()
-}
-
-fn answer(
-    experiment: &dyn Experiment,
-    statement: &Statement,
-    bank: &Bank,
-    (posterior, set): (&Posterior, &Scored),
-    (named, rest): (Named, Rest),
-    (missed, left): (&[f64], &[f64]),
-    judgement: &Judgement,
-) -> Answer {
-    let noise = rms(statement.noise.spread()) * set.fit.posterior.noise_variance.sqrt();
-    let before = rms(missed);
-    let share = (rms(left).powi(2) - noise * noise) / before.powi(2).max(f64::MIN_POSITIVE);
-    let remaining = experiment.remaining(left);
-    Answer {
-        verdict: verdict(&named, &rest, judgement),
-        discrepancy: Discrepancy {
-            rms: before,
-            noise_rms: noise,
-            place: experiment.place(missed),
-        },
-        causes: named.causes,
-        groups: named.groups,
-        unexplained: Structure {
-            share_of_variance: share.clamp(0.0, 1.0),
-            shape: remaining.shape,
-            over_time: remaining.over_time,
-            description: remaining.description,
-        },
-        p_value: (-rest.nats).exp(),
-        candidates: posterior
-            .sets
-            .iter()
-            .take(10)
-            .map(|s| candidate(bank, &s.0, s.1, posterior))
-            .collect(),
-        unit: experiment.unit(),
-        noise: statement.noise.describe(),
-        unstated: false,
-        doubts: Vec::new(),
-    }
-}
-
-fn candidate(bank: &Bank, set: &Scored, p: f64, posterior: &Posterior) -> Candidate {
-    let own = set.suspects.iter().map(|s| &bank.suspects[*s]);
-    let names = own.map(|s| format!("{} {}", s.effect, s.site)).collect();
-    let empty = nothing(posterior).fit.posterior.ln_evidence;
-    (names, p, set.fit.posterior.ln_evidence - empty)
 }

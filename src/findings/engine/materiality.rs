@@ -23,8 +23,11 @@ pub fn is_material(statement: &Statement, bank: &Bank, fit: &Fit, judgement: &Ju
             (true, true) => judgement.share_beside_kin,
             (true, false) => judgement.share,
         };
+        let beside = (0..parts.len()).filter(|i| *i != at);
+        let rough = |i: usize| bank.suspect(fit.members[i]).law_error * rms(&parts[i]);
+        let missed = beside.map(rough).fold(0.0, f64::max);
         quantile(&peaks, 0.99) >= judgement.peak * noise
-            && (parts.len() == 1 || rms(&own) >= share * total)
+            && (parts.len() == 1 || rms(&own) >= (share * total).max(missed))
     })
 }
 

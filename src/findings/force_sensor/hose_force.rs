@@ -41,16 +41,13 @@ fn members(case: &Case) -> Vec<Member> {
             case.column(|i, c| if c == own { entries(case, i)[k] } else { 0.0 })
         };
         let columns = channels.flat_map(|own| (0..9).map(move |k| (own, k)));
-        table::flexible(
-            &columns.map(|(own, k)| one(own, k)).collect::<Vec<_>>(),
-            case.noise.0,
-        )
+        table::flexible(columns.map(|(own, k)| one(own, k)).collect())
     };
     match case.test.readings.len() {
         0..12 => Vec::new(),
         _ => {
             let ways = directions().into_iter();
-            let tied = ways.flat_map(|way| table::flexible(&towards(case, way), case.noise.0));
+            let tied = ways.flat_map(|way| table::flexible(towards(case, way)));
             tied.chain(any(0..3))
                 .chain(any(0..6))
                 .chain(any(3..6))
@@ -101,14 +98,33 @@ fn towards(case: &Case, way: V3) -> Vec<Vec<f64>> {
             force,
         )
     };
-    let mut columns = vec![
-        column(&|i| (pull(i, way), NONE)),
-        column(&|i| (scale(pull(i, way)[2], pull(i, way)), NONE)),
-        column(&|i| (NONE, scale(pull(i, way)[2], lever(2, pull(i, way))))),
-    ];
+    let near = |i: usize, power: i32| pull(i, way)[2].powi(power);
+    let mut columns: Vec<Vec<f64>> = (0..3)
+        .map(|power| column(&|i| (scale(near(i, power), pull(i, way)), NONE)))
+        .collect();
+    columns.push(column(&|i| {
+        (NONE, scale(near(i, 1), lever(2, pull(i, way))))
+    }));
     columns.extend(aside.map(|other| column(&|i| (pull(i, other), lever(2, pull(i, other))))));
     columns.extend([0, 1, 2].map(|k| column(&|i| (NONE, lever(k, pull(i, way))))));
+    // the end on the tool moves against the far one: seen from the tool, a constant
+    let unit = |k: usize| -> V3 { std::array::from_fn(|j| f64::from(u8::from(j == k))) };
+    columns.extend([0, 1, 2].map(|k| column(&|_| (unit(k), NONE))));
+    columns.push(column(&|i| (NONE, scale(TIED * wound(case, i), unit(2)))));
     columns
+}
+
+/// How far a hose along the sensor's z is wound, in half turns: the twist about z of the orientation.
+fn wound(case: &Case, i: usize) -> f64 {
+    let [w, _, _, z] = case.test.readings[i].quaternion;
+    let twist = 2.0 * z.atan2(w) / std::f64::consts::PI;
+    if twist > 1.0 {
+        twist - 2.0
+    } else if twist < -1.0 {
+        twist + 2.0
+    } else {
+        twist
+    }
 }
 
 /// Two directions across a third.

@@ -75,7 +75,7 @@ impl Case {
                 test.facts.nominal_weight.is_some(),
                 test.facts.nominal_com.is_some(),
             ],
-            progress: progress(&test),
+            progress: progress(&test, points.1.len()),
             about: About::of(&test, nominal, IDENTITY),
             arm: noise[1] / noise[0],
             noise: (noise[0], worth),
@@ -107,7 +107,7 @@ impl Case {
 
     /// Number of rows.
     pub fn rows(&self) -> usize {
-        self.missed.len()
+        6 * self.test.readings.len()
     }
 
     /// A column from reading and channel, N or N·m.
@@ -212,9 +212,12 @@ fn points(test: &SensorTest) -> (Vec<usize>, Vec<i64>) {
     (own, names)
 }
 
-fn progress(test: &SensorTest) -> Vec<f64> {
+/// Time of every reading from when the sensor was set to zero, one step before the first point, to the last.
+fn progress(test: &SensorTest, points: usize) -> Vec<f64> {
     let time: Vec<f64> = test.readings.iter().map(|r| r.time).collect();
     let told = time.iter().all(|t| t.is_finite()) && time.iter().any(|t| *t != time[0]);
     let order: Vec<f64> = (0..time.len()).map(|i| i as f64).collect();
-    super::table::unit_range(if told { &time } else { &order })
+    let lead = (points.max(2) as f64 - 1.0).recip();
+    let each = super::table::unit_range(if told { &time } else { &order });
+    each.iter().map(|u| (u + lead) / (1.0 + lead)).collect()
 }

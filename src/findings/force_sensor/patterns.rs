@@ -51,7 +51,7 @@ fn jumps(case: &Case) -> Vec<Member> {
 }
 
 /// Waves over the test that a pattern is made of.
-const WAVES: usize = 8;
+const WAVES: usize = 5;
 
 fn courses(case: &Case) -> Vec<Member> {
     let waves = table::waves(&case.progress, WAVES.min(case.points.1.len() / 2));
@@ -61,11 +61,10 @@ fn courses(case: &Case) -> Vec<Member> {
     };
     let all: Vec<Vec<f64>> = (0..6).flat_map(channel).collect();
     let forces: Vec<Vec<f64>> = (0..3).flat_map(channel).collect();
-    let one = (0..6).flat_map(|own| table::flexible(&channel(own), case.noise.0));
-    let many = [all, forces]
+    [all, forces]
         .into_iter()
-        .flat_map(|c| table::flexible(&c, case.noise.0));
-    many.chain(one).collect()
+        .flat_map(table::flexible)
+        .collect()
 }
 
 /// One channel over the square of its load, that keeps its sign or does not, and over its third power.
@@ -100,13 +99,13 @@ fn bends(case: &Case) -> Vec<Member> {
         .collect()
 }
 
-/// Any force, or any moment, over the direction of the weight, by the second to fourth powers of its components.
+/// Any force, or any moment, over the direction of the weight, by the second and third powers of its components.
 fn directions(case: &Case) -> Vec<Member> {
     let n = case.test.readings.len();
     let weight = (0..n).map(|i| (0..3).map(|c| case.load(i, c).powi(2)).sum::<f64>().sqrt());
     let most = weight.fold(f64::MIN_POSITIVE, f64::max);
-    let powers = (0..=4_i32)
-        .flat_map(|a| (0..=4 - a).flat_map(move |b| (0..=4 - a - b).map(move |c| [a, b, c])));
+    let powers = (0..=3_i32)
+        .flat_map(|a| (0..=3 - a).flat_map(move |b| (0..=3 - a - b).map(move |c| [a, b, c])));
     // one component squared follows from the other two
     let powers: Vec<[i32; 3]> = powers
         .filter(|p| p[2] < 2 && p.iter().sum::<i32>() > 1)
@@ -121,7 +120,7 @@ fn directions(case: &Case) -> Vec<Member> {
         let column = |(own, p): (usize, &[i32; 3])| {
             case.column(|i, c| if c == own { value(i, p) } else { 0.0 })
         };
-        table::flexible(&each.map(column).collect::<Vec<_>>(), case.noise.0)
+        table::flexible(each.map(column).collect())
     };
     match case.points.1.len() {
         0..12 => Vec::new(),

@@ -1,7 +1,7 @@
 //! A diagnosed force sensor: its figures.
 
 use super::{Diagnosed, Measured, Source, examined};
-use crate::findings::engine::Found;
+use crate::findings::engine::{Found, Judgement};
 use crate::findings::force_sensor::Case;
 use crate::fit::suitability::{self, Doubt};
 use crate::ground::problem::Outcome;
@@ -31,6 +31,10 @@ impl Measured for Case {
 
     fn doubts(&self) -> Vec<Doubt> {
         suitability::force_sensor::doubts(&self.test)
+    }
+
+    fn judgement(&self) -> Judgement {
+        Judgement::of_repeated_readings(0.002)
     }
 
     fn before_and_after(&self, found: &Found) -> Vec<Chart> {

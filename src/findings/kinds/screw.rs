@@ -1,7 +1,7 @@
 //! A diagnosed screw: its figures.
 
 use super::{Diagnosed, Measured, Source, examined};
-use crate::findings::engine::Found;
+use crate::findings::engine::{Found, Judgement};
 use crate::findings::screw::Case;
 use crate::fit::screw::positions::in_mm;
 use crate::fit::suitability::{self, Doubt};
@@ -29,6 +29,11 @@ impl Measured for Case {
 
     fn doubts(&self) -> Vec<Doubt> {
         suitability::screw::doubts(&self.test)
+    }
+
+    fn judgement(&self) -> Judgement {
+        // a lead bows and a screw winds up by some hundredths of their error
+        Judgement::of_repeated_readings(0.03)
     }
 
     fn before_and_after(&self, found: &Found) -> Vec<Chart> {

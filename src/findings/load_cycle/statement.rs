@@ -170,6 +170,7 @@ fn anonymous(member: &Member) -> Suspect {
         share: 0.0,
         members: vec![member.clone()],
         named: true,
+        law_error: 0.0,
     }
 }
 

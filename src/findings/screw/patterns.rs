@@ -69,10 +69,7 @@ fn periods(case: &Case) -> Vec<Member> {
 
 fn courses(case: &Case) -> Vec<Member> {
     let count = (case.targets() / 2).min(WAVES);
-    table::flexible(
-        &table::waves(&table::unit_range(&case.at), count),
-        case.noise.0,
-    )
+    table::flexible(table::waves(&table::unit_range(&case.at), count))
 }
 
 fn ways(case: &Case) -> Vec<Member> {
@@ -84,7 +81,7 @@ fn ways(case: &Case) -> Vec<Member> {
     let sided = waves
         .iter()
         .map(|w| case.column(|i| w[i] * 2.0 * case.side[i]));
-    table::flexible(&sided.collect::<Vec<_>>(), case.noise.0)
+    table::flexible(sided.collect())
 }
 
 /// Waves over the time, alone and in proportion to the travel.
@@ -94,5 +91,5 @@ fn changes(case: &Case) -> Vec<Member> {
         .iter()
         .map(|w| case.column(|i| w[i] * case.at[i] / case.half));
     let all: Vec<Vec<f64>> = waves.iter().cloned().chain(along).collect();
-    table::flexible(&all, case.noise.0)
+    table::flexible(all)
 }

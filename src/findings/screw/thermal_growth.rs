@@ -38,11 +38,7 @@ fn members(case: &Case) -> Vec<Member> {
     let mut members: Vec<Member> = over_time.collect();
     let many = member(case, &case.lapse, &TOGETHER);
     let sized = |m: Member| m.shaped(&TOGETHER);
-    members.extend(
-        table::flexible(&many.columns, case.noise.0)
-            .into_iter()
-            .map(sized),
-    );
+    members.extend(table::flexible(many.columns).into_iter().map(sized));
     if case.temperature_range.is_some() {
         members.push(member(case, &case.progress, &CONSTANTS[..1]));
     }

@@ -111,5 +111,6 @@ fn suspect(
         share: 0.0,
         members,
         named: true,
+        law_error: 0.0,
     })
 }
