@@ -60,7 +60,7 @@ fn restless(case: &Case, tests: &[i64]) -> Member {
     let columns = tests.iter().flat_map(|test| moves(case, *test, false));
     Member {
         columns: columns.filter(|c| c.contains(&1.0)).collect(),
-        size: Size::Drawn,
+        size: Size::Free,
         positive: None,
         shape: vec![0.0, tests.len() as f64],
     }

@@ -68,21 +68,6 @@ impl Judgement {
     }
 }
 
-impl Judgement {
-    /// Of kinds that read the same again and again (runs over the same targets, the same tool in every
-    /// orientation, every cube in every test), and whose laws are geometry and statics: what is no larger than
-    /// the noise of one reading is plain in all of them, and beside a large effect only what its law misses,
-    /// `share` of it, is too small to be named.
-    pub fn of_repeated_readings(share: f64) -> Self {
-        Self {
-            peak: 0.8,
-            share,
-            companion_gain: 0.2,
-            ..Self::default()
-        }
-    }
-}
-
 impl Default for Judgement {
     fn default() -> Self {
         Self {

@@ -21,9 +21,9 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 };
 
 /// Time constants over the length of the test; 0: in proportion to time.
-const CONSTANTS: [f64; 4] = [0.0, 0.07, 0.2, 0.5];
+const CONSTANTS: [f64; 3] = [0.0, 0.2, 0.5];
 /// Those of a sensor whose parts warm one after the other, fitted together.
-const TOGETHER: [f64; 3] = [0.05, 0.3, 1.0];
+const TOGETHER: [f64; 3] = [0.1, 0.3, 1.0];
 
 fn members(case: &Case) -> Vec<Member> {
     let channels: [&[usize]; 5] = [&[0], &[1], &[2], &[0, 1, 2], &[0, 1, 2, 3, 4, 5]];

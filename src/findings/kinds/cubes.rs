@@ -2,7 +2,7 @@
 
 use super::{Diagnosed, Measured, Source, examined};
 use crate::findings::cubes::Case;
-use crate::findings::engine::{Found, Judgement};
+use crate::findings::engine::Found;
 use crate::fit::suitability::{self, Doubt};
 use crate::ground::problem::Outcome;
 use crate::measurement::cubes::CubeTest;
@@ -31,11 +31,6 @@ impl Measured for Case {
 
     fn doubts(&self) -> Vec<Doubt> {
         suitability::cubes::doubts(&self.test, &self.robot)
-    }
-
-    fn judgement(&self) -> Judgement {
-        // springs lie off by what is known of them, and all else multiplies with that
-        Judgement::of_repeated_readings(0.03)
     }
 
     fn before_and_after(&self, found: &Found) -> Vec<Chart> {
