@@ -19,6 +19,18 @@ pub trait OnRobot {
     fn noise(&self) -> f64;
     /// Whether this kind shows a cause.
     fn shows(&self, cause: &str) -> bool;
+    /// The robot that [`OnRobot::change`] is against, with a cause of some more amounts.
+    fn with_cause(&self, cause: &'static dyn Cause, site: &str, amounts: &[f64]) -> Robot {
+        let mut robot = self.robot().clone();
+        cause.alter(&mut robot, site, amounts);
+        robot
+    }
+    /// The same with a spring whose compliance is greater by a share.
+    fn with_softer(&self, site: &str, excess: f64) -> Robot {
+        let mut robot = self.robot().clone();
+        soften(&mut robot, site, excess);
+        robot
+    }
 }
 
 /// Share of an ordinary strength at which a cause is tried: small, so that what it adds is linear.
@@ -61,13 +73,15 @@ fn of(case: &dyn OnRobot, cause: &'static dyn Cause) -> Vec<Suspect> {
             mechanism: card.name,
             share,
             members,
+            named: true,
+            law_error: 0.0,
         })
     };
     sites.into_iter().filter_map(suspect).collect()
 }
 
 /// One member per form; columns are the difference at an ordinary strength.
-fn members(case: &dyn OnRobot, cause: &dyn Cause, site: &str) -> Vec<Member> {
+fn members(case: &dyn OnRobot, cause: &'static dyn Cause, site: &str) -> Vec<Member> {
     let scale = cause.scale(case.robot(), site);
     let columns: Vec<Vec<f64>> = (0..scale.len())
         .map(|k| column(case, cause, site, &scale, k))
@@ -92,11 +106,16 @@ fn members(case: &dyn OnRobot, cause: &dyn Cause, site: &str) -> Vec<Member> {
     forms.filter_map(form).collect()
 }
 
-fn column(case: &dyn OnRobot, cause: &dyn Cause, site: &str, scale: &[f64], k: usize) -> Vec<f64> {
+fn column(
+    case: &dyn OnRobot,
+    cause: &'static dyn Cause,
+    site: &str,
+    scale: &[f64],
+    k: usize,
+) -> Vec<f64> {
     let mut amounts = vec![0.0; scale.len()];
     amounts[k] = TRIED * scale[k];
-    let mut robot = case.robot().clone();
-    cause.alter(&mut robot, site, &amounts);
+    let robot = case.with_cause(cause, site, &amounts);
     case.change(&robot).iter().map(|x| x / TRIED).collect()
 }
 
@@ -108,17 +127,34 @@ const SOFTER: f64 = 0.01;
 
 /// Every spring within what is known of it; those that the readings hardly show are left out.
 pub fn springs(case: &dyn OnRobot) -> Vec<Nuisance> {
-    let nuisance = |(site, spring): (String, &Spring)| {
-        let mut robot = case.robot().clone();
-        soften(&mut robot, &site, SOFTER);
-        let column: Vec<f64> = case.change(&robot).iter().map(|x| x / SOFTER).collect();
-        let shown = column.iter().any(|x| x.abs() > UNSEEN * case.noise());
-        shown.then(|| Nuisance {
-            spread: spring.relative_std().unwrap_or(USUAL),
-            column,
-        })
-    };
-    case.robot().springs().filter_map(nuisance).collect()
+    let all = case
+        .robot()
+        .springs()
+        .map(|(site, spring)| self::spring(case, &site, spring));
+    all.filter(|n| is_shown(case, n)).collect()
+}
+
+/// Sites of the springs that the readings show.
+pub fn shown_springs(case: &dyn OnRobot) -> Vec<String> {
+    let shown =
+        |(site, own): (String, &Spring)| is_shown(case, &spring(case, &site, own)).then_some(site);
+    case.robot().springs().filter_map(shown).collect()
+}
+
+/// A spring within what is known of it.
+pub fn spring(case: &dyn OnRobot, site: &str, spring: &Spring) -> Nuisance {
+    let robot = case.with_softer(site, SOFTER);
+    Nuisance {
+        column: case.change(&robot).iter().map(|x| x / SOFTER).collect(),
+        spread: spring.relative_std().unwrap_or(USUAL),
+    }
+}
+
+fn is_shown(case: &dyn OnRobot, nuisance: &Nuisance) -> bool {
+    nuisance
+        .column
+        .iter()
+        .any(|x| x.abs() > UNSEEN * case.noise())
 }
 
 /// Parameters of a named cause; none for those of other tables.
@@ -137,7 +173,8 @@ pub fn alter(case: &dyn OnRobot, blamed: &Blamed, robot: &mut Robot) {
     }
 }
 
-fn amounts(case: &dyn OnRobot, blamed: &Blamed) -> Option<(&'static dyn Cause, Vec<f64>)> {
+/// The cause that was found, and its amounts as it takes them.
+pub fn amounts(case: &dyn OnRobot, blamed: &Blamed) -> Option<(&'static dyn Cause, Vec<f64>)> {
     let cause = CAUSES
         .iter()
         .find(|cause| shows(case, **cause) && cause.card().name == blamed.effect)?;

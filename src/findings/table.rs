@@ -2,6 +2,7 @@
 //! readings.
 
 use super::engine::{Blamed, Member, Suspect};
+use crate::inference::gaussian::Size;
 
 /// Parameters of a cause: name, value SI, unit.
 pub type Parameters = Vec<(&'static str, f64, &'static str)>;
@@ -55,12 +56,67 @@ fn own<C>(effect: &Effect<C>, case: &C) -> Vec<Suspect> {
         mechanism: effect.mechanism,
         share,
         members: place.members,
+        named: true,
+        law_error: 0.0,
     };
     places
         .into_iter()
         .filter(|place| !place.members.is_empty())
         .map(suspect)
         .collect()
+}
+
+/// Says which laws are only nearly right: by name, the share of its size by which each misses nature.
+pub fn rough(mut suspects: Vec<Suspect>, errors: &[(&str, f64)]) -> Vec<Suspect> {
+    for suspect in &mut suspects {
+        let own = errors.iter().find(|(name, _)| *name == suspect.effect);
+        suspect.law_error = own.map_or(0.0, |e| e.1);
+    }
+    suspects
+}
+
+/// A pattern that no cause of a kind has: it competes with them and is never named.
+pub struct Pattern<C> {
+    /// Name among the sets that were compared.
+    pub name: &'static str,
+    /// What is seen where it is at work, a phrase.
+    pub summary: &'static str,
+    /// Its shapes in this case.
+    pub members: fn(&C) -> Vec<Member>,
+}
+
+/// Logarithm of how much rarer what nobody has thought of is than one of the known causes.
+const RARER: f64 = -3.0;
+
+/// The patterns of a kind.
+pub fn patterns<C>(table: &[Pattern<C>], case: &C) -> Vec<Suspect> {
+    let suspect = |pattern: &Pattern<C>| Suspect {
+        effect: pattern.name,
+        site: String::new(),
+        summary: pattern.summary,
+        mechanism: pattern.name,
+        share: RARER,
+        members: (pattern.members)(case),
+        named: false,
+        law_error: 0.0,
+    };
+    table
+        .iter()
+        .map(suspect)
+        .filter(|s| !s.members.is_empty())
+        .collect()
+}
+
+/// Columns as one flexible member, their amounts drawn together about zero; none where there is no column.
+pub fn flexible(columns: Vec<Vec<f64>>) -> Vec<Member> {
+    let member = Member {
+        columns,
+        size: Size::Drawn,
+        positive: None,
+        shape: Vec::new(),
+    };
+    let acts = member.columns.iter().flatten().any(|x| *x != 0.0);
+    acts.then_some(member).into_iter().collect()
 }
 
 /// Parameters of a named cause.

@@ -34,6 +34,9 @@ pub enum Size {
     Given(f64),
     /// That of greatest evidence.
     Free,
+    /// That of greatest evidence, for many amounts that are drawn together: what their prior does not need
+    /// costs nothing, so that they need no price one by one.
+    Drawn,
 }
 
 /// What the data say of the amounts of all blocks.
@@ -57,6 +60,8 @@ pub struct Posterior {
 const FIRST: f64 = 10.0;
 /// Steps of expectation and maximisation: more change ln E by less than the choice notices.
 const STEPS: usize = 5;
+/// Fewest amounts that data may fix of drawn ones.
+const FEWEST: f64 = 0.1;
 /// Least and largest free size.
 const BOUNDS: (f64, f64) = (1e-3, 1e6);
 
@@ -89,7 +94,7 @@ pub fn update(
     blocks: &[(usize, Size)],
 ) -> Option<Posterior> {
     let mut sizes: Vec<f64> = blocks.iter().map(|b| first(b.1)).collect();
-    let free = blocks.iter().any(|b| b.1 == Size::Free);
+    let free = blocks.iter().any(|b| !matches!(b.1, Size::Given(_)));
     let mut found = with_sizes(products, reading, blocks, &sizes)?;
     for _ in 0..if free { STEPS } else { 0 } {
         sizes = grown(&found, blocks);
@@ -101,24 +106,26 @@ pub fn update(
 fn first(size: Size) -> f64 {
     match size {
         Size::Given(a) => a,
-        Size::Free => FIRST,
+        Size::Free | Size::Drawn => FIRST,
     }
 }
 
-/// One step: a² ← (|m|²/σ² + tr V)/p for the free blocks.
+/// One step: a² ← (|m|²/σ² + tr V)/p for the free blocks; for drawn ones |m|²/σ² over the number of amounts
+/// that the data fix (MacKay 1992), which arrives sooner where they fix few of many.
 fn grown(found: &Posterior, blocks: &[(usize, Size)]) -> Vec<f64> {
     let mut at = 0;
     let mut sizes = found.sizes.clone();
     for (size, (count, kind)) in sizes.iter_mut().zip(blocks) {
         let own = at..at + count;
         at += count;
-        if *kind == Size::Free {
-            let square = |i: usize| {
-                found.mean[i] * found.mean[i] / found.noise_variance + found.covariance[(i, i)]
-            };
-            let mean = own.map(square).sum::<f64>() / (*count).max(1) as f64;
-            *size = mean.sqrt().clamp(BOUNDS.0, BOUNDS.1);
-        }
+        let left: f64 = own.clone().map(|i| found.covariance[(i, i)]).sum();
+        let moved = own.map(|i| found.mean[i] * found.mean[i]).sum::<f64>() / found.noise_variance;
+        let square = match kind {
+            Size::Given(_) => continue,
+            Size::Free => (moved + left) / (*count).max(1) as f64,
+            Size::Drawn => moved / (*count as f64 - left / (*size * *size)).max(FEWEST),
+        };
+        *size = square.sqrt().clamp(BOUNDS.0, BOUNDS.1);
     }
     sizes
 }

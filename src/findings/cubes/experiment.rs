@@ -1,32 +1,60 @@
 //! The statement of a cubes test for the engine.
 
-use super::{Case, EFFECTS};
+use super::patterns::PATTERNS;
+use super::{Case, EFFECTS, frame_motion, loose_cube};
 use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, White};
 use crate::findings::physics;
 use crate::findings::table;
 
-/// Readings that a stated noise is worth.
-const WORTH: f64 = 60.0;
+/// A frame that shifts in every test turns as well, by some tenths of it; what a loose cube follows is no neighbour
+/// alone.
+const ROUGH: [(&str, f64); 2] = [
+    (frame_motion::EFFECT.name, 0.3),
+    (loose_cube::EFFECT.name, 0.05),
+];
 
 impl Experiment for Case {
     fn unit(&self) -> &'static str {
         "m"
     }
 
+    /// Loads turned by degrees, and causes that multiply, are not linear.
+    fn is_linear(&self) -> bool {
+        false
+    }
+
+    fn is_settled(&self, before: &Statement, after: &Statement) -> bool {
+        after.reads_as(before)
+    }
+
+    fn state_beside(&self, about: &[Blamed], uncertain: &[f64]) -> Statement {
+        match about {
+            [] => self.state(&[]),
+            _ => {
+                let case = self.beside(about, uncertain);
+                let mut statement = case.state(&[]);
+                case.whole(&mut statement);
+                statement
+            }
+        }
+    }
+
     fn state(&self, _: &[Blamed]) -> Statement {
-        let stated = self.test.facts.noise.iter().all(Option::is_some);
         let mut suspects = physics::suspects(self);
-        suspects.extend(table::suspects(EFFECTS, self));
+        suspects.extend(table::rough(table::suspects(EFFECTS, self), &ROUGH));
+        suspects.extend(table::patterns(PATTERNS, self));
+        let known = self
+            .robot
+            .springs()
+            .filter(|(site, _)| self.springs.contains(site));
+        let springs = known.map(|(site, spring)| physics::spring(self, &site, spring));
         Statement {
             reading: self.missed.clone(),
             noise: Box::new(White {
                 spread: vec![self.noise; self.rows.len()],
-                rows: if stated { WORTH } else { 0.0 },
+                rows: self.worth,
             }),
-            nuisances: physics::springs(self)
-                .into_iter()
-                .chain(self.frame())
-                .collect(),
+            nuisances: springs.chain(self.frame()).collect(),
             suspects,
             span: self.span(),
             splits: self.splits(),

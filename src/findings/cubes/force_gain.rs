@@ -9,11 +9,13 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     summary: "The load reads too much or too little: every cube moves by one factor more or less.",
     mechanism: "load",
     places: |case| {
-        vec![Place::new(
-            "sensor",
-            vec![Member::given(case.simulated.clone(), 0.15)],
-        )]
+        let more = case.under(case.about.gain() + TRIED, case.about.turn());
+        let column = more.iter().map(|x| x / TRIED).collect();
+        vec![Place::new("sensor", vec![Member::given(column, 0.15)])]
     },
     parameters: |_, blamed| vec![("gain_error", blamed.amounts[0], "1")],
     would_tell: "calibrate the load with a dead weight",
 };
+
+/// Gain that it is tried at: what it does is all but linear.
+const TRIED: f64 = 1e-3;

@@ -12,11 +12,11 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     mechanism: "frame",
     places: |case| vec![Place::new("frame", members(case))],
     parameters: |_, blamed| {
-        let square = |own: &[f64]| own.iter().map(|x| x * x).sum::<f64>();
+        let size = |own: &[f64]| own.iter().map(|x| x * x).sum::<f64>().sqrt();
         match blamed.shape[..] {
-            [_, tests] => vec![("shift_rms", (square(&blamed.amounts) / tests).sqrt(), "m")],
+            [_, tests] => vec![("shift_rms", size(&blamed.amounts) / tests.sqrt(), "m")],
             _ => vec![
-                ("shift", square(&blamed.amounts[..3]).sqrt(), "m"),
+                ("shift", size(&blamed.amounts[..3]), "m"),
                 ("test", blamed.shape[0], "1"),
             ],
         }
@@ -25,44 +25,41 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 };
 
 fn members(case: &Case) -> Vec<Member> {
-    let mut members = Vec::new();
     let tests = case.tests();
-    if tests.len() > 2 {
-        members.push(restless(case, &tests));
-    }
-    for test in tests {
-        let shift = |k: usize| column(case, test, |c, _| f64::from(u8::from(c == k)));
-        let turn = |k: usize| {
-            let axis: V3 = std::array::from_fn(|j| f64::from(u8::from(j == k)));
-            column(case, test, |c, at| {
-                if c < 3 {
-                    cross(axis, at)[c]
-                } else {
-                    axis[c - 3] * case.arm
-                }
-            })
-        };
-        let shifts: Vec<Vec<f64>> = (0..3).map(shift).collect();
-        let both = shifts.iter().cloned().chain((0..3).map(turn)).collect();
-        for columns in [shifts, both] {
-            members.push(Member {
-                columns,
-                size: Size::Free,
-                positive: None,
-                shape: vec![test as f64],
-            });
-        }
-    }
-    members
+    let one = |test: &i64, turns: bool| Member {
+        columns: moves(case, *test, turns),
+        size: Size::Free,
+        positive: None,
+        shape: vec![*test as f64],
+    };
+    let every = (tests.len() > 2)
+        .then(|| restless(case, &tests))
+        .into_iter();
+    let each = tests
+        .iter()
+        .flat_map(|test| [one(test, false), one(test, true)]);
+    every.chain(each).collect()
+}
+
+/// Shifts of the frame in a test along all axes, and turns about them.
+fn moves(case: &Case, test: i64, turns: bool) -> Vec<Vec<f64>> {
+    let shift = |k: usize| column(case, test, |c, _| f64::from(u8::from(c == k)));
+    let turn = |k: usize| {
+        let axis: V3 = std::array::from_fn(|j| f64::from(u8::from(j == k)));
+        column(case, test, |c, at| match c {
+            0..3 => cross(axis, at)[c],
+            _ => axis[c - 3] * case.arm,
+        })
+    };
+    let turns = (0..3).filter(|_| turns).map(turn);
+    (0..3).map(shift).chain(turns).collect()
 }
 
 /// Another shift in every test.
 fn restless(case: &Case, tests: &[i64]) -> Member {
-    let one = |test: &i64, k: usize| column(case, *test, |c, _| f64::from(u8::from(c == k)));
-    let columns = tests.iter().flat_map(|t| (0..3).map(move |k| one(t, k)));
-    let columns: Vec<Vec<f64>> = columns.collect();
+    let columns = tests.iter().flat_map(|test| moves(case, *test, false));
     Member {
-        columns: columns.into_iter().filter(|c| c.contains(&1.0)).collect(),
+        columns: columns.filter(|c| c.contains(&1.0)).collect(),
         size: Size::Free,
         positive: None,
         shape: vec![0.0, tests.len() as f64],

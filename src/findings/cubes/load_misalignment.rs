@@ -1,10 +1,8 @@
 //! The load points elsewhere than it is said to: force and moment turned about an axis of the base frame.
 
 use super::Case;
-use super::rows::model;
 use crate::findings::engine::Member;
 use crate::findings::table::{Effect, Place};
-use crate::ground::spatial::{V3, rotate, rotation};
 use crate::inference::gaussian::Size;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
@@ -25,17 +23,10 @@ const TRIED: f64 = 1e-3;
 
 fn members(case: &Case) -> Vec<Member> {
     let column = |k: usize| {
-        let axis: V3 = std::array::from_fn(|j| f64::from(u8::from(j == k)));
-        let turn = rotation(axis, TRIED);
-        let turned = model(&case.setup, &case.test, &case.rows, case.arm, |mut load| {
-            (load.force, load.moment) = (rotate(&turn, load.force), rotate(&turn, load.moment));
-            load
-        });
-        turned
-            .iter()
-            .zip(&case.simulated)
-            .map(|(a, b)| (a - b) / TRIED)
-            .collect::<Vec<f64>>()
+        let mut turn = case.about.turn();
+        turn[k] += TRIED;
+        let more = case.under(case.about.gain(), turn);
+        more.iter().map(|x| x / TRIED).collect::<Vec<f64>>()
     };
     let columns: Vec<Vec<f64>> = (0..3).map(column).collect();
     let single = columns

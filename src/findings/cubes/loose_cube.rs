@@ -1,7 +1,7 @@
 //! A cube that does not move with its link: it follows its neighbour by a share, or slips in one test.
 
 use super::Case;
-use crate::findings::engine::Member;
+use crate::findings::engine::{Blamed, Member};
 use crate::findings::table::{Effect, Place};
 use crate::inference::gaussian::Size;
 
@@ -44,26 +44,16 @@ fn members(case: &Case, cube: usize) -> Vec<Member> {
     if !case.rows.iter().any(|row| row.cube == cube) {
         return Vec::new();
     }
-    // towards its neighbours on either side, and towards standing still
-    let mut targets: Vec<Vec<f64>> = vec![with_own(&|i| -case.simulated[i])];
-    for neighbour in neighbours(case, cube) {
-        let other = |i: usize| {
-            let row = case.rows[i];
-            let same = |j: &usize| {
-                case.rows[*j].cube == neighbour
-                    && case.rows[*j].test == row.test
-                    && case.rows[*j].component == row.component
-            };
-            (0..case.rows.len())
-                .find(same)
-                .map_or(0.0, |j| case.simulated[j] - case.simulated[i])
-        };
-        targets.push(with_own(&other));
-    }
-    let mut members: Vec<Member> = targets
-        .iter()
-        .map(|t| Member::given(t.clone(), 0.3).positive())
+    let ways = 1 + neighbours(case, cube).len();
+    let targets: Vec<Vec<f64>> = (0..ways)
+        .map(|way| target(case, cube, way, &case.fixed))
         .collect();
+    let shaped = |(way, column): (usize, &Vec<f64>)| {
+        Member::given(column.clone(), 0.3)
+            .positive()
+            .shaped(&[way as f64])
+    };
+    let mut members: Vec<Member> = targets.iter().enumerate().map(shaped).collect();
     for test in case.tests() {
         let here = |column: &[f64]| -> Vec<f64> {
             column
@@ -94,6 +84,34 @@ fn members(case: &Case, cube: usize) -> Vec<Member> {
         });
     }
     members
+}
+
+/// Whether a cause is a cube that follows another by a share in all tests.
+pub(super) fn follows(blamed: &Blamed) -> bool {
+    blamed.effect == EFFECT.name && blamed.shape.len() == 1
+}
+
+/// What a cube shows more that follows standing still (way 0) or one of its neighbours altogether.
+pub(super) fn target(case: &Case, cube: usize, way: usize, fixed: &[f64]) -> Vec<f64> {
+    let neighbour = way
+        .checked_sub(1)
+        .and_then(|n| neighbours(case, cube).get(n).copied());
+    let at = |i: usize| {
+        let row = case.rows[i];
+        let same = |j: &usize| {
+            Some(case.rows[*j].cube) == neighbour
+                && case.rows[*j].test == row.test
+                && case.rows[*j].component == row.component
+        };
+        match (row.cube == cube, way) {
+            (false, _) => 0.0,
+            (true, 0) => -fixed[i],
+            (true, _) => (0..case.rows.len())
+                .find(same)
+                .map_or(0.0, |j| fixed[j] - fixed[i]),
+        }
+    };
+    (0..case.rows.len()).map(at).collect()
 }
 
 /// The cubes before and behind it.

@@ -2,7 +2,7 @@
 //! or beyond the last joint.
 
 use super::Case;
-use crate::causes::places::{soften, softened};
+use crate::causes::places::softened;
 use crate::findings::engine::{Blamed, Member};
 use crate::findings::physics::OnRobot;
 use crate::findings::table::{Effect, Place};
@@ -38,6 +38,8 @@ const fn effect(
     }
 }
 
+/// Shape that no cause of the robot has.
+const OWN: f64 = -1.0;
 /// Ordinary relative excess of a compliance, and the one it is tried at.
 const ORDINARY: f64 = 0.4;
 const TRIED: f64 = 0.01;
@@ -54,14 +56,18 @@ fn places(case: &Case, own: fn(usize, usize) -> bool) -> Vec<Place> {
 }
 
 fn members(case: &Case, site: &str) -> Vec<Member> {
-    let mut robot = case.robot.clone();
-    soften(&mut robot, site, TRIED);
+    let robot = case.with_softer(site, TRIED);
     let column: Vec<f64> = case.change(&robot).iter().map(|x| x / TRIED).collect();
     let size = column.iter().map(|x| x * x).sum::<f64>().sqrt();
     match size > 1e-3 * case.noise {
-        true => vec![Member::given(column, ORDINARY).shaped(&[-1.0])],
+        true => vec![Member::given(column, ORDINARY).shaped(&[OWN])],
         false => Vec::new(),
     }
+}
+
+/// Whether a cause is of this file.
+pub(super) fn is_one(blamed: &Blamed) -> bool {
+    blamed.shape == [OWN]
 }
 
 fn parameters(case: &Case, blamed: &Blamed) -> Vec<(&'static str, f64, &'static str)> {

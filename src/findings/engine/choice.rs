@@ -22,11 +22,14 @@ pub(super) fn material(
     sets: Vec<Scored>,
     judgement: &Judgement,
 ) -> Vec<Scored> {
-    let mut best = f64::NEG_INFINITY;
+    // with patterns beside the causes, and without: the best set of causes alone is what a kind is stated about
+    let mut best = [f64::NEG_INFINITY; 2];
     let mut holds = |s: &Scored| {
-        let matters = s.score > best - HOPELESS && is_material(statement, bank, &s.fit, judgement);
+        let own = usize::from(s.suspects.iter().all(|s| bank.suspects[*s].named));
+        let matters =
+            s.score > best[own] - HOPELESS && is_material(statement, bank, &s.fit, judgement);
         if matters {
-            best = best.max(s.score);
+            best[own] = best[own].max(s.score);
         }
         matters || s.suspects.is_empty()
     };

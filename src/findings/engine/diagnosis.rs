@@ -8,8 +8,9 @@ use super::posterior::Posterior;
 use super::rest::{Rest, Span, explained};
 use super::search::{Scored, search};
 use super::statement::{Blamed, Experiment, Statement};
-use super::verdict::{Named, name, verdict};
-use crate::findings::answer::{Answer, Candidate, Discrepancy, Structure};
+use super::told::answer;
+use super::verdict::name;
+use crate::findings::answer::{Answer, Verdict};
 use crate::ground::stats::rms;
 use nalgebra::DVector;
 
@@ -26,6 +27,10 @@ pub struct Found {
     pub explained: Vec<f64>,
     /// What they leave, per row.
     pub left: Vec<f64>,
+    /// Most probable amounts of the nuisances beside the causes.
+    uncertain: Vec<f64>,
+    /// The best set of causes whether or not they are named: what a kind that is not linear is stated about.
+    lead: Vec<Blamed>,
     /// Evidence of every set that was compared, over that of no cause, no prior in it: (effect and site of
     /// each cause, ln E).
     pub evidence: Vec<(Vec<(&'static str, String)>, f64)>,
@@ -39,18 +44,21 @@ const ARRIVED: f64 = 0.03;
 const WORSE: f64 = 1.15;
 /// Diagnoses.
 pub fn diagnose(experiment: &dyn Experiment, judgement: &Judgement) -> Found {
-    let first = stated(experiment, &[]);
-    let mut found = about(experiment, &first, judgement);
-    if experiment.is_linear() || found.blamed.is_empty() {
+    let mut last = stated(experiment, &[], &[]);
+    let mut found = about(experiment, &last, judgement);
+    if experiment.is_linear() || found.lead.is_empty() {
         return found;
     }
     for _ in 0..ROUNDS {
-        let statement = stated(experiment, &found.blamed);
+        let statement = stated(experiment, &found.lead, &found.uncertain);
+        if experiment.is_settled(&last, &statement) {
+            break;
+        }
         let next = about(experiment, &statement, judgement);
         if rms(&next.left) > WORSE * rms(&found.left) {
             break;
         }
-        let arrived = is_same(&found.blamed, &next.blamed);
+        let arrived = is_same(&found.lead, &next.lead);
         let missed = std::mem::take(&mut found.missed);
         let discrepancy = found.answer.discrepancy;
         found = next;
@@ -58,13 +66,14 @@ pub fn diagnose(experiment: &dyn Experiment, judgement: &Judgement) -> Found {
         if arrived {
             break;
         }
+        last = statement;
     }
     found
 }
 
 /// The statement without suspects that change nothing here: they have no column to be compared by.
-fn stated(experiment: &dyn Experiment, blamed: &[Blamed]) -> Statement {
-    let mut statement = experiment.state(blamed);
+fn stated(experiment: &dyn Experiment, blamed: &[Blamed], uncertain: &[f64]) -> Statement {
+    let mut statement = experiment.state_beside(blamed, uncertain);
     for suspect in &mut statement.suspects {
         suspect.members.retain(|m| !m.columns.is_empty());
     }
@@ -83,8 +92,10 @@ fn is_same(a: &[Blamed], b: &[Blamed]) -> bool {
 fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgement) -> Found {
     let mut bank = Bank::new(statement);
     let compared = search(&mut bank, judgement);
+    let named = |s: &&Scored| s.suspects.iter().all(|s| bank.suspects[*s].named);
     let evidence = compared
         .iter()
+        .filter(named)
         .map(|s| evidence_of(&bank, s, judgement))
         .collect();
     let story = compared.first().cloned();
@@ -98,17 +109,21 @@ fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgeme
     if loses_to_structure(&bank, &posterior, &set, span.as_ref()) {
         (set, gains) = (nothing(&posterior), Vec::new());
     }
-    let missed = residual(statement, &bank, &nothing(&posterior).fit);
-    let left = residual(statement, &bank, &set.fit);
+    let missed = residual(statement, &bank, &nothing(&posterior).fit).0;
+    let pattern = pattern(&bank, &set.fit, statement.reading.len());
+    let (beside, mut uncertain) = residual(statement, &bank, &set.fit);
+    let left: Vec<f64> = beside.iter().zip(&pattern.1).map(|(l, p)| l + p).collect();
     let whole = rms(&in_noise(statement, &missed));
     let rest = span.map_or(Rest::default(), |s| {
         s.rest(&bank, &set.fit, whole, judgement)
     });
+    let share = rms(&in_noise(statement, &pattern.1)) / whole.max(f64::MIN_POSITIVE);
+    let rest = rest.with(share, judgement);
     let rest = match story.filter(|_| set.suspects.is_empty()) {
         Some(story) => unnamed(statement, &bank, (&story, whole), rest, judgement),
         None => rest,
     };
-    let blamed = blamed(&bank, &set.fit);
+    let mut blamed = blamed(&bank, &set.fit);
     let named = name(
         experiment,
         &bank,
@@ -117,7 +132,7 @@ fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgeme
         (&blamed, &gains),
         judgement,
     );
-    let answer = answer(
+    let mut answer = answer(
         experiment,
         statement,
         &bank,
@@ -126,6 +141,20 @@ fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgeme
         (&missed, &left),
         judgement,
     );
+    if let Some(seen) = pattern.0 {
+        answer.unexplained.description = seen.into();
+    }
+    let mut own = set.suspects.iter().map(|s| bank.suspects[*s].named);
+    blamed.retain(|_| own.next().unwrap_or(true));
+    let competed = bank.suspects.iter().any(|s| !s.named);
+    let open = competed && answer.verdict != Verdict::Sufficient;
+    let lead = match (blamed.is_empty(), leading(&bank, &posterior)) {
+        (true, Some(fit)) if open => {
+            uncertain = residual(statement, &bank, &fit).1;
+            self::blamed(&bank, &fit)
+        }
+        _ => blamed.clone(),
+    };
     let explained = missed.iter().zip(&left).map(|(m, l)| m - l).collect();
     Found {
         answer,
@@ -133,8 +162,29 @@ fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgeme
         missed,
         explained,
         left,
+        uncertain,
+        lead,
         evidence,
     }
+}
+
+/// The best set of causes of the library.
+fn leading(bank: &Bank, posterior: &Posterior) -> Option<Fit> {
+    let named = |s: &&(Scored, f64)| s.0.suspects.iter().all(|s| bank.suspects[*s].named);
+    posterior.sets.iter().find(named).map(|s| s.0.fit.clone())
+}
+
+/// What patterns of a set look like, and what they add to the readings, per row.
+fn pattern(bank: &Bank, fit: &Fit, rows: usize) -> (Option<&'static str>, Vec<f64>) {
+    let (mut seen, mut sum) = (None, vec![0.0; rows]);
+    for (member, part) in fit.members.iter().zip(raw_parts(bank, fit)) {
+        let own = bank.suspect(*member);
+        if !own.named {
+            seen = seen.or(Some(own.summary));
+            sum.iter_mut().zip(part).for_each(|(s, p)| *s += p);
+        }
+    }
+    (seen, sum)
 }
 
 /// What is left where nothing is named. A story that fits far better than none, but of which no cause passes
@@ -185,20 +235,20 @@ fn in_noise(statement: &Statement, raw: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// What a fit leaves of the readings, nuisances at their most probable.
-fn residual(statement: &Statement, bank: &Bank, fit: &Fit) -> Vec<f64> {
+/// What a fit leaves of the readings, nuisances at their most probable, and the amounts of these.
+fn residual(statement: &Statement, bank: &Bank, fit: &Fit) -> (Vec<f64>, Vec<f64>) {
     let mut left = statement.reading.clone();
     for part in raw_parts(bank, fit) {
         left.iter_mut().zip(part).for_each(|(l, p)| *l -= p);
     }
     let whitened = DVector::from_vec(statement.noise.whiten(&left));
     let amounts = bank.nuisances_in(&whitened);
-    for (nuisance, amount) in statement.nuisances.iter().zip(amounts) {
+    for (nuisance, amount) in statement.nuisances.iter().zip(&amounts) {
         left.iter_mut()
             .zip(&nuisance.column)
             .for_each(|(l, c)| *l -= amount * c);
     }
-    left
+    (left, amounts)
 }
 
 fn blamed(bank: &Bank, fit: &Fit) -> Vec<Blamed> {
@@ -232,53 +282,4 @@ fn blamed(bank: &Bank, fit: &Fit) -> Vec<Blamed> {
             }
         });
     each.collect()
-}
-
-fn answer(
-    experiment: &dyn Experiment,
-    statement: &Statement,
-    bank: &Bank,
-    (posterior, set): (&Posterior, &Scored),
-    (named, rest): (Named, Rest),
-    (missed, left): (&[f64], &[f64]),
-    judgement: &Judgement,
-) -> Answer {
-    let noise = rms(statement.noise.spread()) * set.fit.posterior.noise_variance.sqrt();
-    let before = rms(missed);
-    let share = (rms(left).powi(2) - noise * noise) / before.powi(2).max(f64::MIN_POSITIVE);
-    let remaining = experiment.remaining(left);
-    Answer {
-        verdict: verdict(&named, &rest, judgement),
-        discrepancy: Discrepancy {
-            rms: before,
-            noise_rms: noise,
-            place: experiment.place(missed),
-        },
-        causes: named.causes,
-        groups: named.groups,
-        unexplained: Structure {
-            share_of_variance: share.clamp(0.0, 1.0),
-            shape: remaining.shape,
-            over_time: remaining.over_time,
-            description: remaining.description,
-        },
-        p_value: (-rest.nats).exp(),
-        candidates: posterior
-            .sets
-            .iter()
-            .take(10)
-            .map(|s| candidate(bank, &s.0, s.1, posterior))
-            .collect(),
-        unit: experiment.unit(),
-        noise: statement.noise.describe(),
-        unstated: false,
-        doubts: Vec::new(),
-    }
-}
-
-fn candidate(bank: &Bank, set: &Scored, p: f64, posterior: &Posterior) -> Candidate {
-    let own = set.suspects.iter().map(|s| &bank.suspects[*s]);
-    let names = own.map(|s| format!("{} {}", s.effect, s.site)).collect();
-    let empty = nothing(posterior).fit.posterior.ln_evidence;
-    (names, p, set.fit.posterior.ln_evidence - empty)
 }

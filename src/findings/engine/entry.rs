@@ -44,7 +44,7 @@ pub(super) fn entries(
             };
             let square = product(columns, marginal).trace() / (rows * range.len().max(1) as f64);
             let scale = match m.size {
-                Size::Free if square > 0.0 => square.sqrt().recip(),
+                Size::Free | Size::Drawn if square > 0.0 => square.sqrt().recip(),
                 _ => 1.0,
             };
             columns

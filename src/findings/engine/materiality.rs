@@ -18,12 +18,16 @@ pub fn is_material(statement: &Statement, bank: &Bank, fit: &Fit, judgement: &Ju
     (0..parts.len()).all(|at| {
         let own = own_part(statement, bank, fit, (at, &parts[at]));
         let peaks: Vec<f64> = own.iter().map(|v| v.abs()).collect();
-        let share = match has_kin(bank, fit, at) {
-            true => judgement.share_beside_kin,
-            false => judgement.share,
+        let share = match (bank.suspect(fit.members[at]).named, has_kin(bank, fit, at)) {
+            (false, _) => judgement.left_share,
+            (true, true) => judgement.share_beside_kin,
+            (true, false) => judgement.share,
         };
+        let beside = (0..parts.len()).filter(|i| *i != at);
+        let rough = |i: usize| bank.suspect(fit.members[i]).law_error * rms(&parts[i]);
+        let missed = beside.map(rough).fold(0.0, f64::max);
         quantile(&peaks, 0.99) >= judgement.peak * noise
-            && (parts.len() == 1 || rms(&own) >= share * total)
+            && (parts.len() == 1 || rms(&own) >= (share * total).max(missed))
     })
 }
 

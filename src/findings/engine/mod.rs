@@ -27,6 +27,7 @@ mod posterior;
 pub mod rest;
 pub mod search;
 pub mod statement;
+mod told;
 pub mod unseen;
 pub mod verdict;
 

@@ -19,6 +19,21 @@ pub struct Rest {
     pub is_left: bool,
 }
 
+impl Rest {
+    /// The same where patterns beside the causes have this share of the misfit.
+    pub(super) fn with(self, share: f64, judgement: &Judgement) -> Self {
+        match share > 0.0 {
+            true => Self {
+                // a pattern that was chosen paid its price
+                nats: self.nats.max(judgement.left_nats),
+                share: self.share.max(share),
+                is_left: true,
+            },
+            false => self,
+        }
+    }
+}
+
 /// Structure that is always granted, noise deviations rms: digits and filters leave no less.
 const GRANTED: f64 = 0.15;
 /// How much more than granted is tried.

@@ -4,6 +4,7 @@
 use super::bank::{Bank, Fit};
 use super::judgement::Judgement;
 use crate::inference::gaussian::Size;
+use nalgebra::DMatrix;
 use std::collections::BTreeMap;
 
 /// A set of causes in its best shapes.
@@ -24,6 +25,10 @@ const CONTINUED: [usize; 4] = [1, 7, 3, 2];
 const EXACT: usize = 2;
 /// Leading sets whose subsets are fitted, and whose shapes are tried again beside the others.
 const LEADING: usize = 6;
+/// Drawn shapes beyond which not all of a suspect's are fitted exactly beside every base, and how many are then:
+/// they are wide, and neighbours overlap.
+const MANY: usize = 12;
+const MOST_PROMISING: usize = 6;
 /// Sizes at which a column is scanned, noise deviations.
 const SIZES: [f64; 10] = [0.3, 0.7, 1.5, 3.0, 6.0, 12.0, 25.0, 60.0, 200.0, 1000.0];
 
@@ -86,7 +91,7 @@ impl Book<'_> {
             let (suspect, member) = (bank.suspect(*m), bank.member(*m));
             let free = match member.size {
                 Size::Free => member.columns.len().saturating_sub(1) as f64,
-                Size::Given(_) => 0.0,
+                Size::Given(_) | Size::Drawn => 0.0,
             };
             j.name - suspect.share + (suspect.members.len() as f64).ln() + j.amount * free
         };
@@ -188,12 +193,13 @@ fn promising(bank: &Bank, base: &Fit, wanted: impl Fn(usize) -> bool) -> Vec<usi
     let cross = bank.cross(&base.members);
     let mut best: BTreeMap<usize, Vec<(f64, usize)>> = BTreeMap::new();
     let mut found = Vec::new();
+    let mut wide: BTreeMap<usize, Vec<(f64, usize)>> = BTreeMap::new();
     for (member, entry) in bank.entries.iter().enumerate() {
         if !wanted(entry.suspect) {
             continue;
         }
         if entry.columns.len() != 1 {
-            found.push(member);
+            wide.entry(entry.suspect).or_default().push((0.0, member));
             continue;
         }
         let row = cross.row(entry.columns.start);
@@ -208,7 +214,35 @@ fn promising(bank: &Bank, base: &Fit, wanted: impl Fn(usize) -> bool) -> Vec<usi
         own.sort_by(|a, b| b.0.total_cmp(&a.0));
         found.extend(own.iter().take(EXACT).map(|b| b.1));
     }
+    for own in wide.into_values() {
+        let is_drawn = |w: &(f64, usize)| bank.entries[w.1].size == Size::Drawn;
+        let (mut drawn, own): (Vec<_>, Vec<_>) = own.into_iter().partition(is_drawn);
+        if drawn.len() > MANY {
+            drawn
+                .iter_mut()
+                .for_each(|w| w.0 = promise(bank, base, &cross, w.1));
+            drawn.sort_by(|a, b| b.0.total_cmp(&a.0));
+            drawn.truncate(MOST_PROMISING);
+        }
+        found.extend(own.iter().chain(&drawn).map(|w| w.1));
+    }
     found
+}
+
+/// Squares that the columns of a member take of what a base leaves, each alone.
+fn promise(bank: &Bank, base: &Fit, cross: &DMatrix<f64>, member: usize) -> f64 {
+    let entry = &bank.entries[member];
+    let one = |(k, column): (usize, usize)| {
+        let row = cross.row(column);
+        let taken = (row * &base.posterior.covariance).dot(&row);
+        let pull = bank.right[column] - row.dot(&base.posterior.mean.transpose());
+        let square = entry.own[(k, k)];
+        match square - taken > 1e-6 * square {
+            true => pull * pull / (square - taken),
+            false => 0.0,
+        }
+    };
+    entry.columns.clone().enumerate().map(one).sum()
 }
 
 /// Rise of ln E by one column: rank-one update of the Student evidence, at the best of some sizes.
@@ -230,6 +264,6 @@ fn rise(bank: &Bank, base: &Fit, member: usize, (square, pull): (f64, f64)) -> O
     };
     match bank.entries[member].size {
         Size::Given(size) => Some(at(size)),
-        Size::Free => SIZES.iter().map(|s| at(*s)).reduce(f64::max),
+        Size::Free | Size::Drawn => SIZES.iter().map(|s| at(*s)).reduce(f64::max),
     }
 }

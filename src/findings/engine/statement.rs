@@ -63,7 +63,8 @@ pub struct Member {
     /// What one unit of each amount adds to the readings.
     pub columns: Vec<Vec<f64>>,
     /// The amounts' standard deviation before the data: [`Size::Given`] in units of the columns (one for
-    /// all: scale the columns), or [`Size::Free`] where nobody knows how large the effect is.
+    /// all: scale the columns), or [`Size::Free`] where nobody knows how large the effect is,
+    /// [`Size::Drawn`] where many amounts follow one prior.
     pub size: Size,
     /// Where physics fixes the sign: weights of the amounts whose sum must come out positive.
     pub positive: Option<Vec<f64>>,
@@ -120,6 +121,12 @@ pub struct Suspect {
     pub share: f64,
     /// Its shapes.
     pub members: Vec<Member>,
+    /// Whether it is a cause of the library. A pattern that none of them has competes with them, so that it
+    /// takes none of their names, and is never named.
+    pub named: bool,
+    /// Share of its own size by which its law may miss nature: a companion must be above that. 0 where
+    /// [`Judgement::share`](super::Judgement::share) says enough.
+    pub law_error: f64,
 }
 
 /// The linear statement of a diagnosis: reading = nuisances + causes + noise.
@@ -139,6 +146,23 @@ pub struct Statement {
     /// Ways to hold out rows, coarse first: the fold of every row.
     pub splits: Vec<Vec<usize>>,
 }
+
+impl Statement {
+    /// Whether the readings are those of another statement to well within the noise.
+    pub fn reads_as(&self, other: &Statement) -> bool {
+        let each = self
+            .reading
+            .iter()
+            .zip(&other.reading)
+            .zip(self.noise.spread());
+        each.map(|((a, b), s)| (a - b).abs() / s)
+            .fold(0.0, f64::max)
+            < ALIKE
+    }
+}
+
+/// Noise deviations below which two readings are one.
+const ALIKE: f64 = 0.3;
 
 /// A cause in a chosen set.
 #[derive(Debug, Clone, PartialEq)]
@@ -174,9 +198,18 @@ pub trait Experiment: Sync {
     fn unit(&self) -> &'static str;
     /// The linear statement about these causes; linear kinds ignore them.
     fn state(&self, about: &[Blamed]) -> Statement;
+    /// The same with what is merely uncertain as found too, an amount for each nuisance of the statement; in
+    /// the new statement these too are totals. Kinds whose readings are linear in it ignore it.
+    fn state_beside(&self, about: &[Blamed], _uncertain: &[f64]) -> Statement {
+        self.state(about)
+    }
     /// Whether [`Experiment::state`] depends on the causes.
     fn is_linear(&self) -> bool {
         true
+    }
+    /// Whether a statement about what was found says the same as the one before, so that nobody need look again.
+    fn is_settled(&self, _before: &Statement, _after: &Statement) -> bool {
+        false
     }
     /// Whether laws are only nearly right, so that a small misfit of a large effect does not tell which of
     /// them is at work.

@@ -73,6 +73,8 @@ impl Experiment for Toy {
             mechanism: effect,
             share: 0.0,
             members,
+            named: true,
+            law_error: 0.0,
         };
         let cosine = |k: usize, i: usize| {
             (std::f64::consts::PI * k as f64 * (i as f64 + 0.5) / rows as f64).cos() / k as f64

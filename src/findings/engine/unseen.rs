@@ -79,7 +79,7 @@ impl Design {
             let scale = bank.entries[*member].scale;
             let size = match own.size {
                 Size::Given(size) => size,
-                Size::Free => fit
+                Size::Free | Size::Drawn => fit
                     .members
                     .iter()
                     .position(|m| m == member)

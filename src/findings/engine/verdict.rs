@@ -33,8 +33,11 @@ pub fn name(
     let mut named = Named::default();
     for (at, suspect) in set.suspects.iter().enumerate() {
         let own = &bank.suspects[*suspect];
+        if !own.named {
+            continue;
+        }
         let mut rivals = posterior.stand_ins(set, *suspect);
-        rivals.retain(|r| r.1 > judgement.ambiguous);
+        rivals.retain(|r| r.1 > judgement.ambiguous && bank.suspects[r.0].named);
         rivals.truncate(LARGEST_GROUP - 1);
         let total: f64 = 1.0 + rivals.iter().map(|r| r.1).sum::<f64>();
         if !rivals.is_empty() {
@@ -76,7 +79,8 @@ fn alternatives(
     set: &Scored,
     suspect: usize,
 ) -> Vec<(&'static str, String, f64)> {
-    let rivals = posterior.stand_ins(set, suspect);
+    let mut rivals = posterior.stand_ins(set, suspect);
+    rivals.retain(|r| bank.suspects[r.0].named);
     let told = rivals.iter().take(3).filter(|r| r.1 > 1e-3);
     told.map(|(s, odds)| {
         (

@@ -1,6 +1,7 @@
 //! The statement of a force-sensor test for the engine.
 
-use super::{Case, EFFECTS};
+use super::patterns::PATTERNS;
+use super::{Case, EFFECTS, hose_force, thermal_drift};
 use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, White};
 use crate::findings::table;
 use crate::fit::force_sensor::remainder::terms;
@@ -10,9 +11,28 @@ const USUAL: f64 = 0.01;
 /// Centres are known to this at best, m.
 const PLACE: f64 = 5e-4;
 
+/// What the shapes of a hose and of a drift miss of any hose and any drift.
+const ROUGH: [(&str, f64); 2] = [
+    (hose_force::EFFECT.name, 0.15),
+    (thermal_drift::EFFECT.name, 0.06),
+];
+
 impl Experiment for Case {
     fn unit(&self) -> &'static str {
         "N"
+    }
+
+    /// Turns of some degrees, and two causes that multiply, are not linear.
+    fn is_linear(&self) -> bool {
+        false
+    }
+
+    fn is_settled(&self, before: &Statement, after: &Statement) -> bool {
+        after.reads_as(before)
+    }
+
+    fn state_beside(&self, about: &[Blamed], uncertain: &[f64]) -> Statement {
+        self.beside(about, uncertain).state(&[])
     }
 
     fn state(&self, _: &[Blamed]) -> Statement {
@@ -24,7 +44,11 @@ impl Experiment for Case {
                 rows: worth,
             }),
             nuisances: self.nuisances(),
-            suspects: table::suspects(EFFECTS, self),
+            suspects: [
+                table::rough(table::suspects(EFFECTS, self), &ROUGH),
+                table::patterns(PATTERNS, self),
+            ]
+            .concat(),
             span: self.span(),
             splits: self.splits(),
         }

@@ -1,7 +1,7 @@
 //! One axis of the sensor reads too much or too little: its force, or its force and moment.
 
 use super::Case;
-use crate::findings::engine::Member;
+use crate::findings::engine::{Blamed, Member};
 use crate::findings::table::{Effect, Place};
 
 pub(super) const EFFECT: Effect<Case> = Effect {
@@ -16,6 +16,18 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     parameters: |_, blamed| vec![("gain_error", blamed.amounts[0], "1")],
     would_tell: "hang a known weight on the sensor in all directions",
 };
+
+/// The channels that a gain was found on.
+pub(super) fn axes(blamed: &Blamed) -> impl Iterator<Item = usize> {
+    let first = ["sensor-x", "sensor-y", "sensor-z"]
+        .iter()
+        .position(|s| *s == blamed.site);
+    let both = blamed.shape.first() == Some(&1.0);
+    first
+        .into_iter()
+        .flat_map(move |k| [Some(k), both.then_some(k + 3)])
+        .flatten()
+}
 
 fn members(case: &Case, axis: usize) -> Vec<Member> {
     let own = |both: bool| {

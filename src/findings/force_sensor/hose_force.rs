@@ -1,10 +1,10 @@
-//! The pull of a hose: a smooth load over the orientation, as the even quadratic of the quaternion (one and
-//! the entries of R), on the forces, or on forces and moments.
+//! The pull of a hose: from a place on the tool towards a far point, or any smooth load over the orientation, as
+//! the even quadratic of the quaternion (one and the entries of R), on forces, moments or both.
 
 use super::Case;
 use crate::findings::engine::Member;
-use crate::findings::table::{Effect, Place};
-use crate::inference::gaussian::Size;
+use crate::findings::table::{self, Effect, Place};
+use crate::ground::spatial::{V3, cross, norm, rotate_back, scale};
 use crate::measurement::force_sensor::matrix;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
@@ -13,22 +13,10 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     mechanism: "hose",
     places: |case| vec![Place::new("tool", members(case))],
     parameters: |case, blamed| {
-        let per = blamed.amounts.len() / blamed.shape.len().max(1);
-        let rms = |channel: usize| {
-            let own = &blamed.amounts[channel * per..(channel + 1) * per];
-            let at = |i: usize| {
-                entries(case, i)
-                    .iter()
-                    .zip(own)
-                    .map(|(e, a)| e * a)
-                    .sum::<f64>()
-            };
-            let n = case.test.readings.len();
-            ((0..n).map(|i| at(i).powi(2)).sum::<f64>() / n as f64).sqrt()
-        };
-        let forces = blamed.shape.iter().enumerate().filter(|(_, c)| **c < 3.0);
-        let square: f64 = forces.map(|(k, _)| rms(k).powi(2)).sum();
-        vec![("force_rms", square.sqrt(), "N")]
+        let square = |i: usize| (0..3).map(|c| blamed.part[6 * i + c].powi(2)).sum::<f64>();
+        let n = case.test.readings.len();
+        let mean = (0..n).map(square).sum::<f64>() / n as f64;
+        vec![("force_rms", mean.sqrt(), "N")]
     },
     would_tell: "take the hose off and repeat",
 };
@@ -40,23 +28,113 @@ fn entries(case: &Case, i: usize) -> Vec<f64> {
         .to_vec()
 }
 
+/// Distance from the sensor at which a hose is tied to the tool, m: the scale of its moments, no more.
+const TIED: f64 = 0.1;
+/// Rings of directions between the vertical and the horizon in which the far end of a hose is looked for, and
+/// how many lie on the horizon: a quarter of a radian apart, and what lies between is fitted along.
+const RINGS: usize = 4;
+const ON_HORIZON: f64 = 9.0;
+
 fn members(case: &Case) -> Vec<Member> {
-    let member = |channels: &[usize]| {
+    let any = |channels: std::ops::Range<usize>| {
         let one = |own: usize, k: usize| {
             case.column(|i, c| if c == own { entries(case, i)[k] } else { 0.0 })
         };
-        Member {
-            columns: channels
-                .iter()
-                .flat_map(|own| (0..9).map(move |k| one(*own, k)))
-                .collect(),
-            size: Size::Free,
-            positive: None,
-            shape: channels.iter().map(|c| *c as f64).collect(),
-        }
+        let columns = channels.flat_map(|own| (0..9).map(move |k| (own, k)));
+        table::flexible(columns.map(|(own, k)| one(own, k)).collect())
     };
     match case.test.readings.len() {
         0..12 => Vec::new(),
-        _ => vec![member(&[0, 1, 2]), member(&[0, 1, 2, 3, 4, 5])],
+        _ => {
+            let ways = directions().into_iter();
+            let tied = ways.flat_map(|way| table::flexible(towards(case, way)));
+            tied.chain(any(0..3))
+                .chain(any(0..6))
+                .chain(any(3..6))
+                .collect()
+        }
     }
+}
+
+/// Directions over half a sphere, base frame: a pull the other way is one of the other sign.
+fn directions() -> Vec<V3> {
+    let mut all = vec![[0.0, 0.0, 1.0]];
+    for ring in 1..=RINGS {
+        let down = std::f64::consts::FRAC_PI_2 * ring as f64 / RINGS as f64;
+        let count = (ON_HORIZON * down.sin()).round().max(3.0) as usize;
+        let turn = if ring == RINGS {
+            std::f64::consts::PI
+        } else {
+            std::f64::consts::TAU
+        };
+        let count = if ring == RINGS { count } else { 2 * count };
+        all.extend((0..count).map(|k| {
+            let about = turn * k as f64 / count as f64;
+            [
+                down.sin() * about.cos(),
+                down.sin() * about.sin(),
+                down.cos(),
+            ]
+        }));
+    }
+    all
+}
+
+/// A hose from the tool to a far point: it pulls that way, more or less as its end on the tool comes nearer
+/// (which is first of all the end along the sensor's z), and with the lever of that end.
+fn towards(case: &Case, way: V3) -> Vec<Vec<f64>> {
+    let aside = across(way);
+    let pull = |i: usize, along: V3| rotate_back(&matrix(case.test.readings[i].quaternion), along);
+    let column = |of: &dyn Fn(usize) -> (V3, V3)| {
+        case.column(|i, c| {
+            let (force, moment) = of(i);
+            if c < 3 { force[c] } else { moment[c - 3] }
+        })
+    };
+    const NONE: V3 = [0.0; 3];
+    let lever = |k: usize, force: V3| {
+        cross(
+            std::array::from_fn(|j| if j == k { TIED } else { 0.0 }),
+            force,
+        )
+    };
+    let near = |i: usize, power: i32| pull(i, way)[2].powi(power);
+    let mut columns: Vec<Vec<f64>> = (0..3)
+        .map(|power| column(&|i| (scale(near(i, power), pull(i, way)), NONE)))
+        .collect();
+    columns.push(column(&|i| {
+        (NONE, scale(near(i, 1), lever(2, pull(i, way))))
+    }));
+    columns.extend(aside.map(|other| column(&|i| (pull(i, other), lever(2, pull(i, other))))));
+    columns.extend([0, 1, 2].map(|k| column(&|i| (NONE, lever(k, pull(i, way))))));
+    // the end on the tool moves against the far one: seen from the tool, a constant
+    let unit = |k: usize| -> V3 { std::array::from_fn(|j| f64::from(u8::from(j == k))) };
+    columns.extend([0, 1, 2].map(|k| column(&|_| (unit(k), NONE))));
+    columns.push(column(&|i| (NONE, scale(TIED * wound(case, i), unit(2)))));
+    columns
+}
+
+/// How far a hose along the sensor's z is wound, in half turns: the twist about z of the orientation.
+fn wound(case: &Case, i: usize) -> f64 {
+    let [w, _, _, z] = case.test.readings[i].quaternion;
+    let twist = 2.0 * z.atan2(w) / std::f64::consts::PI;
+    if twist > 1.0 {
+        twist - 2.0
+    } else if twist < -1.0 {
+        twist + 2.0
+    } else {
+        twist
+    }
+}
+
+/// Two directions across a third.
+fn across(way: V3) -> [V3; 2] {
+    let other = if way[2].abs() < 0.9 {
+        [0.0, 0.0, 1.0]
+    } else {
+        [1.0, 0.0, 0.0]
+    };
+    let first = cross(way, other);
+    let first = scale(norm(first).recip(), first);
+    [first, cross(way, first)]
 }

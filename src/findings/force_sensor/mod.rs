@@ -1,6 +1,7 @@
 //! What is wrong with a force sensor or its load: readings of a sensor that touches nothing, less what the
 //! nominal tool makes.
 
+mod about;
 mod base_tilt;
 mod centre_of_mass;
 mod cross_talk;
@@ -8,16 +9,19 @@ mod experiment;
 mod force_gain;
 mod hose_force;
 mod outlier_point;
+mod patterns;
 mod sensor_offset;
 mod sensor_rotation;
 mod thermal_drift;
 mod tool_weight;
 
+use super::engine::Blamed;
 use super::table::Effect;
-use crate::fit::force_sensor::statics::{N, reading, slopes};
+use crate::fit::force_sensor::statics::N;
 use crate::fit::force_sensor::{Account, identify};
 use crate::ground::problem::Outcome;
 use crate::measurement::force_sensor::SensorTest;
+use about::{About, IDENTITY};
 
 /// Every effect of this kind.
 pub const EFFECTS: &[Effect<Case>] = &[
@@ -42,11 +46,9 @@ pub struct Case {
     pub nominal: [f64; N],
     /// Whether the file states weight and centre.
     pub stated: [bool; 2],
-    /// Slopes of every reading's six channels along the parameters.
-    pub slopes: Vec<[[f64; N]; 6]>,
-    /// What the simulation says, row by row, N.
-    pub simulated: Vec<f64>,
-    /// Measured less simulated, N.
+    /// What it is stated about: the nominal one, or one with what was found in place.
+    pub(super) about: About,
+    /// Measured less simulated, what was found with its slopes beside, N.
     pub missed: Vec<f64>,
     /// Noise of a row, N, and the rows it is worth.
     pub noise: (f64, f64),
@@ -66,48 +68,46 @@ impl Case {
     pub fn new(test: SensorTest) -> Outcome<Self> {
         let fit = identify(std::slice::from_ref(&test))?;
         let nominal = nominal(&test, &fit);
-        let noise = noise(&test, &fit);
-        let arm = noise[1] / noise[0];
-        let unit = |c: usize| if c < 3 { 1.0 } else { arm };
-        let model: Vec<[f64; 6]> = test
-            .readings
-            .iter()
-            .map(|r| reading(&nominal, r.quaternion))
-            .collect();
-        let simulated: Vec<f64> = model
-            .iter()
-            .flat_map(|m| (0..6).map(|c| m[c] / unit(c)).collect::<Vec<_>>())
-            .collect();
-        let measured = test
-            .readings
-            .iter()
-            .flat_map(|r| (0..6).map(|c| r.load[c] / unit(c)).collect::<Vec<_>>());
-        let missed = measured.zip(&simulated).map(|(m, s)| m - s).collect();
-        let freedom = (6 * fit.poses.len()) as f64 - N as f64;
-        Ok(Self {
-            slopes: test
-                .readings
-                .iter()
-                .map(|r| slopes(&nominal, r.quaternion))
-                .collect(),
+        let points = points(&test);
+        let (noise, worth) = noise(&test, &fit, &points.0);
+        let mut case = Self {
             stated: [
                 test.facts.nominal_weight.is_some(),
                 test.facts.nominal_com.is_some(),
             ],
-            points: points(&test),
-            progress: progress(&test),
-            noise: (noise[0], freedom.clamp(1.0, 60.0)),
-            missed,
-            simulated,
+            progress: progress(&test, points.1.len()),
+            about: About::of(&test, nominal, IDENTITY),
+            arm: noise[1] / noise[0],
+            noise: (noise[0], worth),
+            missed: Vec::new(),
+            points,
             nominal,
-            arm,
             test,
-        })
+        };
+        case.missed = case.column(|i, c| case.test.readings[i].load[c] - case.about.shown[i][c]);
+        Ok(case)
+    }
+
+    /// The same about causes and uncertain numbers that were found: turned far, or multiplied with one another,
+    /// they are not linear.
+    pub(super) fn beside(&self, causes: &[Blamed], uncertain: &[f64]) -> Self {
+        let about = self.about.with(&self.test, causes, uncertain);
+        let moved = about.moved(&self.nominal);
+        let left =
+            |i: usize, c: usize| self.test.readings[i].load[c] - about.shown[i][c] + moved[i][c];
+        Self {
+            missed: self.column(left),
+            about,
+            test: self.test.clone(),
+            points: self.points.clone(),
+            progress: self.progress.clone(),
+            ..*self
+        }
     }
 
     /// Number of rows.
     pub fn rows(&self) -> usize {
-        self.missed.len()
+        6 * self.test.readings.len()
     }
 
     /// A column from reading and channel, N or N·m.
@@ -120,12 +120,12 @@ impl Case {
 
     /// The column of a parameter of the statics.
     pub fn parameter(&self, j: usize) -> Vec<f64> {
-        self.column(|i, c| self.slopes[i][c][j])
+        self.column(|i, c| self.about.slopes[i][c][j])
     }
 
     /// What the weight makes in a channel of a reading, N or N·m.
     pub fn load(&self, i: usize, c: usize) -> f64 {
-        self.simulated[6 * i + c] * if c < 3 { 1.0 } else { self.arm }
+        self.about.load[i][c]
     }
 }
 
@@ -140,8 +140,15 @@ fn nominal(test: &SensorTest, fit: &Account) -> [f64; N] {
     nominal
 }
 
-/// As the file says, else what the fit leaves once a polynomial over the orientation is taken out too.
-fn noise(test: &SensorTest, fit: &Account) -> [f64; 2] {
+/// Rows that a stated noise is worth.
+const WORTH: f64 = 60.0;
+/// Repeated readings from which they tell the noise, degrees of freedom.
+const TELLING: usize = 12;
+
+/// As the file says, else by how readings of one point differ, else what the fit leaves once a polynomial over
+/// the orientation is taken out too; and the rows it is worth. What a fit leaves may hold what is wrong: it is
+/// worth nothing against the readings themselves.
+fn noise(test: &SensorTest, fit: &Account, points: &[usize]) -> ([f64; 2], f64) {
     let left = fit.remainder.held_out;
     let size = test
         .readings
@@ -149,8 +156,43 @@ fn noise(test: &SensorTest, fit: &Account) -> [f64; 2] {
         .flat_map(|r| r.load)
         .map(f64::abs)
         .fold(1e-6, f64::max);
-    let told = [0, 1].map(|k| fit.fitted.noise[k].min(left[k]).max(1e-6 * size));
-    [0, 1].map(|k| test.facts.noise[k].unwrap_or(told[k]))
+    let per_point = (test.readings.len() as f64 / fit.poses.len().max(1) as f64).sqrt();
+    let told = [0, 1].map(|k| (per_point * fit.fitted.noise[k].min(left[k])).max(1e-6 * size));
+    let (repeated, freedom) = repeated(test, points);
+    let repeats = freedom >= TELLING && repeated.iter().all(|n| *n > 1e-6 * size);
+    let found = if repeats { repeated } else { told };
+    let stated = test.facts.noise.iter().all(Option::is_some);
+    let worth = match (stated, repeats) {
+        (true, _) => WORTH,
+        (_, true) => (freedom as f64).min(WORTH),
+        _ => 0.0,
+    };
+    (
+        [0, 1].map(|k| test.facts.noise[k].unwrap_or(found[k])),
+        worth,
+    )
+}
+
+/// How readings of one point scatter, forces and moments, and the degrees of freedom of either.
+fn repeated(test: &SensorTest, points: &[usize]) -> ([f64; 2], usize) {
+    let count = points.iter().max().map_or(0, |p| p + 1);
+    let (mut squares, mut freedom) = ([0.0; 2], 0);
+    for point in 0..count {
+        let own = || {
+            test.readings
+                .iter()
+                .zip(points)
+                .filter(|(_, p)| **p == point)
+                .map(|(r, _)| r)
+        };
+        let n = own().count();
+        for c in 0..6 {
+            let mean = own().map(|r| r.load[c]).sum::<f64>() / n as f64;
+            squares[c / 3] += own().map(|r| (r.load[c] - mean).powi(2)).sum::<f64>();
+        }
+        freedom += 3 * (n - 1);
+    }
+    (squares.map(|s| (s / freedom.max(1) as f64).sqrt()), freedom)
 }
 
 fn points(test: &SensorTest) -> (Vec<usize>, Vec<i64>) {
@@ -170,9 +212,12 @@ fn points(test: &SensorTest) -> (Vec<usize>, Vec<i64>) {
     (own, names)
 }
 
-fn progress(test: &SensorTest) -> Vec<f64> {
+/// Time of every reading from when the sensor was set to zero, one step before the first point, to the last.
+fn progress(test: &SensorTest, points: usize) -> Vec<f64> {
     let time: Vec<f64> = test.readings.iter().map(|r| r.time).collect();
     let told = time.iter().all(|t| t.is_finite()) && time.iter().any(|t| *t != time[0]);
     let order: Vec<f64> = (0..time.len()).map(|i| i as f64).collect();
-    super::table::unit_range(if told { &time } else { &order })
+    let lead = (points.max(2) as f64 - 1.0).recip();
+    let each = super::table::unit_range(if told { &time } else { &order });
+    each.iter().map(|u| (u + lead) / (1.0 + lead)).collect()
 }

@@ -44,7 +44,7 @@ fn members(case: &Case, at: usize) -> Vec<Member> {
         let axis: V3 = std::array::from_fn(|j| f64::from(u8::from(j == k)));
         case.column(|i, c| {
             let first = 3 * (c / 3);
-            let load: V3 = std::array::from_fn(|j| case.slopes[i][j][0] * case.nominal[0]);
+            let load: V3 = std::array::from_fn(|j| case.load(i, j));
             match (here(i), first) {
                 (false, _) => 0.0,
                 // the weight turns against the sensor, its moment follows about the centre of mass

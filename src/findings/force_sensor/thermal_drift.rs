@@ -2,7 +2,7 @@
 
 use super::Case;
 use crate::findings::engine::Member;
-use crate::findings::table::{Effect, Place};
+use crate::findings::table::{self, Effect, Place};
 use crate::inference::gaussian::Size;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
@@ -10,12 +10,11 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     summary: "The zero of the sensor drifts during the test.",
     mechanism: "drift",
     places: |case| vec![Place::new("sensor", members(case))],
-    parameters: |_, blamed| {
-        let forces = blamed.shape[1..]
-            .iter()
-            .zip(&blamed.amounts)
-            .filter(|(c, _)| **c < 3.0);
-        let square: f64 = forces.map(|(_, a)| a * a).sum();
+    parameters: |case, blamed| {
+        // from the first reading to the last
+        let last = case.test.readings.len().saturating_sub(1);
+        let way = |c: usize| blamed.part[6 * last + c] - blamed.part[c];
+        let square: f64 = (0..3).map(|c| way(c).powi(2)).sum();
         vec![("drift", square.sqrt(), "N")]
     },
     would_tell: "let the sensor warm up, and repeat the first orientation at the end",
@@ -23,14 +22,21 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 
 /// Time constants over the length of the test; 0: in proportion to time.
 const CONSTANTS: [f64; 3] = [0.0, 0.2, 0.5];
+/// Those of a sensor whose parts warm one after the other, fitted together.
+const TOGETHER: [f64; 3] = [0.1, 0.3, 1.0];
 
 fn members(case: &Case) -> Vec<Member> {
     let channels: [&[usize]; 5] = [&[0], &[1], &[2], &[0, 1, 2], &[0, 1, 2, 3, 4, 5]];
     let pairs = CONSTANTS
         .iter()
         .flat_map(|constant| channels.iter().map(move |own| (*constant, *own)));
-    pairs
-        .map(|(constant, own)| member(case, constant, own))
+    let single = pairs.map(|(constant, own)| member(case, constant, own));
+    let all = TOGETHER
+        .iter()
+        .flat_map(|constant| member(case, *constant, channels[4]).columns);
+    let many = table::flexible(all.collect());
+    single
+        .chain(many.into_iter().map(|m| m.shaped(&[TOGETHER[0]])))
         .collect()
 }
 

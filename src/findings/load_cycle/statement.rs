@@ -169,6 +169,8 @@ fn anonymous(member: &Member) -> Suspect {
         mechanism: "",
         share: 0.0,
         members: vec![member.clone()],
+        named: true,
+        law_error: 0.0,
     }
 }
 

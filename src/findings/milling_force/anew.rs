@@ -1,6 +1,7 @@
 //! The statement about causes that were found: every effect is looked at with all others in place, so that
 //! what is not linear, and what a sensor makes of it, comes out right.
 
+use super::patterns::PATTERNS;
 use super::setting::PROCESS;
 use super::{Case, EFFECTS, coefficients, cross_talk, force_gain};
 use crate::findings::engine::{Blamed, Statement, Suspect};
@@ -30,7 +31,8 @@ pub(super) fn about(case: &Case, blamed: &[Blamed]) -> Statement {
         add_to(&mut reading, &forces, 1.0);
         add_to(&mut reading, &without.forces(), -1.0);
     }
-    let suspects = EFFECTS.iter().flat_map(|e| anew.suspects(e)).collect();
+    let mut suspects: Vec<Suspect> = EFFECTS.iter().flat_map(|e| anew.suspects(e)).collect();
+    suspects.extend(table::patterns(PATTERNS, &anew.all));
     Statement {
         reading,
         suspects,

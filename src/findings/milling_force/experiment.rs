@@ -1,6 +1,7 @@
 //! The statement of a milling-force file for the engine.
 
 use super::aim::Loose;
+use super::patterns::PATTERNS;
 use super::{Case, EFFECTS};
 use crate::cutting::wave::Side;
 use crate::experiments::milling_force::RUNOUT;
@@ -32,7 +33,11 @@ impl Experiment for Case {
     fn state(&self, about: &[Blamed]) -> Statement {
         match about {
             [] => Statement {
-                suspects: table::suspects(EFFECTS, self),
+                suspects: [
+                    table::suspects(EFFECTS, self),
+                    table::patterns(PATTERNS, self),
+                ]
+                .concat(),
                 ..self.statement()
             },
             _ => super::anew::about(self, about),

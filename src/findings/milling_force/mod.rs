@@ -11,6 +11,7 @@ mod engagement;
 mod experiment;
 mod force_gain;
 mod lines;
+mod patterns;
 mod revolution;
 mod ringing;
 mod runout;

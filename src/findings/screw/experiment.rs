@@ -1,5 +1,6 @@
 //! The statement of a screw test for the engine.
 
+use super::patterns::PATTERNS;
 use super::{Case, EFFECTS, wear_zone};
 use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, Suspect, White};
 use crate::findings::table;
@@ -78,18 +79,14 @@ impl Case {
                 suspect.members = wear_zone::about(self, &zone.shape);
             }
         }
+        suspects.extend(table::patterns(PATTERNS, self));
         suspects
     }
 
     /// Any smooth error over the travel, over the way forth and back, and over the order of the readings.
     fn span(&self) -> Vec<Vec<f64>> {
         let u = table::unit_range(&self.at);
-        let targets = {
-            let mut t: Vec<i64> = self.at.iter().map(|x| (x * 1e9).round() as i64).collect();
-            t.sort_unstable();
-            t.dedup();
-            t.len()
-        };
+        let targets = self.targets();
         let mut span = table::waves(&u, (targets / 2).clamp(2, 36));
         for wave in table::waves(&u, (targets / 4).clamp(1, 12)) {
             span.push(

@@ -4,6 +4,7 @@ mod backlash;
 mod cyclic_error;
 mod experiment;
 mod outlier_run;
+mod patterns;
 mod pitch_scale;
 mod thermal_growth;
 mod wear_zone;
@@ -36,6 +37,8 @@ pub struct Case {
     pub side: Vec<f64>,
     /// Warmth of every row: temperature, else time, else the order of the readings; 0 to 1.
     pub progress: Vec<f64>,
+    /// Time of every row, else the order of the readings; 0 to 1.
+    pub lapse: Vec<f64>,
     /// Whether it is a temperature, K per unit where it is.
     pub temperature_range: Option<f64>,
     /// Half of the travel, m.
@@ -57,13 +60,10 @@ impl Case {
         let temperature: Vec<f64> = test.readings.iter().map(|r| r.temperature).collect();
         let time: Vec<f64> = test.readings.iter().map(|r| r.time).collect();
         let told = |v: &[f64]| v.iter().all(|x| x.is_finite()) && v.iter().any(|x| *x != v[0]);
-        let order: Vec<f64> = (0..deviation.len()).map(|i| i as f64).collect();
+        let order = order(&test);
         let warm = told(&temperature);
-        let progress = match (warm, told(&time)) {
-            (true, _) => &temperature,
-            (_, true) => &time,
-            _ => &order,
-        };
+        let lapse = if told(&time) { &time } else { &order };
+        let progress = if warm { &temperature } else { lapse };
         let range = temperature
             .iter()
             .copied()
@@ -78,6 +78,7 @@ impl Case {
                 .map(|r| if r.forward { -0.5 } else { 0.5 })
                 .collect(),
             progress: super::table::unit_range(progress),
+            lapse: super::table::unit_range(lapse),
             temperature_range: warm.then_some(range),
             half: (0.5 * (high - low)).max(f64::MIN_POSITIVE),
             sight: Sight::of(&target, test.facts.pitch),
@@ -102,6 +103,14 @@ impl Case {
         self.side.iter().any(|s| *s > 0.0) && self.side.iter().any(|s| *s < 0.0)
     }
 
+    /// How many targets there are.
+    pub fn targets(&self) -> usize {
+        let mut all: Vec<i64> = self.at.iter().map(|x| (x * 1e9).round() as i64).collect();
+        all.sort_unstable();
+        all.dedup();
+        all.len()
+    }
+
     /// Numbers of the runs, ascending.
     pub fn runs(&self) -> Vec<i64> {
         let mut runs: Vec<i64> = self.test.readings.iter().map(|r| r.run).collect();
@@ -111,44 +120,86 @@ impl Case {
     }
 }
 
-/// Noise of a reading from what does not repeat at a target once each run's own mean is taken out (by
-/// medians, so that one wild run does not count), and its degrees of freedom.
-fn noise(test: &ScrewTest, deviation: &[f64]) -> (f64, f64) {
-    let key = |i: usize| {
-        (
-            test.readings[i].forward,
-            (test.readings[i].target * 1e9).round() as i64,
-        )
-    };
-    let mut groups: BTreeMap<(bool, i64), Vec<usize>> = BTreeMap::new();
-    (0..deviation.len()).for_each(|i| groups.entry(key(i)).or_default().push(i));
-    let mut left = deviation.to_vec();
-    for _ in 0..2 {
-        centre(&mut left, groups.values());
-        let mut runs: BTreeMap<(i64, bool), Vec<usize>> = BTreeMap::new();
-        for (i, r) in test.readings.iter().enumerate() {
-            runs.entry((r.run, r.forward)).or_default().push(i);
-        }
-        centre(&mut left, runs.values());
+/// The order of the readings: that of the file, or, where it is sorted otherwise, the one in which an axis
+/// passes its targets.
+fn order(test: &ScrewTest) -> Vec<f64> {
+    let readings = &test.readings;
+    let mut rows: Vec<usize> = (0..readings.len()).collect();
+    if !readings.windows(2).all(|w| w[0].run <= w[1].run) {
+        let passed = |i: usize| {
+            let r = &readings[i];
+            (
+                r.run,
+                !r.forward,
+                if r.forward { r.target } else { -r.target },
+            )
+        };
+        rows.sort_by(|a, b| {
+            let order = passed(*a).partial_cmp(&passed(*b));
+            order.unwrap_or(std::cmp::Ordering::Equal)
+        });
     }
-    let repeated: Vec<&Vec<usize>> = groups.values().filter(|g| g.len() > 1).collect();
-    let freedom: usize = repeated.iter().map(|g| g.len() - 1).sum();
-    let squares: f64 = repeated
-        .iter()
-        .flat_map(|g| g.iter())
-        .map(|i| left[*i].powi(2))
-        .sum();
+    let mut order = vec![0.0; rows.len()];
+    rows.iter()
+        .enumerate()
+        .for_each(|(at, row)| order[*row] = at as f64);
+    order
+}
+
+/// A step between neighbours this many times as large as usual is one, and no noise.
+const STEP: f64 = 6.0;
+/// Readings that a difference of neighbours is worth (white noise: its fourth moment over that of one reading).
+const NEIGHBOURS: f64 = 2.0 / 3.0;
+
+/// Noise of a reading from how what does not repeat at a target differs between neighbours of one sweep, so that
+/// neither a screw that grows nor a run that slipped counts as noise; and the readings that it is worth.
+fn noise(test: &ScrewTest, deviation: &[f64]) -> (f64, f64) {
+    let place = |i: usize| (test.readings[i].target * 1e9).round() as i64;
+    let mut left = deviation.to_vec();
+    let at_target = grouped(test, |i| (i64::from(test.readings[i].forward), place(i)));
+    centre(&mut left, at_target.iter());
+    let mut squares = Vec::new();
+    for mut sweep in grouped(test, |i| {
+        (test.readings[i].run, i64::from(test.readings[i].forward))
+    }) {
+        sweep.sort_by_key(|i| place(*i));
+        squares.extend(
+            sweep
+                .windows(2)
+                .map(|w| 0.5 * (left[w[1]] - left[w[0]]).powi(2)),
+        );
+    }
+    let usual = crate::signal::outliers::median(&squares) / MEDIAN_SQUARE;
+    squares.retain(|s| usual <= 0.0 || *s <= STEP * STEP * usual);
+    let repeated = at_target.iter().filter(|g| g.len() > 1);
+    let freedom: usize = repeated.map(|g| g.len() - 1).sum();
+    let share = freedom as f64 / left.len().max(1) as f64;
     let floor = test.facts.scale_noise.unwrap_or(1e-8).max(1e-9);
     match freedom {
         0..4 => (floor, 0.0),
-        n => ((squares / n as f64).sqrt().max(0.3 * floor), n as f64),
+        n => {
+            let mean = squares.iter().sum::<f64>() / squares.len().max(1) as f64;
+            (
+                (mean / share).sqrt().max(0.3 * floor),
+                NEIGHBOURS * n as f64,
+            )
+        }
     }
+}
+
+/// Median of the square of a normal variable.
+const MEDIAN_SQUARE: f64 = 0.454_936_4;
+
+/// Rows by a key.
+fn grouped(test: &ScrewTest, key: impl Fn(usize) -> (i64, i64)) -> Vec<Vec<usize>> {
+    let mut groups: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
+    (0..test.readings.len()).for_each(|i| groups.entry(key(i)).or_default().push(i));
+    groups.into_values().collect()
 }
 
 fn centre<'a>(values: &mut [f64], groups: impl Iterator<Item = &'a Vec<usize>>) {
     for group in groups {
-        let own: Vec<f64> = group.iter().map(|i| values[*i]).collect();
-        let middle = crate::signal::outliers::median(&own);
+        let middle = group.iter().map(|i| values[*i]).sum::<f64>() / group.len() as f64;
         group.iter().for_each(|i| values[*i] -= middle);
     }
 }

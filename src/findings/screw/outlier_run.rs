@@ -48,5 +48,34 @@ fn members(case: &Case, run: i64) -> Vec<Member> {
     if case.both_ways() {
         members.extend([way(1.0), way(-1.0)]);
     }
+    members.extend(slips(case, run));
     members
+}
+
+/// Places within a run at which its zero may have slipped.
+const SLIPS: usize = 24;
+
+/// A zero that slipped within the run: all readings from one on, in the order in which an axis passes its
+/// targets (a file may be sorted by target).
+fn slips(case: &Case, run: i64) -> Vec<Member> {
+    let mut own: Vec<usize> = (0..case.rows())
+        .filter(|i| case.test.readings[*i].run == run)
+        .collect();
+    let way = |i: usize| if case.side[i] < 0.0 { 1.0 } else { -1.0 };
+    own.sort_by(|a, b| {
+        let of = |i: usize| (case.side[i], way(i) * case.at[i]);
+        of(*a)
+            .partial_cmp(&of(*b))
+            .unwrap_or(std::cmp::Ordering::Equal)
+    });
+    let step = own.len().div_ceil(SLIPS).max(1);
+    let from = |first: usize| {
+        let mut column = vec![0.0; case.rows()];
+        own[first..].iter().for_each(|i| column[*i] = 1.0);
+        Member::free(column)
+    };
+    (1..own.len().saturating_sub(1))
+        .step_by(step)
+        .map(from)
+        .collect()
 }

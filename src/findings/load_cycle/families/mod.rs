@@ -110,5 +110,7 @@ fn suspect(
         mechanism: family.map_or(cause, |f| f.mechanism),
         share: 0.0,
         members,
+        named: true,
+        law_error: 0.0,
     })
 }

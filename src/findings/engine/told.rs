@@ -1,0 +1,62 @@
+//! The answer as it is told.
+
+use super::bank::Bank;
+use super::choice::nothing;
+use super::judgement::Judgement;
+use super::posterior::Posterior;
+use super::rest::Rest;
+use super::search::Scored;
+use super::statement::{Experiment, Statement};
+use super::verdict::{Named, verdict};
+use crate::findings::answer::{Answer, Candidate, Discrepancy, Structure};
+use crate::ground::stats::rms;
+
+/// From what is named and what is left.
+pub(super) fn answer(
+    experiment: &dyn Experiment,
+    statement: &Statement,
+    bank: &Bank,
+    (posterior, set): (&Posterior, &Scored),
+    (named, rest): (Named, Rest),
+    (missed, left): (&[f64], &[f64]),
+    judgement: &Judgement,
+) -> Answer {
+    let noise = rms(statement.noise.spread()) * set.fit.posterior.noise_variance.sqrt();
+    let before = rms(missed);
+    let share = (rms(left).powi(2) - noise * noise) / before.powi(2).max(f64::MIN_POSITIVE);
+    let remaining = experiment.remaining(left);
+    Answer {
+        verdict: verdict(&named, &rest, judgement),
+        discrepancy: Discrepancy {
+            rms: before,
+            noise_rms: noise,
+            place: experiment.place(missed),
+        },
+        causes: named.causes,
+        groups: named.groups,
+        unexplained: Structure {
+            share_of_variance: share.clamp(0.0, 1.0),
+            shape: remaining.shape,
+            over_time: remaining.over_time,
+            description: remaining.description,
+        },
+        p_value: (-rest.nats).exp(),
+        candidates: posterior
+            .sets
+            .iter()
+            .take(10)
+            .map(|s| candidate(bank, &s.0, s.1, posterior))
+            .collect(),
+        unit: experiment.unit(),
+        noise: statement.noise.describe(),
+        unstated: false,
+        doubts: Vec::new(),
+    }
+}
+
+fn candidate(bank: &Bank, set: &Scored, p: f64, posterior: &Posterior) -> Candidate {
+    let own = set.suspects.iter().map(|s| &bank.suspects[*s]);
+    let names = own.map(|s| format!("{} {}", s.effect, s.site)).collect();
+    let empty = nothing(posterior).fit.posterior.ln_evidence;
+    (names, p, set.fit.posterior.ln_evidence - empty)
+}
