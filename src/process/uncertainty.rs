@@ -32,8 +32,10 @@ enum Which {
     Coefficient(usize),
 }
 
-/// Springs and dampers known better than this are not simulated anew: first order is closer than that.
+/// Springs known better than this are not simulated anew: first order is closer than that ...
 const SMALL: f64 = 0.02;
+/// ... nor dampers known better than this: what they change is bounded by what swings.
+const BOUNDED: f64 = 0.2;
 
 /// Standard deviation of a place anywhere within a gap, over the gap: 1/√12.
 const ANYWHERE: f64 = 0.288_675;
@@ -104,7 +106,8 @@ impl Doubt {
     fn asks_for_a_run(&self) -> bool {
         match self.which {
             Which::Gap(_) => false,
-            Which::Spring(_) | Which::Damper(_) => self.rel_std > SMALL,
+            Which::Spring(_) => self.rel_std > SMALL,
+            Which::Damper(_) => self.rel_std > BOUNDED,
             Which::Coefficient(_) => true,
         }
     }
