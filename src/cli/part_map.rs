@@ -6,10 +6,15 @@ use crate::sheet::number::significant;
 /// Number of classes of a map.
 const CLASSES: usize = 5;
 
-/// Every n-th, so that no more than `most` are left.
-pub fn thinned<T: Copy>(all: &[T], most: usize) -> Vec<T> {
+/// The largest of every n, so that no more than `most` are left and no peak is lost.
+pub fn thinned<T: Copy>(all: &[T], most: usize, size: impl Fn(&T) -> f64) -> Vec<T> {
     let every = all.len().div_ceil(most).max(1);
-    all.iter().step_by(every).copied().collect()
+    let largest = |few: &[T]| {
+        few.iter()
+            .copied()
+            .max_by(|a, b| size(a).total_cmp(&size(b)))
+    };
+    all.chunks(every).filter_map(largest).collect()
 }
 
 /// Points on a map (mm), sorted into classes of equal width from 0 to `top`.

@@ -44,11 +44,17 @@ pub fn page(result: &Corrected) -> Page {
 /// What is left over the path, before and after.
 fn deviations(result: &Corrected) -> Chart {
     let over = |stations: &[Station]| {
-        let every = stations.len().div_ceil(POINTS).max(1);
-        let cutting = stations.iter().step_by(every).filter(|s| s.cutting);
-        cutting
-            .map(|s| [1e3 * s.s_m, 1e3 * norm(s.left)])
-            .collect::<Vec<_>>()
+        // not a number beside the stock: lines end there
+        let size = |s: &Station| {
+            if s.cutting {
+                1e3 * norm(s.left)
+            } else {
+                f64::NAN
+            }
+        };
+        let seen = |s: &Station| if s.cutting { norm(s.left) } else { -1.0 };
+        let kept = thinned(stations, POINTS, seen).into_iter();
+        kept.map(|s| [1e3 * s.s_m, size(&s)]).collect::<Vec<_>>()
     };
     let [before, after] = &result.stations;
     let panel = Panel::new(
@@ -73,7 +79,7 @@ fn map(result: &Corrected) -> Chart {
         let cutting: Vec<Station> = stations.iter().filter(|s| s.cutting).copied().collect();
         let place = |s: &Station| [1e3 * s.tip[0], 1e3 * s.tip[1]];
         let size = |s: &Station| 1e3 * norm(s.left);
-        classes(&thinned(&cutting, PLACES), place, size, top, "mm off").noted(note)
+        classes(&thinned(&cutting, PLACES, size), place, size, top, "mm off").noted(note)
     };
     let [before, after] = &result.stations;
     let chart = Chart::new(

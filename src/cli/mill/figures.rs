@@ -14,7 +14,7 @@ const PLACES: usize = 6000;
 
 /// Force and deviation over the path.
 pub fn course(result: &Result) -> Chart {
-    let cuts = thinned(&result.milled.course, POINTS);
+    let cuts = thinned(&result.milled.course, POINTS, |cut| norm(cut.deviation));
     let way = Axis::new("Path", "mm");
     let over = |value: &dyn Fn(&Cut) -> f64| {
         cuts.iter()
@@ -51,8 +51,8 @@ pub fn map(result: &Result) -> Chart {
         .filter(|c| c.cutting)
         .copied()
         .collect();
-    let cuts = thinned(&cutting, PLACES);
     let size = |cut: &Cut| 1e3 * norm(cut.normal());
+    let cuts = thinned(&cutting, PLACES, size);
     let place = |cut: &Cut| [1e3 * cut.tip[0], 1e3 * cut.tip[1]];
     let chart = Chart::new(
         "mill-map",
@@ -68,8 +68,8 @@ pub fn map(result: &Result) -> Chart {
 /// The surface that is left, in classes of depth below the top.
 pub fn left(result: &Result) -> Chart {
     let all = result.left.stock().relief(2);
-    let places = thinned(&all, PLACES);
     let depth = |place: &([f64; 3], f64)| 1e3 * place.1;
+    let places = thinned(&all, PLACES, depth);
     let at = |place: &([f64; 3], f64)| [1e3 * place.0[0], 1e3 * place.0[1]];
     let top = places.iter().map(depth).fold(0.0, f64::max);
     Chart::new(
