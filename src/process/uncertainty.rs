@@ -34,7 +34,7 @@ enum Which {
 
 /// Springs known better than this are not simulated anew: first order is closer than that ...
 const SMALL: f64 = 0.02;
-/// ... nor dampers known better than this: what they change is bounded by what swings.
+/// ... nor dampers known better than this: they change no more than their part in what swings.
 const BOUNDED: f64 = 0.2;
 
 /// Standard deviation of a place anywhere within a gap, over the gap: 1/√12.
@@ -172,7 +172,7 @@ pub fn changes(
             Ok(pairs.map(|(a, b)| sub(*a, *b)).collect())
         }
         Which::Gap(gap) => across(setup, &doubt.site, gap * doubt.rel_std, times),
-        Which::Damper(_) => calmer(setup, doubt.rel_std, &base, times),
+        Which::Damper(_) => calmer(setup, doubt, &base, times),
         _ => stiffer(setup, doubt, &base, times),
     };
     doubts.iter().map(change).collect()
@@ -216,15 +216,32 @@ fn coordinates<'a>(linear: &'a Linear, site: &'a str) -> impl Iterator<Item = us
     named.filter(move |(_, name)| *name == site).map(|(i, _)| i)
 }
 
-/// What a damper off by a small share changes at most, m: that share of what is not the bend of springs.
-fn calmer(setup: &Setup, rel_std: f64, base: &Seen, times: &[f64]) -> Outcome<Vec<V3>> {
-    let mut springs = setup.springs()?;
+/// What a damper off by a small share changes at most, m: that share of what is not the bend of springs, as far as
+/// the damper takes part in it.
+fn calmer(setup: &Setup, doubt: &Doubt, base: &Seen, times: &[f64]) -> Outcome<Vec<V3>> {
+    let (mut springs, mut carrier) = (setup.springs()?, setup.carrier());
     let of = |((time, force), deviation): ((&f64, &V3), &V3)| {
-        let still = springs.bent(&setup.way.at(*time), *force)?;
-        Ok(scale(rel_std, sub(*deviation, still)))
+        let moment = setup.way.at(*time);
+        let swing = sub(*deviation, springs.bent(&moment, *force)?);
+        let linear = carrier.held(&moment.joints)?.linear;
+        let part = taking_part(&linear, &doubt.site, swing);
+        Ok(scale(doubt.rel_std * part, swing))
     };
     let forced = times.iter().zip(&base.forces);
     forced.zip(&base.deviations).map(of).collect()
+}
+
+/// Share of a site's dampers in the damping of a swing along a direction, the robot being bent as a force there
+/// bends it.
+fn taking_part(linear: &Linear, site: &str, along: V3) -> f64 {
+    let taken = |i: usize| {
+        let [stiffness, damping] =
+            [&linear.stiffness, &linear.damping].map(|m| m[i * linear.n + i]);
+        damping * (dot(linear.tool[i], along) / stiffness).powi(2)
+    };
+    let own: f64 = coordinates(linear, site).map(taken).sum();
+    let all: f64 = (0..linear.n).map(taken).sum();
+    own / all.max(f64::MIN_POSITIVE)
 }
 
 /// What an angle of one spring does to the tip at some times, m: the simulation is linear, and a gap lies
