@@ -55,6 +55,10 @@ fn beyond_loads(test: &CubeTest, rows: &[Row], missed: &[f64], at: &[usize]) -> 
     if at.len() <= columns.len() {
         return (Vec::new(), 0);
     }
+    if columns.is_empty() {
+        // nothing loads them: all that they do is noise
+        return (at.iter().map(|i| missed[*i]).collect(), at.len());
+    }
     let design = DMatrix::from_fn(at.len(), columns.len(), |i, k| load(at[i], columns[k]));
     let y = DVector::from_iterator(at.len(), at.iter().map(|i| missed[*i]));
     let solved = design.clone().svd(true, true).solve(&y, 1e-9);

@@ -44,7 +44,7 @@ pub fn search(bank: &mut Bank, judgement: &Judgement) -> Vec<Scored> {
     };
     book.offer(bank, nothing);
     for (size, count) in CONTINUED.iter().enumerate().take(judgement.largest) {
-        for base in book.top(size, *count) {
+        for base in book.top(bank, size, *count) {
             book.extend(bank, &base);
         }
         book.reshape(bank);
@@ -109,14 +109,9 @@ impl Book<'_> {
     }
 
     /// The best sets with so many causes.
-    fn top(&self, size: usize, count: usize) -> Vec<Fit> {
-        let mut own: Vec<&Scored> = self
-            .sets
-            .values()
-            .filter(|s| s.suspects.len() == size)
-            .collect();
-        own.sort_by(|a, b| b.score.total_cmp(&a.score));
-        own.iter().take(count).map(|s| s.fit.clone()).collect()
+    fn top(&self, bank: &Bank, size: usize, count: usize) -> Vec<Fit> {
+        let own = self.sets.values().filter(|s| s.suspects.len() == size);
+        best(bank, own.collect(), count)
     }
 
     /// Every suspect beside a base, in its most promising shapes.
@@ -144,7 +139,7 @@ impl Book<'_> {
 
     /// Tries the shapes of every cause of the leading sets again, now beside the others.
     fn reshape(&mut self, bank: &mut Bank) {
-        for set in self.leading(3) {
+        for set in self.leading(bank, 3) {
             for at in 0..set.members.len() {
                 let suspect = bank.entries[set.members[at]].suspect;
                 let rest: Vec<usize> = (0..set.members.len())
@@ -163,7 +158,7 @@ impl Book<'_> {
 
     /// Every subset of the leading sets: what the choice falls back on.
     fn divide(&mut self, bank: &Bank) {
-        for set in self.leading(LEADING) {
+        for set in self.leading(bank, LEADING) {
             let n = set.members.len();
             for mask in 0..1_usize << n {
                 let part = (0..n)
@@ -176,15 +171,22 @@ impl Book<'_> {
         }
     }
 
-    fn leading(&self, count: usize) -> Vec<Fit> {
-        let mut own: Vec<&Scored> = self
-            .sets
-            .values()
-            .filter(|s| s.suspects.len() > 1)
-            .collect();
-        own.sort_by(|a, b| b.score.total_cmp(&a.score));
-        own.iter().take(count).map(|s| s.fit.clone()).collect()
+    fn leading(&self, bank: &Bank, count: usize) -> Vec<Fit> {
+        let own = self.sets.values().filter(|s| s.suspects.len() > 1);
+        best(bank, own.collect(), count)
     }
+}
+
+/// The best of some sets, and the best of those of named causes alone: a pattern must not hide the way to causes
+/// that explain the same together.
+fn best(bank: &Bank, mut sets: Vec<&Scored>, count: usize) -> Vec<Fit> {
+    sets.sort_by(|a, b| b.score.total_cmp(&a.score));
+    let named = |s: &&Scored| s.suspects.iter().all(|s| bank.suspects[*s].named);
+    let others = sets.iter().skip(count).copied();
+    let causes = sets.iter().take(count).copied().filter(named).count();
+    let others = others.filter(named).take(count - causes.min(count));
+    let first = sets.iter().take(count).copied();
+    first.chain(others).map(|s| s.fit.clone()).collect()
 }
 
 /// Members worth an exact fit beside a base that was kept: of every wanted suspect the best shapes of one
