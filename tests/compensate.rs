@@ -298,5 +298,37 @@ fn a_campaign_ends_with_its_part_corrected() {
     assert!(corrected.contains("fits/c/robot.toml"), "{corrected}");
     assert!(results.join("part/compensated.src").is_file());
     let page = std::fs::read_to_string(results.join("index.html")).unwrap();
-    assert!(page.contains("The part, corrected") && page.contains("compensate-map"));
+    assert!(
+        page.contains("The part, corrected for fits/c/robot.toml")
+            && page.contains("compensate-map")
+    );
+}
+
+/// A part that cannot be cut as its job says ends no campaign: what was measured is told, and why not the part.
+#[test]
+fn a_part_that_cannot_be_cut_leaves_the_campaign_its_report() {
+    let folder = tempfile::tempdir().unwrap();
+    let part = folder.path().join("measurements/c/part");
+    std::fs::create_dir_all(&part).unwrap();
+    let path = job(&part, "-16,20,-8\n20,20,-8\n", 3000.0, "");
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, text.replace("flute_mm = 20.0", "flute_mm = 2.0")).unwrap();
+    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("measurements/kr210/axis6.csv");
+    std::fs::copy(example, part.with_file_name("axis6.csv")).unwrap();
+    let (status, run) = ident(folder.path(), &["run", "measurements/c", "--json"]);
+    assert_eq!(status, 0);
+    let last = run["steps"].as_array().unwrap().last().unwrap();
+    assert_eq!(
+        (&last["verb"], &last["needs_attention"]),
+        (&"compensate".into(), &true.into())
+    );
+    let said = last["sentences"][0].as_str().unwrap();
+    assert!(said.contains("flute"), "{said}");
+    assert!(folder.path().join("reports/c/index.html").is_file());
+    assert!(
+        !folder
+            .path()
+            .join("reports/c/part/compensated.csv")
+            .exists()
+    );
 }

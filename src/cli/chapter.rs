@@ -80,7 +80,7 @@ impl Chapter {
 }
 
 /// The job of a campaign's part, `measurements/<campaign>/part/job.toml`, if there is one.
-pub fn part(place: &Place) -> Option<PathBuf> {
+fn part(place: &Place) -> Option<PathBuf> {
     let job = place.measurements().join("part").join("job.toml");
     job.is_file().then_some(job)
 }

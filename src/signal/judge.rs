@@ -15,9 +15,9 @@ const LEVEL: f64 = 3.0;
 /// Share of the median length below which a record is out of family.
 const LENGTH: f64 = 0.8;
 
-/// Force beyond that of the heaviest sledge hammers, N, and acceleration beyond that of shock accelerometers
-/// (10 000 g), m/s²: a broken digit.
-const FORCE_N: f64 = 3e5;
+/// Force beyond that of the heaviest sledge hammers, N: a broken digit, or a wrong unit.
+pub const FORCE_N: f64 = 3e5;
+/// Acceleration beyond that of shock accelerometers (10 000 g), m/s².
 const ACCELERATION: f64 = 1e5;
 
 /// One hit as recorded.

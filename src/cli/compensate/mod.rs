@@ -107,10 +107,11 @@ fn act(arguments: &Arguments) -> Outcome<Corrected> {
     correct(Planned::read(&arguments.job)?, request)
 }
 
-/// What correcting the part of a campaign found, with the robot that the campaign identified; written.
+/// What correcting the part of a campaign found, with the robot that the campaign identified; written. Why it cannot
+/// be corrected is a chapter too: what was measured stands without it.
 ///
 /// # Errors
-/// As those of the verb.
+/// A job that cannot be read or planned, results that cannot be written.
 pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
     let Some(planned) = chapter::planned_part(place)? else {
         return Ok(None);
@@ -125,13 +126,18 @@ pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
         sensor: Sensor::default(),
         support: Support::Coupled,
     };
-    let result = correct(planned, request)?;
-    write(&result)?;
+    let title = format!("The part, corrected for {}", planned.job.robot);
     let input = |(path, hash): &(String, String)| (PathBuf::from(path), hash.clone());
+    let inputs: Vec<(PathBuf, String)> = planned.inputs.iter().map(input).collect();
+    let result = match correct(planned, request) {
+        Ok(result) => result,
+        Err(why) => return Ok(Some(Chapter::withheld(title, inputs[0].clone(), &why))),
+    };
+    write(&result)?;
     Ok(Some(Chapter {
-        title: "The part, corrected".into(),
+        title,
         ending: ending(&result),
-        inputs: result.planned.inputs.iter().map(input).collect(),
+        inputs,
         page: page::page(&result),
     }))
 }

@@ -4,6 +4,7 @@ use super::Rule;
 use crate::fit::suitability::{Said, Weight};
 use crate::measurement::hammer::{HammerRecord, HammerRun};
 use crate::sheet::number::{engineering, significant};
+use crate::signal::judge::FORCE_N;
 use crate::signal::outliers::median;
 
 /// The rule.
@@ -15,7 +16,7 @@ pub const RULE: Rule = Rule {
 };
 
 /// Peaks of a hit, N.
-const FORCES: std::ops::RangeInclusive<f64> = 0.3..=3e5;
+const FORCES: std::ops::RangeInclusive<f64> = 0.3..=FORCE_N;
 /// Peak acceleration per peak force, 1/kg.
 const PER_FORCE: std::ops::RangeInclusive<f64> = 5e-5..=5.0;
 
