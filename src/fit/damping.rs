@@ -1,13 +1,14 @@
 //! From hammer tests and a robot to its dampings: hits judged, FRFs, one tuning over all poses.
 
+use super::damping_priors::{solved, widened_first};
 use super::damping_statement::{reported, supported};
 use super::frf_data::Measured;
 use super::frf_match::{FrfMatch, frf_match};
 use super::frf_measured::measured;
 use super::frf_model::Pose;
-use super::frf_nuisance::{Pull, along, widened};
+use super::frf_nuisance::Pull;
 use super::frf_robot::{Released, parameters, pose, with_values};
-use super::frf_tuning::{Parameter, Residuals, Tuned, Tuning, solve};
+use super::frf_tuning::{Parameter, Residuals, Tuned, Tuning};
 use super::frf_uncertain::uncertain;
 use super::parameter::Identified;
 use crate::experiments::hammer_frf::{HammerFrf, Settings, estimate};
@@ -90,8 +91,8 @@ pub struct Account {
 /// Reduced chi-square below which FRFs agree with bodies as the robot file has them: right ones gave 0.7 to 1.1
 /// on robots of others (`cargo test --test suite damping_robots:: -- --nocapture`).
 const AGREED: f64 = 1.25;
-/// How often priors are widened at most.
-const WIDENINGS: usize = 4;
+/// The same on some of the lines, beyond which the rest of the search is not worth its time.
+const HOPELESS: f64 = 1.2 * AGREED;
 /// Names of the rows of the Jacobian.
 pub const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -122,12 +123,17 @@ pub fn identify(tests: &[Test], robot: &Robot, request: &Request) -> Outcome<Acc
     if known != hammer_known::Known::default() {
         return attempt(tests, robot, request, (known, !known.is_exact()));
     }
-    let exact = attempt(tests, robot, request, (known, false))?;
-    let agreed = exact.supported && exact.tuned.reduced_chi_square < AGREED;
-    match agreed || exact.tuned.worse_than_nothing {
-        true => Ok(exact),
-        false => attempt(tests, robot, request, (known, true)),
+    let plain = task(tests, robot, request, (known, false))?;
+    let (wide, begun) = widened_first(&plain)?;
+    let nothing = begun.worse_than_nothing();
+    if nothing || begun.reduced_chi_square() < HOPELESS {
+        let exact = account(robot, &plain, solved(&plain, wide, begun)?);
+        let agreed = exact.supported && exact.tuned.reduced_chi_square < AGREED;
+        if agreed || exact.tuned.worse_than_nothing {
+            return Ok(exact);
+        }
     }
+    attempt(tests, robot, request, (known, true))
 }
 
 /// One tuning, with bodies and instruments as exact as the robot file or as uncertain as they are `known`.
@@ -136,8 +142,20 @@ fn attempt(
     tests: &[Test],
     robot: &Robot,
     request: &Request,
-    (known, along): (hammer_known::Known, bool),
+    how: (hammer_known::Known, bool),
 ) -> Outcome<Account> {
+    let task = task(tests, robot, request, how)?;
+    let (wide, begun) = widened_first(&task)?;
+    Ok(account(robot, &task, solved(&task, wide, begun)?))
+}
+
+/// What is to be tuned.
+fn task(
+    tests: &[Test],
+    robot: &Robot,
+    request: &Request,
+    (known, along): (hammer_known::Known, bool),
+) -> Outcome<Tuning> {
     let released = Released {
         prior_ln_std: request.released.prior_ln_std.or(known.damping_rel_std),
         ..request.released
@@ -154,17 +172,20 @@ fn attempt(
         residuals: request.residuals,
         starts: request.starts,
     };
-    let task = match along {
-        true => uncertain(plain)?,
-        false => plain,
-    };
-    let (tuned, pulls) = agreed(&task)?;
-    let of = |pose: &Pose| pairs(pose, &task, &tuned);
+    match along {
+        true => uncertain(plain),
+        false => Ok(plain),
+    }
+}
+
+/// What a tuning says of the robot.
+fn account(robot: &Robot, task: &Tuning, (tuned, pulls): (Tuned, Vec<Pull>)) -> Account {
+    let of = |pose: &Pose| pairs(pose, task, &tuned);
     let pairs: Vec<Vec<Pair>> = task.poses.iter().map(of).collect();
     let asked_for = task.parameters.iter().filter(|p| !p.nuisance);
     let constants: Vec<Parameter> = asked_for.cloned().collect();
     let supported = supported(tuned.reduced_chi_square, &pairs);
-    Ok(Account {
+    Account {
         parameters: reported(&constants, &tuned, supported),
         robot: with_values(robot, &task.parameters, &tuned.values),
         pairs,
@@ -172,7 +193,7 @@ fn attempt(
         tuned,
         pulls,
         supported,
-    })
+    }
 }
 
 /// The relative standard deviation that the tests state of the robot's stiffnesses, the largest.
@@ -187,31 +208,6 @@ fn known(tests: &[Test]) -> hammer_known::Known {
     stated
         .reduce(hammer_known::Known::or_worse)
         .unwrap_or_default()
-}
-
-/// The tuning, its priors widened until the stiffnesses that are fitted along agree with them, and
-/// where these went against what was stated of them.
-fn agreed(task: &Tuning) -> Outcome<(Tuned, Vec<Pull>)> {
-    let mut wide = task.clone();
-    let mut solved = solve(&wide)?;
-    for _ in 0..WIDENINGS {
-        if solved.worse_than_nothing(&wide) {
-            break;
-        }
-        let Some(wider) = widened(&wide.parameters, &solved.pulls(&wide)) else {
-            break;
-        };
-        wide.parameters = wider;
-        solved = solve(&wide)?;
-    }
-    let tuned = solved.told(&wide);
-    let stated = task.parameters.iter().filter(|p| along(p));
-    let against = |(pull, stated): (&Pull, &Parameter)| Pull {
-        prior_ln_std: stated.prior_ln_std.unwrap_or(pull.prior_ln_std),
-        ..pull.clone()
-    };
-    let pulls = tuned.pulls.iter().zip(stated).map(against).collect();
-    Ok((tuned, pulls))
 }
 
 fn at_pose(

@@ -2,9 +2,10 @@
 //! parameters, the terms of what the model leaves out projected away.
 
 use super::frf_data::Measured;
-use super::frf_model::{Pose, along};
+use super::frf_model::Pose;
 use super::frf_residuals::{Residuals, residual_basis};
 use super::frf_tuning::Tuning;
+use crate::ground::product::{gram, transposed};
 use crate::motion::frf::Response;
 use crate::signal::modal_model::stacked;
 use nalgebra::{DMatrix, DVector};
@@ -53,7 +54,7 @@ impl Frozen {
             .map(|channel| channel.jacobian.columns(count, along).into_owned())
             .collect();
         let mut block = DMatrix::zeros(along, along);
-        columns.iter().for_each(|c| block += c.tr_mul(c));
+        columns.iter().for_each(|c| block += gram(c));
         Some(Self {
             theta: theta.to_vec(),
             count,
@@ -73,8 +74,8 @@ impl Frozen {
         for (channel, along) in all.iter().flatten().zip(&self.columns) {
             let (own, rest) = (&channel.jacobian, &channel.rest - along * &moved);
             let mut block = sum.normal.view_mut((0, 0), (count, count));
-            block += own.tr_mul(own);
-            across += own.tr_mul(along);
+            block += gram(own);
+            across += transposed(own, along);
             let mut slope = sum.slope.rows_mut(0, count);
             slope += own.tr_mul(&rest);
             let mut slope = sum.slope.rows_mut(count, n - count);
@@ -151,7 +152,7 @@ impl Linearised {
     }
 
     fn add(&mut self, Channel { jacobian, rest, .. }: &Channel) {
-        self.normal += jacobian.tr_mul(jacobian);
+        self.normal += gram(jacobian);
         self.slope += jacobian.tr_mul(rest);
         self.cost += rest.norm_squared();
     }
@@ -168,11 +169,15 @@ fn channel<'a>(
     let weight = pair.weight();
     let rest: Vec<Complex64> = pair.frf.iter().zip(frf).map(|(m, a)| m - a).collect();
     let mut rest = DVector::from_vec(stacked(&rest, &weight));
-    let columns = slopes.iter().zip(rates).flat_map(|(slope, rate)| {
-        let scaled: Vec<Complex64> = along(pair, slope).iter().map(|v| v * *rate).collect();
-        stacked(&scaled, &weight)
-    });
-    let mut jacobian = DMatrix::from_vec(rest.len(), slopes.len(), columns.collect());
+    let lines = pair.frf.len();
+    let mut jacobian = DMatrix::zeros(rest.len(), slopes.len());
+    for ((mut column, slope), rate) in jacobian.column_iter_mut().zip(slopes).zip(rates) {
+        for (k, (line, weight)) in slope.iter().zip(&weight).enumerate() {
+            let moved = line[pair.output][pair.input] * (rate * weight);
+            column[k] = moved.re;
+            column[lines + k] = moved.im;
+        }
+    }
     if let Some(q) = residual_basis(pair, &weight, residuals) {
         rest -= &q * q.tr_mul(&rest);
         jacobian -= &q * q.tr_mul(&jacobian);

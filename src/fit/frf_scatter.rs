@@ -8,6 +8,7 @@ use super::frf_data::Measured;
 use super::frf_linear::{Channel, channels};
 use super::frf_tuning::Tuning;
 use super::parameter::Z95;
+use crate::ground::product::gram;
 use crate::signal::jackknife::{covariance, t95};
 use crate::signal::line_noise::LineNoise;
 use nalgebra::{DMatrix, DVector};
@@ -105,7 +106,7 @@ fn under_window(pair: &Measured, jacobian: &DMatrix<f64>) -> DMatrix<f64> {
     let lines = pair.frf.len();
     let independent = pair.lines_per_independent_one();
     if independent <= 1.0 {
-        return jacobian.tr_mul(jacobian);
+        return gram(jacobian);
     }
     let noise = LineNoise::new(
         lines,

@@ -7,8 +7,9 @@ use nalgebra::{DMatrix, DVector};
 /// Where a descent ended: logarithms and cost.
 pub(super) type Run = (Vec<f64>, f64);
 
-/// Gain as a share of the cost that no digit of it carries.
-const SHARE: f64 = 1e-9;
+/// Gain as a share of the cost from which on a search goes on: a model that misses by far is not tuned to the
+/// last digit, and its intervals are wider by as much.
+const SHARE: f64 = 1e-6;
 
 /// When a search ends: after so many steps, or once one gains less than this.
 #[derive(Debug, Clone, Copy)]

@@ -6,6 +6,7 @@ use super::parameter::{Identified, Status, Z95};
 use super::starts::starts;
 use crate::effects::composite::Slot;
 use crate::effects::{Composite, Scale};
+use crate::ground::product::gram;
 use crate::measurement::load_cycle::Port;
 use crate::signal::colour::Colour;
 use nalgebra::DMatrix;
@@ -118,7 +119,7 @@ pub fn conclude_with(problem: &Problem, optimum: Optimum, colour: Colour) -> Sol
     for (j, scale) in optimum.scale.iter().enumerate() {
         weighed.column_mut(j).scale_mut(1.0 / scale);
     }
-    let score = weighed.tr_mul(&weighed);
+    let score = gram(&weighed);
     let widened = |pinned: bool| {
         let narrow = covariance(problem.model, &optimum, pinned);
         &narrow * &score * &narrow

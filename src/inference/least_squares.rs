@@ -1,6 +1,7 @@
 //! Bounded nonlinear least squares: Levenberg and Marquardt (Moré 1978), bounds by projection with an
 //! active set. Unknowns are scaled to order one by the problem; a prior is a row like any other.
 
+use crate::ground::product::gram;
 use nalgebra::{DMatrix, DVector};
 
 /// What is minimised: ½|residual|² over unknowns of order one.
@@ -127,7 +128,7 @@ fn braked_step(
         return None;
     }
     let own = jacobian.select_columns(free);
-    let mut normal = own.tr_mul(&own);
+    let mut normal = gram(&own);
     let largest = normal.diagonal().max();
     for j in 0..free.len() {
         normal[(j, j)] += brake * normal[(j, j)].max(1e-12 * largest) + f64::MIN_POSITIVE;

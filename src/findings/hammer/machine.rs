@@ -6,6 +6,7 @@ use super::nuisance::{Known, Nuisance};
 use super::prediction::{Machine, Point};
 use super::structure::Structure;
 use crate::ground::problem::Outcome;
+use crate::ground::product::gram;
 use crate::motion::uncertain::bodies;
 use crate::motion::uncertain::instrument::NUMBERS as INSTRUMENT;
 use crate::robot::Robot;
@@ -50,7 +51,7 @@ impl<'a> Machine<'a> {
         for mut column in all.column_iter_mut() {
             column.iter_mut().zip(&weights).for_each(|(x, w)| *x *= w);
         }
-        Ok(bodies::seen(all.tr_mul(&all), UNSEEN, MOST))
+        Ok(bodies::seen(gram(&all), UNSEEN, MOST))
     }
 }
 

@@ -5,7 +5,7 @@
 use crate::ground::problem::Outcome;
 use crate::motion::{Work, elastic, linearise};
 use crate::robot::{Body, Robot};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 /// Uncertain numbers of a body: mass, three of its centre, six of its inertia.
 pub const NUMBERS: usize = 10;
@@ -65,10 +65,10 @@ pub fn seen(information: DMatrix<f64>, least: f64, most: usize) -> DMatrix<f64> 
 /// Adds the `amounts` (standard deviations) of the rows of `directions` to a mass matrix (n×n by rows).
 pub fn add(mass: &mut [f64], directions: &DMatrix<f64>, amounts: impl Iterator<Item = f64>) {
     let n = mass.len().isqrt();
-    let amounts: Vec<f64> = amounts.collect();
-    for (place, (i, j)) in triangle(n).enumerate() {
-        let rows = amounts.iter().enumerate();
-        let more: f64 = rows.map(|(r, x)| x * directions[(r, place)]).sum();
+    let amounts = DVector::from_vec(amounts.collect());
+    let rows = directions.rows(0, amounts.len());
+    let more = rows.tr_mul(&amounts);
+    for ((i, j), more) in triangle(n).zip(more.iter()) {
         mass[i * n + j] += more;
         if i != j {
             mass[j * n + i] += more;

@@ -130,8 +130,18 @@ fn add(sum: &mut Matrix, part: &Matrix, amount: f64) {
 
 /// `left · a · right`.
 fn through(left: &Matrix, a: &Response, right: &Matrix) -> Response {
-    let half: Response = std::array::from_fn(|i| {
-        std::array::from_fn(|j| (0..3).map(|k| a[k][j] * left[i][k]).sum())
-    });
-    std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| half[i][k] * right[k][j]).sum()))
+    let (mut half, mut out) = (Response::default(), Response::default());
+    for i in 0..3 {
+        for k in 0..3 {
+            for j in 0..3 {
+                half[i][j] += a[k][j] * left[i][k];
+            }
+        }
+        for k in 0..3 {
+            for j in 0..3 {
+                out[i][j] += half[i][k] * right[k][j];
+            }
+        }
+    }
+    out
 }

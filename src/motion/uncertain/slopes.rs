@@ -1,7 +1,6 @@
 //! Changes of the accelerance with mass, damper and spring: `∂H = −s²Yᵀ(s²∂M + s∂D + ∂K)Y`, where Y is the
 //! answer of every coordinate (`motion::receptance`). All are symmetric: six numbers a line.
 
-use super::bodies::triangle;
 use crate::motion::frf::{C64, Response};
 use nalgebra::DMatrix;
 
@@ -35,10 +34,14 @@ pub fn of_entries(
     let line = |(k, s): (usize, &C64)| {
         let y = &answers[k * n..(k + 1) * n];
         let scale = -s * s * factor(*s);
-        UPPER.map(|(a, b)| {
-            let parts = entries.iter().map(|(i, j, g)| y[*i][a] * y[*j][b] * *g);
-            parts.sum::<C64>() * scale
-        })
+        let mut sum = Upper::default();
+        for (i, j, g) in entries {
+            let (left, right) = (&y[*i], y[*j].map(|y| y * *g));
+            for (sum, (a, b)) in sum.iter_mut().zip(UPPER) {
+                *sum += left[a] * right[b];
+            }
+        }
+        sum.map(|sum| sum * scale)
     };
     s.iter().enumerate().map(line).collect()
 }
@@ -54,16 +57,20 @@ pub fn of_masses(
     for (k, s) in s.iter().enumerate() {
         let y = &answers[k * n..(k + 1) * n];
         let factor = -(s * s) * (s * s);
-        for (p, (a, b)) in UPPER.into_iter().enumerate() {
-            let column = 12 * k + 2 * p;
-            for (place, (i, j)) in triangle(n).enumerate() {
-                let both = match i == j {
-                    true => y[i][a] * y[i][b],
-                    false => y[i][a] * y[j][b] + y[j][a] * y[i][b],
-                };
-                let both = both * factor;
-                products[(place, column)] = both.re;
-                products[(place, column + 1)] = both.im;
+        let mut columns = products.columns_mut(12 * k, 12);
+        let mut place = 0;
+        for i in 0..n {
+            let left = y[i].map(|y| y * factor);
+            for (j, right) in y.iter().enumerate().skip(i) {
+                for (p, (a, b)) in UPPER.into_iter().enumerate() {
+                    let mut both = left[a] * right[b];
+                    if i != j {
+                        both += left[b] * right[a];
+                    }
+                    columns[(place, 2 * p)] = both.re;
+                    columns[(place, 2 * p + 1)] = both.im;
+                }
+                place += 1;
             }
         }
     }
