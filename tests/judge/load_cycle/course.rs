@@ -91,7 +91,9 @@ pub fn outside(name: &str, p: &Programme, random: &mut Random) -> Vec<f64> {
     let phase = random.uniform(0.0, TAU);
     match name {
         "tooth mesh over load" => {
-            let waves = random.uniform(2.5, 6.0);
+            // Six readings a wave at least: else it is scatter to anybody.
+            let most = (1.0 / (6.0 * pace(p))).min(6.0);
+            let waves = most * random.uniform(0.5, 1.0);
             p.of_load(|u| (TAU * waves * u + phase).sin() - phase.sin())
         }
         "catch on one branch" => {
@@ -132,11 +134,21 @@ pub fn outside(name: &str, p: &Programme, random: &mut Random) -> Vec<f64> {
     }
 }
 
+/// How far the load goes between two readings while it moves, the faster half.
+fn pace(p: &Programme) -> f64 {
+    let u = p.read(&p.u);
+    let steps = u.windows(2).map(|w| (w[1] - w[0]).abs());
+    let mut moving: Vec<f64> = steps.filter(|d| *d > 1e-6).collect();
+    moving.sort_by(f64::total_cmp);
+    moving[moving.len() * 3 / 4]
+}
+
 /// Whether a programme could show a shape from outside at all.
 pub fn shows(name: &str, p: &Programme) -> bool {
     match name {
-        "catch on one branch" => !p.standing,
-        "tooth mesh over load" => !p.standing,
+        // What is spread over a few readings is a handful of outliers to anybody.
+        "catch on one branch" | "crossed loop" => !p.standing && pace(p) < 0.025,
+        "tooth mesh over load" => !p.standing && pace(p) < 0.04,
         _ => p.rows.len() >= 150 && !p.standing,
     }
 }

@@ -9,6 +9,7 @@ use super::habit::Habit;
 use super::memory::{border, creep, friction, hysteresis, loosening};
 use super::noise::Noise;
 use super::programme::Programme;
+use super::scale::{SCALES, by_stiffness, scaled};
 use super::sight::judged;
 use ident::ground::random::Random;
 
@@ -39,8 +40,6 @@ pub const OUTSIDE: [&str; 6] = [
     "wave of the foundation",
     "crossed loop",
 ];
-/// Those that change the scale of a reading only.
-const SCALES: [&str; 3] = ["lever_arm", "cosine_error", "stiffness"];
 
 /// Everything that is put into the readings.
 #[derive(Debug, Clone)]
@@ -182,63 +181,6 @@ fn shaped(name: &'static str, p: &Programme, noise: &Noise, random: &mut Random)
     }
 }
 
-/// A cause that is not a shape: scale, or raster.
-fn scaled(
-    name: &'static str,
-    habit: &Habit,
-    hidden: &mut Hidden,
-    noise: &Noise,
-    random: &mut Random,
-) -> Draft {
-    let times = random.uniform(5.0, 14.0);
-    let mut draft = Draft {
-        effect: name,
-        law: String::new(),
-        column: None,
-        sight: times,
-        strength: times,
-        twins: Vec::new(),
-    };
-    let sign = if chance(random, 0.5) { 1.0 } else { -1.0 };
-    let two = habit.sensors.len() > 1;
-    match name {
-        "quantization" => {
-            // Rasters are round numbers of the unit: down to two fifths of what is drawn.
-            draft.strength = 1.8 * times;
-            hidden.raster = Some(draft.strength * noise.base);
-            draft.law = "raster of the readings".into();
-        }
-        "stiffness" => {
-            hidden.scale = 1.0 + sign * (times * habit.open()).min(0.45);
-            draft.law = format!("{:.3} of the stated", hidden.scale);
-            draft.twins = SCALES.to_vec();
-        }
-        _ => {
-            // Two sensors that disagree show it by their levers alone; one by the stated stiffness.
-            let open = if two {
-                (1.5 * habit.lever_std).max(0.002)
-            } else {
-                habit.open()
-            };
-            let e = (times * open).min(0.3);
-            let gain = if name == "cosine_error" {
-                1.0 - e
-            } else {
-                1.0 + sign * e
-            };
-            hidden.gains[0] = gain;
-            draft.law = format!("sensor 1 of {} reads {gain:.3}", habit.sensors.len());
-            draft.twins = if two {
-                vec!["lever_arm", "cosine_error"]
-            } else {
-                SCALES.to_vec()
-            };
-            draft.sight = e / open;
-        }
-    }
-    draft
-}
-
 fn same_mechanism(names: &[&'static str]) -> bool {
     let both = |group: &[&str]| names.len() == 2 && names.iter().all(|n| group.contains(n));
     both(&SCALES)
@@ -248,9 +190,9 @@ fn same_mechanism(names: &[&'static str]) -> bool {
 
 /// Draws what a case hides; the habit learns what it may state of the stiffness.
 pub fn hide(p: &Programme, habit: &mut Habit, noise: &Noise, random: &mut Random) -> Hidden {
-    let mut names = chosen(random, [4, 13, 17], [&EFFECTS, &OUTSIDE], |n| {
-        fits(n, p, habit)
-    });
+    let strange = OUTSIDE.iter().any(|n| fits(n, p, habit));
+    let shares = [4, 13, if strange { 17 } else { 20 }];
+    let mut names = chosen(random, shares, [&EFFECTS, &OUTSIDE], |n| fits(n, p, habit));
     while same_mechanism(&names) {
         names = chosen(random, [0, 0, 20], [&EFFECTS, &OUTSIDE], |n| {
             fits(n, p, habit)
@@ -270,11 +212,14 @@ pub fn hide(p: &Programme, habit: &mut Habit, noise: &Noise, random: &mut Random
         .map(|n| shaped(n, p, noise, random))
         .collect();
     hidden.added = drafts.iter().filter_map(|d| d.column.clone()).collect();
+    if !told_apart(p, habit, &hidden.added) {
+        names.retain(|n| !by_stiffness(n, habit));
+    }
     state(
         p,
         habit,
         &hidden.added,
-        names.iter().any(|n| SCALES.contains(n)),
+        names.iter().any(|n| by_stiffness(n, habit)),
         random,
     );
     for name in names.iter().filter(|n| !shape(n)) {
@@ -284,12 +229,24 @@ pub fn hide(p: &Programme, habit: &mut Habit, noise: &Noise, random: &mut Random
     hidden
 }
 
+/// Part of the spring's compliance that effects bring.
+fn share(p: &Programme, added: &[Vec<f64>]) -> f64 {
+    let spring = p.read(&p.u);
+    added
+        .iter()
+        .map(|c| (dot(c, &spring) / dot(&spring, &spring)).abs())
+        .sum()
+}
+
+/// Whether a wrong stiffness could be told from the compliance of the other effect.
+fn told_apart(p: &Programme, habit: &Habit, added: &[Vec<f64>]) -> bool {
+    share(p, added) < 0.6 * habit.nominal_std.max(0.1)
+}
+
 /// What the file says of the stiffness: nothing where an effect gives so much that the plain slope is another one, for it is
 /// then a matter of words whose compliance that is.
 fn state(p: &Programme, habit: &mut Habit, added: &[Vec<f64>], wanted: bool, random: &mut Random) {
-    let spring = p.read(&p.u);
-    let slope = |c: &Vec<f64>| dot(c, &spring) / dot(&spring, &spring);
-    let share: f64 = added.iter().map(slope).map(f64::abs).sum();
+    let share = share(p, added);
     let told = chance(random, 0.7);
     if wanted {
         habit.nominal_std = habit.nominal_std.max(share / 0.6);

@@ -10,6 +10,7 @@ mod memory;
 mod noise;
 mod programme;
 mod rival;
+mod scale;
 mod sight;
 mod table;
 mod unfit;

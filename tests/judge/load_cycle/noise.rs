@@ -82,7 +82,12 @@ impl Noise {
             phi: if law == "coloured" { phi } else { 0.0 },
             line: (law == "mains").then(|| random.uniform(0.08, 0.46)),
             tail: law == "tails",
-            cell: if law == "noisy cell" { 0.8 } else { 0.0 },
+            // Weights have none; a command that was written down instead of the load neither.
+            cell: match law {
+                "noisy cell" => 0.8,
+                _ if p.standing || chance(random, 0.25) => 0.0,
+                _ => 0.2,
+            },
             raster: if law == "rounded" { 0.8 } else { 0.02 },
             creeping: if law == "drifting a little" { 0.4 } else { 0.0 },
             name: if phi > 0.0 && law == "coloured" {

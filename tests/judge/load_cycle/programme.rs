@@ -144,7 +144,9 @@ impl Programme {
     /// One by chance.
     pub fn draw(random: &mut Random) -> Self {
         let kind = random.below(10);
-        let cycles = 1 + random.below(6);
+        // Up once and down once is refused by the contract (too few turns): two cycles at least under loads of one sign.
+        let least = if matches!(kind, 4 | 9) { 2 } else { 1 };
+        let cycles = least + random.below(7 - least);
         let (levels, name) = levels(kind, cycles, random);
         let standing = matches!(kind, 4 | 5) && chance(random, 0.7);
         let rest = if chance(random, 0.75) {

@@ -56,7 +56,7 @@ fn remembering(p: &Programme) -> Vec<Rival> {
             all.push(("hysteresis", vec![own.clone(), other.clone()]));
         }
     }
-    let taus = [0.01, 0.03, 0.08, 0.2, 0.5];
+    let taus = [0.0005, 0.0015, 0.004, 0.01, 0.03, 0.08, 0.2, 0.5];
     let lags: Vec<Vec<f64>> = taus.iter().map(|t| lag(p, t * p.last())).collect();
     for pair in lags.windows(2) {
         all.push(("creep", pair.to_vec()));

@@ -7,6 +7,17 @@ use super::noise::Noise;
 use super::programme::Programme;
 use super::rival::{Rival, rivals};
 
+/// Names of one mechanism: what one of them can be, the judge lets the others take over.
+fn family(effect: &'static str) -> Vec<&'static str> {
+    match effect {
+        "hysteresis" | "coulomb_friction" => vec!["hysteresis", "coulomb_friction"],
+        "backlash" | "soft_zone" | "cubic_stiffness" => {
+            vec!["backlash", "soft_zone", "cubic_stiffness"]
+        }
+        own => vec![own],
+    }
+}
+
 fn length(v: &[f64]) -> f64 {
     dot(v, v).sqrt()
 }
@@ -42,6 +53,11 @@ pub fn judged(p: &Programme, noise: &Noise, drafts: &[Draft]) -> Vec<Truth> {
 
 fn one(i: usize, drafts: &[Draft], own: &[Vec<f64>], free: &[Vec<f64>], rivals: &[Rival]) -> Truth {
     let draft = &drafts[i];
+    // Readings on a raster scatter by it as well.
+    let raster = drafts
+        .iter()
+        .find(|d| d.effect == "quantization" && draft.effect != d.effect);
+    let coarse = raster.map_or(1.0, |r| (1.0 + r.strength.powi(2) / 12.0).sqrt());
     let mut truth = Truth {
         effect: if OUTSIDE.contains(&draft.effect) {
             "outside"
@@ -69,14 +85,17 @@ fn one(i: usize, drafts: &[Draft], own: &[Vec<f64>], free: &[Vec<f64>], rivals: 
     let whole = left(&own[i], &[]);
     truth.sight = whole;
     if let Some(j) = other {
-        let family = rivals.iter().filter(|r| r.0 == drafts[j].effect);
+        let family = rivals
+            .iter()
+            .filter(|r| family(drafts[j].effect).contains(&r.0));
         truth.sight = family.map(|r| left(&own[i], &r.1)).fold(whole, f64::min);
         let rest = length(&without(&own[j], &basis(free)));
         if truth.sight < 0.1 * rest {
             truth.sight = 0.0;
         }
     }
-    if draft.strength < 3.0 {
+    (truth.sight, truth.strength) = (truth.sight / coarse, draft.strength / coarse);
+    if truth.strength < 3.0 {
         truth.sight = 0.0;
     }
     let names = |name: &str| drafts.iter().any(|d| d.effect == name);
