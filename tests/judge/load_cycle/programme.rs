@@ -79,14 +79,14 @@ type Corners = (Vec<[f64; 2]>, Vec<[f64; 2]>);
 fn corners(levels: &[[f64; 2]], rest: f64, rates: bool, random: &mut Random) -> Corners {
     let mut knots = vec![[0.0, 0.0], [rest, 0.0]];
     let mut holds = vec![[0.0, rest]];
-    let (mut time, mut at) = (rest, 0.0);
+    let (mut time, mut at) = (rest, 0.0_f64);
     for (i, [level, hold]) in levels.iter().enumerate() {
         let rate = if rates && i >= levels.len() / 2 {
             random.uniform(2.0, 4.0)
         } else {
             1.0
         };
-        time += ((level - at) as f64).abs().max(0.05) / rate;
+        time += (level - at).abs().max(0.05) / rate;
         knots.push([time, *level]);
         holds.push([time, time + hold]);
         if *hold > 0.0 {
