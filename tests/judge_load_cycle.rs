@@ -66,6 +66,7 @@ fn seeds(cases: u64) -> Vec<u64> {
     (first..first + number("IDENT_JUDGE_CASES", cases)).collect()
 }
 
+/// Seeds 1 to 3, 360 files: stiffness 328 of 355, gap 39 of 43; nearly all that lie far off have a slip in the record.
 #[test]
 fn intervals_of_axes_hold_the_truth() {
     let one = |seed: &u64| {
@@ -83,7 +84,8 @@ fn intervals_of_axes_hold_the_truth() {
                 );
                 continue;
             };
-            held.add(name, low, high, *value);
+            let beside = said.split(" of ").next().unwrap_or("");
+            held.add(&format!("{name} beside {beside}"), low, high, *value);
             if !(low..=high).contains(value) {
                 let off = (value - 0.5 * (low + high)) / (0.5 * (high - low));
                 println!(
@@ -99,6 +101,7 @@ fn intervals_of_axes_hold_the_truth() {
     );
 }
 
+/// Seed 1, 27 files: 24; what is left is the column of the load exported twice.
 #[test]
 fn no_number_comes_from_what_carries_none() {
     let one = |seed: &u64| {
