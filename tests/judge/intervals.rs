@@ -34,7 +34,8 @@ pub fn held(verb: &str, draw: Draw, files: u64) -> Held {
     all
 }
 
-fn told(verb: &str, folder: &Path, file: &str) -> Value {
+/// What `ident VERB FILE --json --dry-run` says; what it says on standard error where that is no JSON.
+pub fn told(verb: &str, folder: &Path, file: &str) -> Value {
     let run = Command::new(env!("CARGO_BIN_EXE_ident"))
         .args([verb, file, "--json", "--dry-run"])
         .current_dir(folder)
