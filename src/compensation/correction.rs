@@ -44,16 +44,41 @@ impl Correction {
         each.fold([0.0; 3], |sum, (p, w)| add(sum, scale(w / 6.0, *p)))
     }
 
-    /// Takes what is left, given at ascending arc lengths, away: smoothed, times `share`.
-    pub fn take(&mut self, left: &[(f64, V3)], share: f64) {
-        let even = resampled(left, self.step_m, self.values.len());
-        for (value, left) in self
-            .values
-            .iter_mut()
-            .zip(smoothed(&even, SMOOTH / self.step_m))
-        {
-            *value = sub(*value, scale(share, left));
+    /// Takes what is left, given at ascending arc lengths, away: smoothed.
+    pub fn take(&mut self, left: &[(f64, V3)]) {
+        let left = self.smoothed(left);
+        *self = self.without(&left, &vec![1.0; left.len()]);
+    }
+
+    /// The same with values at its stations taken away, each times its share.
+    pub(super) fn without(&self, left: &[V3], share: &[f64]) -> Self {
+        let each = self.values.iter().zip(left).zip(share);
+        let values = each.map(|((value, left), share)| sub(*value, scale(*share, *left)));
+        Self {
+            values: values.collect(),
+            ..*self
         }
+    }
+
+    /// Goes a share of the way to another correction at one station.
+    pub(super) fn mix(&mut self, station: usize, other: &Self, share: f64) {
+        let value = &mut self.values[station];
+        *value = add(*value, scale(share, sub(other.values[station], *value)));
+    }
+
+    /// Samples at ascending arc lengths at its stations: linear between them, nothing outside.
+    pub(super) fn resampled(&self, samples: &[(f64, V3)]) -> Vec<V3> {
+        resampled(samples, self.step_m, self.values.len())
+    }
+
+    /// The same, smooth enough to be a correction.
+    pub(super) fn smoothed(&self, samples: &[(f64, V3)]) -> Vec<V3> {
+        self.blended(&self.resampled(samples), SMOOTH)
+    }
+
+    /// Values at its stations smoothed by a bell of this standard deviation (m).
+    pub(super) fn blended(&self, values: &[V3], width_m: f64) -> Vec<V3> {
+        smoothed(values, width_m / self.step_m)
     }
 
     /// Largest correction, m, and its arc length, m.
@@ -123,7 +148,7 @@ mod tests {
                 (s, [0.0, 1e-4 * (60.0 * s).sin(), 0.0])
             })
             .collect();
-        correction.take(&left, 1.0);
+        correction.take(&left);
         for s in [0.01, 0.0333, 0.07] {
             let [x, y, _] = correction.at(s);
             assert!(x == 0.0 && (y + 1e-4 * (60.0 * s).sin()).abs() < 2e-7);

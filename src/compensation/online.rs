@@ -140,7 +140,7 @@ fn controlled(task: &Task, milled: &Milled, pilot: Option<&Milled>) -> Outcome<C
         }
     }
     let mut correction = Correction::none(task.plan.path.length);
-    correction.take(&executed, 1.0);
+    correction.take(&executed);
     Ok(correction)
 }
 

@@ -1,0 +1,149 @@
+//! The mirror: what the simulation leaves is taken away, again and again (source 004). The cut answers a
+//! correction, at some places more strongly than it should: what grew there is taken back, and half as much
+//! is tried, while the other places go on.
+
+use super::answering::{STEP_S, command};
+use super::correction::Correction;
+use super::method::{Search, Task, with};
+use super::near::{Left, before_and_in, near};
+use super::places::{Places, Trial};
+use super::remaining::{Size, Station, remaining};
+use crate::ground::problem::Outcome;
+use crate::ground::spatial::{V3, add, scale, sub};
+use crate::process::setup::Support;
+use crate::process::way::normal_part;
+use rayon::prelude::*;
+
+/// Most rounds of trials.
+const ROUNDS: usize = 6;
+/// Change of the correction, against the largest deviation, at which it stands still.
+const STILL: f64 = 1e-2;
+/// The same where it is said that the mirror has converged: swings never stand quite still.
+const SETTLED: f64 = 5e-2;
+/// A round that lowers neither the largest deviation nor the root mean square by this share gains nothing ...
+const GAIN: f64 = 0.03;
+/// ... and after so many of them the best is kept.
+const PATIENCE: usize = 2;
+/// Share of what is left that is taken away at once where masses swing.
+const CAREFUL: f64 = 0.9;
+
+/// What the simulation leaves is mirrored: straight where springs alone carry the tool; where robot and cut
+/// are coupled in time, through the inverse of how the tip answers a command; the whole of a step and half of it
+/// beside each other. The best of the corrections is kept.
+pub(super) fn mirror(task: &Task, none: Correction) -> Outcome<Search> {
+    let mut best = Best::of(none.clone());
+    let mut places: Option<Places> = None;
+    let mut trials = vec![none];
+    let mut last_change_m = f64::INFINITY;
+    let mut idle = 0;
+    for round in 1..=ROUNDS {
+        let milled = trials.par_iter().map(|tried| mill(task, tried));
+        let milled = milled.collect::<Outcome<Vec<_>>>()?;
+        let gained = best.with(trials.iter().zip(&milled));
+        idle = if gained { 0 } else { idle + 1 };
+        let still = last_change_m <= STILL * best.first_m;
+        if still || idle >= PATIENCE || round == ROUNDS {
+            break;
+        }
+        for (tried, trial) in trials.iter().zip(&milled) {
+            places = Some(Places::next(places.take(), tried, trial));
+        }
+        if let Some(places) = &places {
+            trials = places.candidates().to_vec();
+            last_change_m = places.step_m();
+        }
+    }
+    Ok(Search {
+        converged: last_change_m <= SETTLED * best.first_m,
+        correction: best.correction,
+        iterations: best.milled,
+        last_change_m,
+    })
+}
+
+/// The best correction of the whole path so far.
+struct Best {
+    correction: Correction,
+    /// Largest deviation and root mean square, the least of each, m.
+    least: [f64; 2],
+    /// Largest deviation without correction, m.
+    first_m: f64,
+    /// Trials.
+    milled: usize,
+}
+
+impl Best {
+    fn of(correction: Correction) -> Self {
+        Self {
+            correction,
+            least: [f64::INFINITY; 2],
+            first_m: f64::INFINITY,
+            milled: 0,
+        }
+    }
+
+    /// Takes trials; whether they gain.
+    fn with<'a>(&mut self, trials: impl Iterator<Item = (&'a Correction, &'a Trial)>) -> bool {
+        let before = self.least;
+        for (tried, trial) in trials {
+            let size = Size::of(&trial.stations);
+            if self.milled == 0 {
+                self.first_m = size.max_m;
+            }
+            if size.max_m < self.least[0] {
+                self.correction = tried.clone();
+            }
+            self.least = [self.least[0].min(size.max_m), self.least[1].min(size.rms_m)];
+            self.milled += 1;
+        }
+        let mut pairs = self.least.iter().zip(before);
+        pairs.any(|(now, before)| *now < (1.0 - GAIN) * before)
+    }
+}
+
+/// Mills the part with a correction.
+fn mill(task: &Task, tried: &Correction) -> Outcome<Trial> {
+    let job = with(task.setup, task.plan, tried)?;
+    let (milled, _) = job.run(task.support, |_| {})?;
+    let stations = remaining(&milled, tried, &task.setup.way);
+    Ok(Trial {
+        update: update(task, &stations)?,
+        stations,
+    })
+}
+
+/// What is to be taken away at ascending arc lengths.
+fn update(task: &Task, stations: &[Station]) -> Outcome<Vec<(f64, V3)>> {
+    if task.support != Support::Coupled {
+        return Ok(near(stations).iter().map(|l| (l.s_m, l.left)).collect());
+    }
+    let left = before_and_in(stations);
+    let way = &task.setup.way;
+    let [begin, end] = way.span();
+    let count = ((end - begin) / STEP_S).ceil() as usize + 1;
+    let times = (0..count).map(|i| begin + STEP_S * i as f64);
+    let wanted: Vec<V3> = times.clone().map(|t| at(&left, t)).collect();
+    let told = command(task.setup, &task.plan.cell.chain, &wanted)?;
+    let mut update: Vec<(f64, V3)> = Vec::new();
+    for (time, told) in times.zip(told) {
+        let s = way.at(time).s_m;
+        if update.last().is_none_or(|last| s > last.0) {
+            let normal = normal_part(told, way.feed(time));
+            update.push((s, scale(CAREFUL, normal)));
+        }
+    }
+    Ok(update)
+}
+
+/// Linear between stations, nothing outside.
+fn at(left: &[Left], time_s: f64) -> V3 {
+    let after = left.partition_point(|l| l.time_s < time_s);
+    let (Some(a), Some(b)) = (
+        after.checked_sub(1).and_then(|i| left.get(i)),
+        left.get(after),
+    ) else {
+        return [0.0; 3];
+    };
+    let share = (time_s - a.time_s) / (b.time_s - a.time_s);
+    add(a.left, scale(share, sub(b.left, a.left)))
+}
