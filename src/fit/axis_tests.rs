@@ -1,16 +1,19 @@
 //! What the axis tests and the measuring cubes of a campaign found: the fits that `ident stiffness` left on
 //! disk.
 
+mod levers;
+mod pooling;
+
 use super::cubes::store::StoredCubes;
-use super::parameter::{Identified, Status, Z95};
+use super::parameter::{Identified, Status};
 use super::store::{SCHEMA, StoredFit};
 use crate::ground::files;
 use crate::ground::problem::Outcome;
-use crate::measurement::leading::front_of;
-use crate::measurement::load_cycle::{LEVER_REL_STD, lever_spread};
 use crate::measurement::workspace::Place;
 use crate::robot::Robot;
 use crate::robot::joint_effect::JointEffect;
+use levers::{levers, widened};
+use pooling::{contradiction, pooled};
 use std::path::{Path, PathBuf};
 
 /// One axis test with its stiffness; or one site that measuring cubes fixed, elastic axes of links included.
@@ -164,68 +167,6 @@ fn take(own: &mut Vec<AxisTest>, test: AxisTest) {
     }
 }
 
-/// Differences between repeats beyond this many standard deviations contradict each other.
-const CONTRADICTS: f64 = 4.0;
-
-/// Repeats of one site that contradict each other.
-fn contradiction(own: &[AxisTest]) -> Option<String> {
-    let (first, last) = (
-        own.iter()
-            .min_by(|a, b| a.stiffness.0.total_cmp(&b.stiffness.0))?,
-        own.iter()
-            .max_by(|a, b| a.stiffness.0.total_cmp(&b.stiffness.0))?,
-    );
-    let apart = last.stiffness.0 - first.stiffness.0;
-    let spread = first.stiffness.1.hypot(last.stiffness.1);
-    (apart > CONTRADICTS * spread).then(|| {
-        format!(
-            "{}: {} and {} contradict each other ({:.0} and {:.0} N·m/rad, {:.1} standard deviations apart); \
-             they are pooled with the scatter between them",
-            first.site,
-            first.input.0,
-            last.input.0,
-            first.stiffness.0,
-            last.stiffness.0,
-            apart / spread
-        )
-    })
-}
-
-/// Repeats of one site as one test: the mean weighed by their own errors and the scatter between them
-/// (DerSimonian and Laird 1986), all else from the one with the smallest interval.
-fn pooled(own: &[AxisTest]) -> Option<AxisTest> {
-    let width = |test: &&AxisTest| test.stiffness.1 / test.stiffness.0;
-    let best = own.iter().min_by(|a, b| width(a).total_cmp(&width(b)))?;
-    if own.len() < 2 {
-        return Some(best.clone());
-    }
-    let between = between(own);
-    let weight = |test: &AxisTest| 1.0 / (test.stiffness.1.powi(2) + between);
-    let total: f64 = own.iter().map(weight).sum();
-    let mean = own.iter().map(|t| weight(t) * t.stiffness.0).sum::<f64>() / total;
-    let stderr = (1.0 / total).sqrt();
-    let names: Vec<&str> = own.iter().map(|t| t.input.0.as_str()).collect();
-    Some(AxisTest {
-        stiffness: (mean, stderr),
-        ci95: [mean - Z95 * stderr, mean + Z95 * stderr],
-        input: (names.join(" + "), best.input.1.clone()),
-        ..best.clone()
-    })
-}
-
-/// Variance between repeats beyond their own errors.
-fn between(own: &[AxisTest]) -> f64 {
-    let weights: Vec<f64> = own.iter().map(|t| t.stiffness.1.powi(-2)).collect();
-    let total: f64 = weights.iter().sum();
-    let pairs = || own.iter().zip(&weights);
-    let mean = pairs().map(|(t, w)| w * t.stiffness.0).sum::<f64>() / total;
-    let misfit: f64 = pairs()
-        .map(|(t, w)| w * (t.stiffness.0 - mean).powi(2))
-        .sum();
-    let squares: f64 = weights.iter().map(|w| w * w).sum();
-    ((misfit - (own.len() as f64 - 1.0)) / (total - squares / total)).max(0.0)
-}
-
 /// The same tests under the names that a robot gives its joints: tests count joints from 1, and a
 /// robot may call its first joint as it likes.
 #[must_use]
@@ -343,49 +284,10 @@ fn carried(fit: &StoredFit) -> Vec<JointEffect> {
     own.collect()
 }
 
-/// Relative standard deviation by the levers of a measurement; the usual one if it is not there.
-fn levers(measurement: &Path) -> f64 {
-    let front = front_of(measurement).ok();
-    let stated = front.and_then(|front| lever_spread(&front).ok());
-    stated.unwrap_or(LEVER_REL_STD * std::f64::consts::SQRT_2)
-}
-
-/// A value with standard error and interval, with an independent relative error added.
-fn widened((value, stderr, [low, high]): Fixed, relative: f64) -> Fixed {
-    let more = value * relative;
-    let half = |own: f64| own.hypot(Z95 * more);
-    let ci95 = [value - half(value - low), value + half(high - value)];
-    (value, stderr.hypot(more), ci95)
-}
-
 /// Value, standard error and 95 % interval.
 type Fixed = (f64, f64, [f64; 2]);
 
 fn fixed(parameters: &[Identified], name: &str) -> Option<Fixed> {
     let found = parameters.iter().find(|p| p.name == name)?;
     Some((found.value?, found.stderr?, found.ci95?))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn levers_widen_what_the_fit_says() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("axis6.csv");
-        let spread = |facts: &str| {
-            let head = "# kind = \"load-cycle\"\n# lever_rel_std = 0.03\n";
-            std::fs::write(&path, format!("{head}{facts}time_s,force_N\n")).unwrap();
-            levers(&path)
-        };
-        let both = spread("# load_lever_m = 0.6\n# sensor_lever_m = 0.5\n");
-        assert!((both - 0.03 * 2.0_f64.sqrt()).abs() < 1e-15);
-        assert_eq!(spread("# sensor_lever_m = 0.5\n"), 0.03);
-        assert_eq!(spread(""), 0.0);
-        assert!(levers(&folder.path().join("gone.csv")) > LEVER_REL_STD);
-        let (value, stderr, ci95) = widened((2e5, 3e3, [1.9e5, 2.1e5]), 0.02);
-        assert_eq!((value, stderr), (2e5, 5e3));
-        assert!(ci95[0] < 1.9e5 && (ci95[0] + ci95[1] - 4e5).abs() < 1e-6);
-    }
 }

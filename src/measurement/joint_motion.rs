@@ -1,10 +1,12 @@
 //! Kind `joint-motion`: encoders on both sides of the gears, and motor torques, while the robot moves.
 
-use super::front::Front;
+mod lists;
+
 use super::load_cycle::{check_time, dialect, interpolate};
 use super::table::Table;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::units::Dimension;
+use lists::Lists;
 use std::path::{Path, PathBuf};
 
 /// The facts of this kind, as they are written.
@@ -196,58 +198,6 @@ fn check_column(table: &Table, stem: &str, i: usize, dimension: Dimension) -> Ou
         .in_column(&column.name)
         .at_line(header)),
         Some(_) => Ok(()),
-    }
-}
-
-/// Facts that are one number for all joints, or a list with one for each.
-struct Lists {
-    ratio: Vec<Option<f64>>,
-    delay: Vec<Option<f64>>,
-    nominal: Vec<Option<f64>>,
-    rel_std: Vec<Option<f64>>,
-    zero_std_deg: Vec<Option<f64>>,
-}
-
-impl Lists {
-    fn of(front: &Front, joints: usize) -> Outcome<Self> {
-        let delay = match front.facts.contains_key("encoder_delay_s") {
-            true => "encoder_delay_s",
-            false => "sensor_delay_s",
-        };
-        Ok(Self {
-            ratio: positive(front, "gear_ratio", joints)?,
-            delay: one_or_each(front, delay, joints)?,
-            nominal: positive(front, "nominal_stiffness_Nm_rad", joints)?,
-            rel_std: positive(front, "nominal_stiffness_rel_std", joints)?,
-            zero_std_deg: positive(front, "encoder_zero_std_deg", joints)?,
-        })
-    }
-}
-
-fn one_or_each(front: &Front, key: &str, joints: usize) -> Outcome<Vec<Option<f64>>> {
-    if !matches!(front.facts.get(key), Some(toml::Value::Array(_))) {
-        return Ok(vec![front.number(key)?; joints]);
-    }
-    let list = front.numbers(key)?.unwrap_or_default();
-    if list.len() != joints {
-        return Err(front.problem(
-            key,
-            format!("has {} numbers for {joints} joints", list.len()),
-            "give one number for every joint with columns, in their order, or one for all",
-        ));
-    }
-    Ok(list.into_iter().map(Some).collect())
-}
-
-fn positive(front: &Front, key: &str, joints: usize) -> Outcome<Vec<Option<f64>>> {
-    let list = one_or_each(front, key, joints)?;
-    match list.iter().flatten().find(|v| **v <= 0.0 || !v.is_finite()) {
-        None => Ok(list),
-        Some(v) => Err(front.problem(
-            key,
-            format!("holds {v}, which is not above zero"),
-            "give positive values; a reversed axis is a matter of the signs of its angles",
-        )),
     }
 }
 

@@ -1,9 +1,12 @@
 //! A TOML file read key by key: everything knows its line, and an unknown key is refused with the
 //! nearest known one.
 
+mod lists;
+#[cfg(test)]
+mod tests;
+
 use crate::ground::nearest::nearest;
 use crate::ground::problem::{Outcome, Problem};
-use crate::ground::vector::V3;
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -248,75 +251,6 @@ impl<'a> Keys<'a> {
         }
     }
 
-    /// A list of finite numbers, if given.
-    ///
-    /// # Errors
-    /// Another type, or a member that is no finite number.
-    pub fn numbers(&self, key: &str) -> Outcome<Option<Vec<f64>>> {
-        let Some(value) = self.get(key) else {
-            return Ok(None);
-        };
-        self.list(key, value).map(Some)
-    }
-
-    fn list(&self, key: &str, value: &DeValue<'_>) -> Outcome<Vec<f64>> {
-        let wrong = || self.wrong_type(key, value, "a list of numbers", "[0.0, 1.5]");
-        let members = value.as_array().ok_or_else(wrong)?;
-        let number = |member: &Spanned<DeValue<'_>>| {
-            let number = number_of(member.get_ref()).ok_or_else(|| {
-                let remedy = format!("write `{key} = [0.0, 1.5]`");
-                self.problem(key, "holds something that is no number", remedy)
-            })?;
-            self.finite(key, number)
-        };
-        members.iter().map(number).collect()
-    }
-
-    /// Exactly `N` finite numbers, if given.
-    ///
-    /// # Errors
-    /// As [`Keys::numbers`], and another length.
-    pub fn array<const N: usize>(&self, key: &str) -> Outcome<Option<[f64; N]>> {
-        let Some(list) = self.numbers(key)? else {
-            return Ok(None);
-        };
-        let found = list.len();
-        let fitting = <[f64; N]>::try_from(list);
-        fitting.map(Some).map_err(|_| {
-            let what = format!("has {found} members instead of {N}");
-            self.problem(key, what, format!("write {N} numbers in brackets"))
-        })
-    }
-
-    /// A vector, if given.
-    ///
-    /// # Errors
-    /// As [`Keys::array`].
-    pub fn vector(&self, key: &str) -> Outcome<Option<V3>> {
-        self.array::<3>(key)
-    }
-
-    /// Three rows of three finite numbers, if given.
-    ///
-    /// # Errors
-    /// Another shape.
-    pub fn matrix(&self, key: &str) -> Outcome<Option<[V3; 3]>> {
-        let Some(value) = self.get(key) else {
-            return Ok(None);
-        };
-        let wrong = || {
-            let remedy = format!("write `{key} = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]`");
-            self.problem(key, "is not three rows of three numbers", remedy)
-        };
-        let rows = value.as_array().ok_or_else(wrong)?;
-        let row = |row: &Spanned<DeValue<'_>>| {
-            let list = self.list(key, row.get_ref()).map_err(|_| wrong())?;
-            V3::try_from(list).map_err(|_| wrong())
-        };
-        let rows: Vec<V3> = rows.iter().map(row).collect::<Outcome<_>>()?;
-        <[V3; 3]>::try_from(rows).map(Some).map_err(|_| wrong())
-    }
-
     /// The table under a key, if given; its keys must be among `known`.
     ///
     /// # Errors
@@ -330,27 +264,6 @@ impl<'a> Keys<'a> {
         let table = table.ok_or_else(|| self.wrong_type(key, value, "a table", example))?;
         let prefix = format!("{}{key}.", self.prefix);
         Keys::of(self.text, table, prefix, self.line_of(key), known).map(Some)
-    }
-}
-
-impl<'a> Keys<'a> {
-    /// The tables under a key, as `[[key]]` writes them; none if left out. Their keys must be among `known`.
-    ///
-    /// # Errors
-    /// Another type, or an unknown key.
-    pub fn tables(&self, key: &str, known: &[&str]) -> Outcome<Vec<Keys<'a>>> {
-        let Some(value) = self.get(key) else {
-            return Ok(Vec::new());
-        };
-        let wrong = || self.wrong_type(key, value, "a list of tables", "[{ ... }]");
-        let members = value.as_array().ok_or_else(wrong)?;
-        let one = |member: &'a Spanned<DeValue<'a>>| {
-            let table = member.get_ref().as_table().ok_or_else(wrong)?;
-            let line = line_of(self.text, Some(member.span()));
-            let prefix = format!("{}{key}.", self.prefix);
-            Keys::of(self.text, table, prefix, line, known)
-        };
-        members.iter().map(one).collect()
     }
 }
 
@@ -378,63 +291,4 @@ fn unknown(key: &str, known: &[&str]) -> Problem {
         ),
     };
     Problem::new("is an unknown key", remedy)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn refusal(text: &str, read: impl Fn(&Keys<'_>) -> Outcome<()>) -> Problem {
-        let document = Document::parse(text).unwrap();
-        read(&document.keys(&["a", "b", "feed_mm_min"]).unwrap()).unwrap_err()
-    }
-
-    #[test]
-    fn an_unknown_key_names_its_line_and_the_nearest_known_one() {
-        let document = Document::parse("a = 1\n\nfed_mm_min = 2\n").unwrap();
-        let problem = document.keys(&["a", "feed_mm_min"]).unwrap_err();
-        assert_eq!(problem.line, Some(3));
-        assert!(problem.remedy.contains("`feed_mm_min`"), "{problem}");
-    }
-
-    #[test]
-    fn numbers_in_every_spelling_are_read() {
-        let document = Document::parse("a = 1_000\nb = 0x10\nfeed_mm_min = -1.5e-3").unwrap();
-        let keys = document.keys(&["a", "b", "feed_mm_min"]).unwrap();
-        assert_eq!(keys.number("a").unwrap(), Some(1000.0));
-        assert_eq!(keys.number("b").unwrap(), Some(16.0));
-        assert_eq!(keys.number("feed_mm_min").unwrap(), Some(-1.5e-3));
-        assert_eq!(keys.number("c").unwrap(), None);
-    }
-
-    #[test]
-    fn what_is_no_number_is_refused_on_its_line() {
-        for wrong in [
-            "nan",
-            "inf",
-            "1e31",
-            "-1e-320",
-            "\"1\"",
-            "[1]",
-            "true",
-            "2020-01-01",
-        ] {
-            let text = format!("a = 1\nb = {wrong}\n");
-            let problem = refusal(&text, |keys| keys.number("b").map(drop));
-            assert_eq!(
-                (problem.line, problem.column.as_deref()),
-                (Some(2), Some("b")),
-                "{wrong}"
-            );
-        }
-    }
-
-    #[test]
-    fn broken_toml_names_its_line() {
-        assert_eq!(
-            Document::parse("a = 1\nb = = 2\n").unwrap_err().line,
-            Some(2)
-        );
-        assert_eq!(Document::parse("a = 1\na = 2\n").unwrap_err().line, Some(2));
-    }
 }

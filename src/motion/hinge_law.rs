@@ -5,8 +5,10 @@
 //! is one of its kind (Krejčí and Kuhnen 2001): M = k x + Σ kⱼ Sρⱼ(x), elastic sliders beside the spring,
 //! whose torque never exceeds kⱼ ρⱼ. The gap lies in series and is crossed at M = 0.
 
-use crate::effects::contract::Contact;
+mod slider;
+
 use crate::robot::Spring;
+use slider::{Slider, sliders};
 
 /// The law of one elastic hinge.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,13 +16,6 @@ pub struct HingeLaw {
     stiffness: f64,
     half_gap: f64,
     sliders: Vec<Slider>,
-}
-
-/// A spring (N·m/rad) behind a dry contact that slips at this deflection (rad).
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Slider {
-    stiffness: f64,
-    reach: f64,
 }
 
 /// What a hinge remembers of its past.
@@ -209,45 +204,6 @@ impl HingeLaw {
             },
         )
     }
-}
-
-impl Slider {
-    /// Mean torque while moving by `travel`: first sticking, then slipping.
-    fn mean(&self, stop: f64, sign: f64, travel: f64) -> Mean {
-        let stuck = (self.reach - sign * stop).max(0.0);
-        if travel <= stuck {
-            return Mean {
-                torque: self.stiffness * (stop + 0.5 * sign * travel),
-                slope: 0.5 * self.stiffness,
-            };
-        }
-        let share = stuck / travel;
-        let before = stop + 0.5 * sign * stuck;
-        let torque = self.stiffness * (share * before + (1.0 - share) * sign * self.reach);
-        Mean {
-            torque,
-            slope: 0.5 * self.stiffness * share * share,
-        }
-    }
-}
-
-/// The sliders beside a spring that answer as these contacts in its load path do.
-fn sliders(stiffness: f64, mut contacts: Vec<Contact>) -> Vec<Slider> {
-    contacts.retain(|contact| contact.compliance > 0.0 && contact.slip_load > 0.0);
-    contacts.sort_by(|a, b| a.slip_load.total_cmp(&b.slip_load));
-    let held: f64 = contacts.iter().map(|contact| contact.compliance).sum();
-    let (mut compliance, mut load, mut reach) = (1.0 / stiffness - held, 0.0, 0.0);
-    let one = |contact: &Contact| {
-        reach += compliance * (contact.slip_load - load);
-        load = contact.slip_load;
-        let before = 1.0 / compliance;
-        compliance += contact.compliance;
-        Slider {
-            stiffness: before - 1.0 / compliance,
-            reach,
-        }
-    };
-    contacts.iter().map(one).collect()
 }
 
 #[cfg(test)]

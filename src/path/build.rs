@@ -1,11 +1,15 @@
 //! One path from a programme: corners blended, orientations laid along it.
 
+mod piece;
+mod turning;
+
 use super::corner::{Corner, Passage};
 use super::curve::Curve;
-use super::element::{Element, Programme, SpotTurn};
-use super::orientation::{Law, Span, Turning, turns_at};
+use super::element::{Programme, SpotTurn};
+use super::orientation::{Span, Turning};
 use super::quaternion::Quaternion;
 use crate::ground::vector::V3;
+pub use piece::{Part, Piece};
 use rayon::prelude::*;
 
 /// How a path is drawn through its points.
@@ -15,26 +19,6 @@ pub struct Drawing {
     pub blend_radius: Option<f64>,
     /// Where the tool turns.
     pub turning: Turning,
-}
-
-/// A stretch of the path of one shape.
-#[derive(Debug, Clone)]
-pub struct Piece {
-    /// Arc length of the path where it begins, m.
-    pub begin: f64,
-    /// Its length, m.
-    pub length: f64,
-    /// What it is.
-    pub part: Part,
-}
-
-/// What a piece is.
-#[derive(Debug, Clone)]
-pub enum Part {
-    /// Of the element of this index, from this length (m) of it on.
-    Element(usize, f64),
-    /// The blend after the element of this index.
-    Blend(usize, Curve),
 }
 
 /// A place where the tip stands still, with its turns.
@@ -197,31 +181,6 @@ impl Path {
     }
 }
 
-impl Piece {
-    /// Arc length where it ends, m.
-    pub fn end(&self) -> f64 {
-        self.begin + self.length
-    }
-
-    /// Place at the arc length `s` (m) of the path, m.
-    pub fn point(&self, s: f64, elements: &[Element]) -> V3 {
-        let along = (s - self.begin).clamp(0.0, self.length);
-        match &self.part {
-            Part::Element(k, from) => elements[*k].curve.point(from + along),
-            Part::Blend(_, curve) => curve.point(along),
-        }
-    }
-
-    /// Direction of travel at the arc length `s` (m) of the path.
-    pub fn direction(&self, s: f64, elements: &[Element]) -> V3 {
-        let along = (s - self.begin).clamp(0.0, self.length);
-        match &self.part {
-            Part::Element(k, from) => elements[*k].curve.end(from + along).tangent,
-            Part::Blend(_, curve) => curve.end(along).tangent,
-        }
-    }
-}
-
 fn corners(programme: &Programme, asked: Option<f64>) -> Vec<Corner> {
     let elements = &programme.elements;
     let halted = |k: usize| {
@@ -232,129 +191,4 @@ fn corners(programme: &Programme, asked: Option<f64>) -> Vec<Corner> {
     pairs
         .map(|(k, pair)| Corner::between(&pair[0], &pair[1], asked, halted(k + 1)))
         .collect()
-}
-
-/// Laying orientations along the path.
-impl Path {
-    fn lay_turning(&mut self, turning: Turning) {
-        let elements = &self.programme.elements;
-        let laws = elements.iter().enumerate();
-        let laws: Vec<Law> = laws.map(|(k, e)| Law::of(k, e, turning)).collect();
-        let zeros = self.zeros();
-        let zones: Vec<[f64; 2]> = (0..self.corners.len())
-            .map(|k| self.zone(k, turning))
-            .collect();
-        let (mut spans, mut at) = (Vec::with_capacity(2 * laws.len()), 0.0);
-        for (k, law) in laws.iter().enumerate() {
-            let end = zones.get(k).map_or(self.length, |zone| zone[0]);
-            if end > at {
-                spans.push(Span {
-                    begin: at,
-                    end,
-                    law: (law.clone(), zeros[k]),
-                    next: None,
-                });
-            }
-            at = at.max(end);
-            let Some([begin, end]) = zones.get(k).copied() else {
-                break;
-            };
-            if end > begin {
-                spans.push(Span {
-                    begin,
-                    end,
-                    law: (law.clone(), zeros[k]),
-                    next: Some((laws[k + 1].clone(), zeros[k + 1])),
-                });
-                at = end;
-            }
-        }
-        self.spans = spans;
-        self.lay_halts(&laws, &zones);
-    }
-
-    /// For every element the arc length of the path at which its own would be zero, m.
-    fn zeros(&self) -> Vec<f64> {
-        (0..=self.corners.len()).map(|k| self.zero(k)).collect()
-    }
-
-    /// The arc length of the path at which that of element `k` would be zero, m.
-    pub fn zero(&self, k: usize) -> f64 {
-        let corner = k.checked_sub(1).and_then(|k| self.corners.get(k));
-        corner.map_or(0.0, |corner| match corner.passage {
-            Passage::Blend => corner.end - corner.radius,
-            _ => corner.end,
-        })
-    }
-
-    /// Where the tool turns about the corner after element `k`: arc lengths, m.
-    fn zone(&self, k: usize, turning: Turning) -> [f64; 2] {
-        let corner = &self.corners[k];
-        let Turning::Radius(radius) = turning else {
-            return match corner.passage {
-                Passage::Stop => [corner.begin; 2],
-                Passage::Blend => [corner.begin, corner.end],
-                Passage::Through => [corner.begin - corner.radius, corner.end + corner.radius],
-            };
-        };
-        let elements = &self.programme.elements;
-        let room = 0.5
-            * elements[k]
-                .curve
-                .length()
-                .min(elements[k + 1].curve.length());
-        let radius = match self.turns_on_the_spot(k + 1) {
-            true => 0.0,
-            false => radius.min(room),
-        };
-        let rounded = match corner.passage {
-            Passage::Blend => corner.radius,
-            _ => 0.0,
-        };
-        if radius >= rounded {
-            let more = radius - rounded;
-            return [corner.begin - more, corner.end + more];
-        }
-        let (middle, half) = (
-            0.5 * (corner.begin + corner.end),
-            0.5 * (corner.end - corner.begin),
-        );
-        let share = radius / rounded * half;
-        [middle - share, middle + share]
-    }
-
-    fn turns_on_the_spot(&self, index: usize) -> bool {
-        let turns = &self.programme.turns;
-        turns
-            .binary_search_by_key(&index, |turn| turn.before)
-            .is_ok()
-    }
-
-    fn lay_halts(&mut self, laws: &[Law], zones: &[[f64; 2]]) {
-        let elements = &self.programme.elements;
-        let last = elements.len();
-        let start = |k: usize| laws[k].at(0.0, elements);
-        let end = |k: usize| laws[k].at(elements[k].curve.length(), elements);
-        let mut halts = vec![Halt {
-            at: 0.0,
-            turns: turns_at(&self.programme, 0, None, Some(start(0))),
-        }];
-        for (k, corner) in self.corners.iter().enumerate() {
-            let open = zones[k][1] > zones[k][0];
-            let (before, after) = (end(k), start(k + 1));
-            let turns = match open {
-                true => Vec::new(),
-                false => turns_at(&self.programme, k + 1, Some(before), Some(after)),
-            };
-            if corner.passage == Passage::Stop || !turns.is_empty() {
-                let at = corner.begin;
-                halts.push(Halt { at, turns });
-            }
-        }
-        halts.push(Halt {
-            at: self.length,
-            turns: turns_at(&self.programme, last, Some(end(last - 1)), None),
-        });
-        self.halts = halts;
-    }
 }

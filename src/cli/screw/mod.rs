@@ -3,23 +3,24 @@
 mod json;
 mod motion;
 mod page;
+mod request;
 mod tables;
 
 use super::chapter::Chapter;
 use super::output::{print, tell};
 use super::{Ending, Verb, arguments, from_words, parsed};
-use crate::fit::screw::groups::Joint;
 use crate::fit::screw::in_motion::{Demand, Run, in_motion};
 use crate::fit::screw::positions::Extremes;
-use crate::fit::screw::{Account, Request, identify};
+use crate::fit::screw::{Account, identify};
 use crate::fit::suitability::{self, Doubt, is_odd};
 use crate::ground::files;
-use crate::ground::problem::{Outcome, Problem};
+use crate::ground::problem::Outcome;
 use crate::measurement::pitch_table::{EXPORTERS, Exporter, PitchTable, exporter};
 use crate::measurement::screw::ScrewTest;
 use crate::measurement::workspace::{Place, resolve};
 use crate::report::{folder, text};
 use clap::{ArgMatches, Args, ValueEnum};
+use request::{demand, request};
 use std::path::{Path, PathBuf};
 
 /// The verb.
@@ -214,40 +215,6 @@ fn passed(test: &ScrewTest) -> Outcome<Vec<Doubt>> {
     let doubts = suitability::screw::doubts(test);
     suitability::refuse(&test.path, &doubts)?;
     Ok(doubts)
-}
-
-fn request(arguments: &Arguments) -> Outcome<Request> {
-    let limit = arguments.residual_um;
-    if !(limit > 0.0 && limit < 1e6) {
-        return Err(Problem::new(
-            format!("is {limit}"),
-            "give the largest residual in µm, such as 3",
-        )
-        .in_column("--residual-um"));
-    }
-    Ok(Request {
-        residual: limit * 1e-6,
-        coverage: f64::from(arguments.coverage),
-        extremes: arguments.leave_out.extremes(),
-        joint: if arguments.continuous {
-            Joint::Continuous
-        } else {
-            Joint::Free
-        },
-        smooth: arguments.follow == Follow::Groups,
-    })
-}
-
-fn demand(arguments: &Arguments) -> Outcome<Demand> {
-    let speed = arguments.speed_m_min;
-    match (1.0..=100.0).contains(&speed) {
-        true => Ok(Demand::at(speed / 60.0)),
-        false => Err(Problem::new(
-            format!("is {speed}"),
-            "give a speed in m/min between 1 and 100",
-        )
-        .in_column("--speed-m-min")),
-    }
 }
 
 fn read(name: &Path) -> Outcome<ScrewTest> {

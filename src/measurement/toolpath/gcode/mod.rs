@@ -4,6 +4,7 @@
 mod arc;
 mod block;
 mod codes;
+mod refusal;
 
 use super::draft::{Draft, within};
 use super::source::{Source, lines};
@@ -13,6 +14,7 @@ use crate::ground::vector::V3;
 use arc::Plane;
 use block::Block;
 use codes::{Act, G_CODES, M_CODES};
+use refusal::{refused, shown, stray_centre};
 use std::f64::consts::TAU;
 
 pub(super) fn recognises(head: &str) -> bool {
@@ -292,28 +294,4 @@ impl State {
             }
         }
     }
-}
-
-fn stray_centre() -> Problem {
-    Problem::new(
-        "I, J, K or R on a straight motion",
-        "write G2 or G3 for an arc, or remove the words",
-    )
-}
-
-/// `G2`, `G91.1`.
-fn shown(letter: char, tenths: i32) -> String {
-    match tenths % 10 {
-        0 => format!("{letter}{}", tenths / 10),
-        tenth => format!("{letter}{}.{tenth}", tenths / 10),
-    }
-}
-
-fn refused(letter: char, tenths: i32) -> Problem {
-    let what = format!(
-        "`{}` may change the path and is not understood",
-        shown(letter, tenths)
-    );
-    let remedy = "post lines and arcs (G0 to G3) without cycles, offsets, scaling and subprograms";
-    Problem::new(what, remedy)
 }

@@ -1,14 +1,16 @@
 //! Motions: lines, circles, and those of the axes, which are passed over.
 
+mod tail;
+
 use super::super::shape::Arc;
 use super::super::{Move, Orientation, Shape};
-use super::scan::{head_of, operand};
+use super::scan::operand;
 use super::value::Value;
 use super::{State, shown};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{V3, add, roll_pitch_yaw, rotate};
 use crate::ground::units::DEGREE;
-use std::f64::consts::TAU;
+use tail::Tail;
 
 /// What a motion is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,14 +49,6 @@ struct Target {
     to: V3,
     /// A, B, C, rad.
     angles: V3,
-}
-
-/// What stands behind the points of a motion.
-#[derive(Debug, Default)]
-struct Tail {
-    blends: bool,
-    in_tool: bool,
-    circular_angle: Option<f64>,
 }
 
 impl State {
@@ -243,48 +237,6 @@ impl State {
     }
 }
 
-impl Tail {
-    fn of(text: &str) -> Outcome<Self> {
-        let mut tail = Self::default();
-        let mut rest = text.trim().trim_start_matches(',').trim_start();
-        while !rest.is_empty() {
-            let (word, behind) = match rest.strip_prefix('#') {
-                Some(named) => head_of(named),
-                None => head_of(rest),
-            };
-            rest = behind.trim_start();
-            match word {
-                "C_DIS" | "C_SPL" => tail.blends = true,
-                "BASE" => tail.in_tool = false,
-                "TOOL" => tail.in_tool = true,
-                "CA" => rest = tail.angle(rest)?,
-                _ => return Err(strange_tail(word)),
-            }
-            rest = rest.trim_start_matches(',').trim_start();
-        }
-        Ok(tail)
-    }
-
-    fn angle<'a>(&mut self, rest: &'a str) -> Outcome<&'a str> {
-        let (text, behind) = operand(rest);
-        let angle = super::super::source::number(text).map(|degrees| degrees * DEGREE);
-        let angle = angle.filter(|angle| angle.abs() > 1e-9 && angle.abs() <= 100.0 * TAU);
-        self.circular_angle = Some(angle.ok_or_else(|| {
-            let remedy = "write CA and the angle in degrees";
-            Problem::new(format!("`{}` is no angle of a circle", shown(text)), remedy)
-        })?);
-        Ok(behind)
-    }
-
-    fn and(self, other: Self) -> Self {
-        Self {
-            blends: self.blends || other.blends,
-            in_tool: self.in_tool || other.in_tool,
-            circular_angle: self.circular_angle.or(other.circular_angle),
-        }
-    }
-}
-
 /// Assignments of WITH, and flags behind the last one.
 fn split_flags(with: &str) -> (&str, &str) {
     let at = [" C_DIS", " C_SPL"]
@@ -292,17 +244,6 @@ fn split_flags(with: &str) -> (&str, &str) {
         .filter_map(|flag| with.find(flag))
         .min();
     with.split_at(at.unwrap_or(with.len()))
-}
-
-fn strange_tail(word: &str) -> Problem {
-    let what = match word {
-        "" => "something behind the point is not understood".to_string(),
-        _ => format!("`{}` behind the point is not understood", shown(word)),
-    };
-    Problem::new(
-        what,
-        "approximate with C_DIS and $APO.CDIS; frames are not computed with `:`",
-    )
 }
 
 fn is_home(target: &str, home: &[&str]) -> bool {
