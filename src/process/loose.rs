@@ -26,6 +26,8 @@ struct Hinge {
     place: f64,
     /// Torque c over the last step, N·m.
     last: f64,
+    /// The same over the next one, should it go on as it did.
+    next: f64,
     /// Energy in it, J.
     stored: f64,
 }
@@ -51,7 +53,7 @@ pub struct Ports {
 
 /// Rounds at most; the laws are chains of straight pieces.
 const ROUNDS: usize = 16;
-/// The first rounds put the torques of the last one in: short steps hardly move a joint. Then by Newton.
+/// The first rounds put the torques of the one before in: short steps hardly move a joint. Then by Newton.
 const PLAIN: usize = 4;
 /// A torque this near to its law is met, as a share of the spring's own over the largest deflection.
 const NEAR: f64 = 1e-7;
@@ -70,10 +72,12 @@ impl Loose {
                 let law = HingeLaw::of(spring);
                 let place = law.settled(-held.weight[coordinate]);
                 let memory = law.at_rest(place);
+                let last = spring.stiffness * place - law.torque(&memory);
                 Some(Hinge {
                     coordinate,
                     stiffness: spring.stiffness,
-                    last: spring.stiffness * place - law.torque(&memory),
+                    last,
+                    next: last,
                     stored: law.stored(&memory),
                     memory,
                     law,
@@ -124,7 +128,7 @@ impl Loose {
         let free: Vec<f64> = free
             .map(|(row, by)| along(row, state) + dot(*by, force))
             .collect();
-        let mut torque: Vec<f64> = self.hinges.iter().map(|hinge| hinge.last).collect();
+        let mut torque: Vec<f64> = self.hinges.iter().map(|hinge| hinge.next).collect();
         let mut x = free.clone();
         ports.answered(&torque, &mut x);
         let mut means = vec![(0.0, 0.0); free.len()];
@@ -248,7 +252,9 @@ impl Hinge {
     /// Goes on; what is lost to dry contacts, J.
     fn go(&mut self, to: f64) -> f64 {
         let mean = self.law.step(&mut self.memory, self.place, to);
+        let before = self.last;
         self.last = 0.5 * self.stiffness * (self.place + to) - mean;
+        self.next = 2.0 * self.last - before;
         let work = mean * (to - self.place);
         self.place = to;
         let before = std::mem::replace(&mut self.stored, self.law.stored(&self.memory));
