@@ -15,7 +15,7 @@ use crate::process::way::normal_part;
 use rayon::prelude::*;
 
 /// Most rounds of trials.
-const ROUNDS: usize = 6;
+const ROUNDS: usize = 5;
 /// Change of the correction, against the largest deviation, at which it stands still.
 const STILL: f64 = 1e-2;
 /// The same where it is said that the mirror has converged: swings never stand quite still.
