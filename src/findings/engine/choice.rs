@@ -8,7 +8,7 @@ use super::posterior::Posterior;
 use super::rest::Span;
 use super::search::Scored;
 use super::statement::Statement;
-use super::unseen::gain;
+use super::unseen::gains;
 use crate::findings::gain::Gain;
 
 /// Sets below the best that matters by more than this are not tried, nats.
@@ -93,12 +93,7 @@ pub(super) fn drop_unreal(
     judgement: &Judgement,
 ) -> Vec<Gain> {
     loop {
-        let gains: Vec<Gain> = set
-            .fit
-            .members
-            .iter()
-            .map(|m| gain(statement, bank, &set.fit, *m))
-            .collect();
+        let gains = gains(statement, bank, &set.fit);
         let least = match gains.len() {
             1 => 0.0,
             _ => judgement.companion_gain,

@@ -4,8 +4,10 @@
 use super::bank::{Bank, Fit};
 use super::judgement::Judgement;
 use super::statement::Statement;
+use crate::ground::products::gram;
 use crate::ground::stats::{quantile, rms};
 use nalgebra::{DMatrix, DVector};
+use std::ops::Range;
 
 /// Whether all causes of a set matter.
 pub fn is_material(statement: &Statement, bank: &Bank, fit: &Fit, judgement: &Judgement) -> bool {
@@ -14,20 +16,24 @@ pub fn is_material(statement: &Statement, bank: &Bank, fit: &Fit, judgement: &Ju
     }
     let noise = fit.posterior.noise_variance.sqrt();
     let parts = parts(statement, bank, fit);
-    let total = rms(&free_of(statement, &[], &sum(statement, &parts)));
+    let beside = Beside::of(statement, bank, fit);
+    let total = rms(&beside.free_of(&[], &sum(statement, &parts)));
+    let sizes: Vec<f64> = parts.iter().map(|p| rms(p)).collect();
     (0..parts.len()).all(|at| {
-        let own = own_part(statement, bank, fit, (at, &parts[at]));
-        let peaks: Vec<f64> = own.iter().map(|v| v.abs()).collect();
         let share = match (bank.suspect(fit.members[at]).named, has_kin(bank, fit, at)) {
             (false, _) => judgement.left_share,
             (true, true) => judgement.share_beside_kin,
             (true, false) => judgement.share,
         };
-        let beside = (0..parts.len()).filter(|i| *i != at);
-        let rough = |i: usize| bank.suspect(fit.members[i]).law_error * rms(&parts[i]);
-        let missed = beside.map(rough).fold(0.0, f64::max);
+        let others: Vec<usize> = (0..parts.len()).filter(|i| *i != at).collect();
+        let rough = |i: &usize| bank.suspect(fit.members[*i]).law_error * sizes[*i];
+        let missed = others.iter().map(rough).fold(0.0, f64::max);
+        let own = beside.free_of(&others, &parts[at]);
+        if parts.len() > 1 && rms(&own) < (share * total).max(missed) {
+            return false;
+        }
+        let peaks: Vec<f64> = own.iter().map(|v| v.abs()).collect();
         quantile(&peaks, 0.99) >= judgement.peak * noise
-            && (parts.len() == 1 || rms(&own) >= (share * total).max(missed))
     })
 }
 
@@ -39,11 +45,8 @@ pub(super) fn explained_rms(
     fit: &Fit,
     judgement: &Judgement,
 ) -> f64 {
-    let total = free_of(
-        statement,
-        &[],
-        &sum(statement, &parts(statement, bank, fit)),
-    );
+    let all = sum(statement, &parts(statement, bank, fit));
+    let total = Beside::of(statement, bank, fit).free_of(&[], &all);
     let peaks: Vec<f64> = total.iter().map(|v| v.abs()).collect();
     let noise = fit.posterior.noise_variance.sqrt();
     match quantile(&peaks, 0.98) > judgement.left_peak * noise {
@@ -99,42 +102,59 @@ fn in_noise(statement: &Statement, raw: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// The part of a member that the others and what nobody knows anyway cannot take over.
-fn own_part(
-    statement: &Statement,
-    bank: &Bank,
-    fit: &Fit,
-    (at, part): (usize, &[f64]),
-) -> Vec<f64> {
-    let others = fit.members.iter().enumerate().filter(|(i, _)| *i != at);
-    let columns = others.flat_map(|(_, m)| bank.member(*m).columns.iter());
-    let columns: Vec<Vec<f64>> = columns.map(|c| in_noise(statement, c)).collect();
-    free_of(statement, &columns, part)
+/// The columns of a set and of what nobody knows anyway, of unit length in noise deviations of a reading.
+struct Beside {
+    columns: DMatrix<f64>,
+    gram: DMatrix<f64>,
+    /// Columns of every member; the others are those of nuisances without prior.
+    own: Vec<Range<usize>>,
 }
 
-/// What columns and the nuisances without prior leave of numbers in noise deviations.
-fn free_of(statement: &Statement, columns: &[Vec<f64>], values: &[f64]) -> Vec<f64> {
-    let flat = statement
-        .nuisances
-        .iter()
-        .filter(|n| n.spread.is_infinite());
-    let flat = flat.map(|n| in_noise(statement, &n.column));
-    let unit = |c: Vec<f64>| {
-        let c = DVector::from_vec(c);
-        let length = c.norm().max(f64::MIN_POSITIVE);
-        c / length
-    };
-    let all: Vec<DVector<f64>> = columns.iter().cloned().chain(flat).map(unit).collect();
-    if all.is_empty() {
-        return values.to_vec();
+impl Beside {
+    fn of(statement: &Statement, bank: &Bank, fit: &Fit) -> Self {
+        let unit = |c: &Vec<f64>| {
+            let c = DVector::from_vec(in_noise(statement, c));
+            let length = c.norm().max(f64::MIN_POSITIVE);
+            c / length
+        };
+        let (mut columns, mut own) = (Vec::new(), Vec::new());
+        for member in &fit.members {
+            let first = columns.len();
+            columns.extend(bank.member(*member).columns.iter().map(unit));
+            own.push(first..columns.len());
+        }
+        let nuisances = statement.nuisances.iter();
+        let flat = nuisances.filter(|n| n.spread.is_infinite());
+        columns.extend(flat.map(|n| unit(&n.column)));
+        let columns = match columns.is_empty() {
+            true => DMatrix::zeros(statement.reading.len(), 0),
+            false => DMatrix::from_columns(&columns),
+        };
+        Self {
+            gram: gram(&columns),
+            columns,
+            own,
+        }
     }
-    let matrix = DMatrix::from_columns(&all);
-    let mut inner = matrix.tr_mul(&matrix);
-    (0..all.len()).for_each(|i| inner[(i, i)] += 1e-9);
-    let y = DVector::from_column_slice(values);
-    let taken = match inner.cholesky() {
-        Some(root) => &matrix * root.solve(&matrix.tr_mul(&y)),
-        None => DVector::zeros(values.len()),
-    };
-    (y - taken).as_slice().to_vec()
+
+    /// What some members and the nuisances without prior leave of numbers in noise deviations.
+    fn free_of(&self, members: &[usize], values: &[f64]) -> Vec<f64> {
+        let flat = self.own.last().map_or(0, |r| r.end)..self.columns.ncols();
+        let taken = members.iter().flat_map(|m| self.own[*m].clone());
+        let taken: Vec<usize> = taken.chain(flat).collect();
+        if taken.is_empty() {
+            return values.to_vec();
+        }
+        let mut inner = self.gram.select_rows(&taken).select_columns(&taken);
+        (0..taken.len()).for_each(|i| inner[(i, i)] += 1e-9);
+        let y = DVector::from_column_slice(values);
+        let seen = taken.iter().map(|c| self.columns.column(*c).dot(&y));
+        let seen = DVector::from_iterator(taken.len(), seen);
+        let amounts = inner.cholesky().map(|root| root.solve(&seen));
+        let mut left = y;
+        for (c, amount) in taken.iter().zip(amounts.iter().flat_map(|a| a.iter())) {
+            left.axpy(-amount, &self.columns.column(*c), 1.0);
+        }
+        left.as_slice().to_vec()
+    }
 }

@@ -3,6 +3,7 @@
 //! what is uncertain (a secant): the angle of the tooth and the coefficients move along.
 
 use super::Case;
+use crate::ground::products::gram;
 use crate::ground::spatial::{M3, V3, add, rotate, scale};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
@@ -26,6 +27,8 @@ pub struct Aim {
 
 /// Rounds in which a secant is improved.
 const ROUNDS: usize = 5;
+/// Change of an amount, as a share of it, at which its column has arrived.
+const ARRIVED: f64 = 0.01;
 /// What is uncertain goes no further than so many of its standard deviations.
 const FARTHEST: f64 = 3.0;
 /// An angle of the tooth goes no further, rad.
@@ -48,7 +51,7 @@ impl Aim {
             true => DMatrix::zeros(spread.len(), 0),
             false => DMatrix::from_columns(&columns),
         };
-        let mut inner = nuisances.tr_mul(&nuisances);
+        let mut inner = gram(&nuisances);
         for (k, l) in loose.iter().enumerate() {
             inner[(k, k)] += (l.spread * l.spread).recip() + 1e-10 * inner[(k, k)];
         }
@@ -117,12 +120,13 @@ impl Aim {
         if best.1.iter().all(|x| *x == 0.0) {
             return best.1;
         }
-        let mut column = best.1.clone();
+        let (mut column, mut before) = (best.1.clone(), 0.0);
         for _ in 0..ROUNDS {
             let amount = self.amounts(std::slice::from_ref(&column))[0].clamp(-most, most);
-            if amount.abs() < 1e-3 * most {
+            if amount.abs() < 1e-3 * most || (amount - before).abs() < ARRIVED * amount.abs() {
                 break;
             }
+            before = amount;
             column = self.reached(case, direction, amount, &column);
             best = better(best, (self.worth(&column, amount), column.clone()));
         }
@@ -156,16 +160,17 @@ impl Aim {
             .collect();
         let flat = |f: V3| f.into_iter();
         let mut column: Vec<f64> = forces.iter().flat_map(|f| flat(rotate(map, *f))).collect();
-        let mut best = (0.0, column.clone());
+        let (mut best, mut before) = ((0.0, column.clone()), 0.0);
         for _ in 0..ROUNDS {
             let amount = self.amounts(std::slice::from_ref(&column))[0].clamp(-MOST_MAP, MOST_MAP);
             let worth = self.worth(&column, amount);
             if worth > best.0 {
                 best = (worth, column.clone());
             }
-            if amount.abs() < LEAST_MAP {
+            if amount.abs() < LEAST_MAP || (amount - before).abs() < ARRIVED * amount.abs() {
                 break;
             }
+            before = amount;
             column = self.beside(case, amount, &column, |to| {
                 let step = case.step(to);
                 let each = forces.iter().zip(step.chunks(3));

@@ -239,7 +239,7 @@ impl Case {
         let one = |c: usize| {
             acts(c).then(|| {
                 let (scene, p) = cuts[c].present.moved(places, c, &there);
-                let force = scene.predict(&p).force;
+                let force = scene.force(&p);
                 force.iter().map(|f| self.shown(f)).collect()
             })
         };
@@ -354,9 +354,9 @@ fn steady(cut: &CutSamples) -> Vec<bool> {
     let at = |place: usize, by: f64| {
         let mut p = present.p;
         p[place] += by;
-        present.scene.predict(&p).force
+        present.scene.force(&p)
     };
-    let here = present.scene.predict(&present.p).force;
+    let here = present.scene.force(&present.p);
     let least = [0, 1, 2].map(|k| {
         let own = here.iter().map(|f| f[k]);
         let (low, high) = own.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));

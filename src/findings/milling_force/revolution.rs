@@ -30,7 +30,7 @@ impl Revolution {
         let step = TAU / GRID as f64 / spindle;
         around.time = (0..GRID).map(|i| i as f64 * step).collect();
         level[PHASE] = 0.0;
-        let force = around.predict(&level).force;
+        let force = around.force(&level);
         let plan = FftPlanner::new().plan_fft_forward(GRID);
         let lines = std::array::from_fn(|k| {
             let mut own: Vec<Complex64> = force.iter().map(|f| Complex64::new(f[k], 0.0)).collect();

@@ -113,7 +113,7 @@ impl Present {
             let mut offset = offset.to_vec();
             offset[place] += step;
             let (scene, p) = self.moved(places, cut, &offset);
-            difference(&scene.predict(&p).force, &at.force, step)
+            difference(&scene.force(&p), &at.force, step)
         };
         let mut slopes: Vec<Vec<V3>> = at.slopes[..8].to_vec();
         let teeth = 0..places.teeth;

@@ -223,7 +223,7 @@ pub fn improve_teeth(cuts: &[CutData], layout: &Layout, p: &mut [f64]) -> bool {
         let (first, pitch) = (p[place], cut.scene.tool.pitch_rad());
         let mut left = |m: usize| {
             p[place] = first + m as f64 * pitch;
-            let predicted = cut.scene.predict(&layout.of_one(i, p)).force;
+            let predicted = cut.scene.force(&layout.of_one(i, p));
             let pairs = cut.force.iter().zip(&predicted);
             let square = |(a, b): (&V3, &V3)| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>();
             pairs.map(square).sum::<f64>()
