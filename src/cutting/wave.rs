@@ -72,7 +72,7 @@ pub struct Wave<'a, S: Scalar> {
     /// Tips of all teeth, disc by disc.
     tips: Vec<Vec<Tip<S>>>,
     /// Sine and cosine of the angles by which they stand ahead of tooth 1 at the tip.
-    lags: Vec<Vec<[f64; 2]>>,
+    pub(super) lags: Vec<Vec<[f64; 2]>>,
     steady: Steady<S>,
 }
 
@@ -107,11 +107,11 @@ impl<'a, S: Scalar> Wave<'a, S> {
         self
     }
 
-    /// The same with teeth shorter by these lengths (m; none given: unchanged) along their whole edge.
+    /// The same with teeth shorter by these lengths (m; none given: unchanged) from the tip to a height (m).
     #[must_use]
-    pub fn shorter(mut self, by: &[f64]) -> Self {
-        for tips in &mut self.tips {
-            for (tip, by) in tips.iter_mut().zip(by) {
+    pub fn shorter(mut self, by: &[f64], height_m: f64) -> Self {
+        for (disc, tips) in self.discs.iter().zip(&mut self.tips) {
+            for (tip, by) in tips.iter_mut().zip(by).filter(|_| disc.z_m < height_m) {
                 tip.radius += S::constant(-by);
             }
         }
@@ -137,6 +137,15 @@ impl<'a, S: Scalar> Wave<'a, S> {
             }
         }
         sums
+    }
+
+    /// Whether a tooth cuts in a disc, at its tooth angle as sine and cosine.
+    pub(super) fn cuts(&self, disc: usize, tooth: usize, direction: [S; 2]) -> bool {
+        let tips = &self.tips[disc];
+        let near = direction.map(Scalar::value);
+        near[0] > OUTSIDE
+            && self.steady.ahead(near, &tips[tooth]) > 0.0
+            && self.steady.bite(direction, tooth, tips).depth_rad.value() > 0.0
     }
 
     fn add(

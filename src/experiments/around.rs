@@ -64,9 +64,8 @@ impl LowPass {
     /// The same, with its slopes over the logarithm of the corner and over the angle.
     pub fn with_slopes(&self, wave: &[V3]) -> [Vec<V3>; 3] {
         let slower = self.factors(|hz, _| butterworth2_slope(hz, self.corner_hz));
-        let turned = self.factors(|hz, order| {
-            Complex64::new(0.0, order) * butterworth2(hz, self.corner_hz)
-        });
+        let turned =
+            self.factors(|hz, order| Complex64::new(0.0, order) * butterworth2(hz, self.corner_hz));
         self.turned(wave, [&self.plain, &slower, &turned])
     }
 

@@ -45,8 +45,12 @@ pub struct CutScene {
     pub time: Vec<f64>,
     /// Whether a low pass stands between the force and the file.
     pub low_pass: bool,
-    /// By how much each tooth is shorter than the others, m; empty: none is.
+    /// By how much each tooth is shorter than the others along its whole edge, m; empty: none is.
     pub shorter: Vec<f64>,
+    /// The same from the tip up to [`CutScene::chipped_to_m`] alone.
+    pub chipped: Vec<f64>,
+    /// Height up to which teeth are chipped, m.
+    pub chipped_to_m: f64,
 }
 
 /// Forces at the samples, N, and their slopes over the [`UNKNOWNS`].
@@ -112,11 +116,16 @@ impl CutScene {
         self.time.iter().map(|t| p[PHASE] + rate * t).collect()
     }
 
-    fn wave<S: Scalar>(&self, p: &[f64; UNKNOWNS], unknown: impl Fn(f64, usize) -> S) -> Wave<'_, S> {
+    fn wave<S: Scalar>(
+        &self,
+        p: &[f64; UNKNOWNS],
+        unknown: impl Fn(f64, usize) -> S,
+    ) -> Wave<'_, S> {
         let runout = [0, 1].map(|k| unknown(p[RUNOUT + k], k));
         Wave::new(&self.tool, &self.cut, runout, unknown(p[WIDTH], 2))
             .before_the_border(unknown(p[BORDER], 4))
-            .shorter(&self.shorter)
+            .shorter(&self.shorter, f64::INFINITY)
+            .shorter(&self.chipped, self.chipped_to_m)
     }
 
     fn ideal(&self, p: &[f64; UNKNOWNS]) -> Predicted {
@@ -256,6 +265,8 @@ mod tests {
             time: (0..400).map(|i| 5.3e-5 * f64::from(i)).collect(),
             low_pass,
             shorter: Vec::new(),
+            chipped: Vec::new(),
+            chipped_to_m: 0.0,
         };
         let k = [800e6, 300e6, 100e6, 20e3, 25e3, 3e3];
         let mut p = [0.0; UNKNOWNS];

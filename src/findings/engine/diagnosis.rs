@@ -118,7 +118,8 @@ fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgeme
         s.rest(&bank, &set.fit, whole, judgement)
     });
     let share = rms(&in_noise(statement, &pattern.1)) / whole.max(f64::MIN_POSITIVE);
-    let rest = rest.with(share, judgement);
+    let noise = set.fit.posterior.noise_variance.sqrt();
+    let rest = rest.with(share, judgement).scattering(noise, judgement);
     let rest = match story.filter(|_| set.suspects.is_empty()) {
         Some(story) => unnamed(statement, &bank, (&story, whole), rest, judgement),
         None => rest,

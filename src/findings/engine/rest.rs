@@ -35,6 +35,20 @@ impl Rest {
     }
 }
 
+impl Rest {
+    /// The same where what is left scatters by so many times the stated noise.
+    pub(super) fn scattering(self, noise: f64, judgement: &Judgement) -> Self {
+        match noise > judgement.noise_beyond {
+            true => Self {
+                nats: self.nats.max(judgement.left_nats),
+                is_left: true,
+                ..self
+            },
+            false => self,
+        }
+    }
+}
+
 /// Structure that is always granted, noise deviations rms: digits and filters leave no less.
 const GRANTED: f64 = 0.15;
 /// How much more than granted is tried.

@@ -121,7 +121,11 @@ impl<'a> Design<'a> {
                 splits.push(self.split(of, &all));
             }
             let split = &splits[i];
-            let found = compare(&self.held_out(&split.folds, &others), &split.errors, split.of);
+            let found = compare(
+                &self.held_out(&split.folds, &others),
+                &split.errors,
+                split.of,
+            );
             if found.is_real() {
                 return found;
             }
@@ -153,7 +157,12 @@ impl<'a> Design<'a> {
     }
 
     /// Amounts of some columns by products.
-    fn amounts(&self, gram: &DMatrix<f64>, right: &DVector<f64>, columns: &[usize]) -> DVector<f64> {
+    fn amounts(
+        &self,
+        gram: &DMatrix<f64>,
+        right: &DVector<f64>,
+        columns: &[usize],
+    ) -> DVector<f64> {
         let mut own = gram.select_rows(columns).select_columns(columns);
         for (i, c) in columns.iter().enumerate() {
             own[(i, i)] += self.precision[*c];

@@ -3,15 +3,16 @@
 //! what is uncertain (a secant): the angle of the tooth and the coefficients move along.
 
 use super::Case;
+use super::setting::Places;
 use crate::ground::products::gram;
 use crate::ground::spatial::{M3, V3, add, rotate, scale};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// A place of the vector that is uncertain although nothing is wrong.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A direction of the vector that is uncertain although nothing is wrong.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Loose {
-    /// The place.
-    pub place: usize,
+    /// Its places, with how far each goes.
+    pub along: Vec<(usize, f64)>,
     /// Its standard deviation before the data; infinite: nothing is known.
     pub spread: f64,
 }
@@ -45,7 +46,7 @@ impl Aim {
         let places = case.places();
         let columns: Vec<DVector<f64>> = loose
             .iter()
-            .map(|l| white(&case.along(&places.unit(l.place)), &spread))
+            .map(|l| white(&case.along(&l.direction(places)), &spread))
             .collect();
         let nuisances = match columns.is_empty() {
             true => DMatrix::zeros(spread.len(), 0),
@@ -101,6 +102,13 @@ impl Aim {
             true => 0.5 * pull * pull / square,
             false => 0.0,
         }
+    }
+
+    /// By how much some columns together lower the misfit, nats.
+    pub fn gain_of(&self, columns: &[Vec<f64>]) -> f64 {
+        let each = columns.iter().zip(self.amounts(columns));
+        let pull = |c: &Vec<f64>| self.free(&white(c, &self.spread)).dot(&self.reading);
+        0.5 * each.map(|(c, amount)| amount * pull(c)).sum::<f64>()
     }
 
     /// The column of a direction of the vector as the way to where it fits best, at most `most` far. It begins
@@ -204,7 +212,7 @@ impl Aim {
                 false => self.widest(loose, case),
             };
             alone[k] = uncertain[k].clamp(-most, most);
-            to[loose.place] += alone[k];
+            loose.add_to(&mut to, alone[k]);
         }
         let alone = &self.nuisances * alone;
         let each = whole(&to).into_iter().zip(alone.iter()).zip(&self.spread);
@@ -217,16 +225,39 @@ impl Aim {
         let mut to = vec![0.0; case.places().len()];
         let seen = self.seen(&left);
         let each = self.loose.iter().zip(seen.iter());
-        each.for_each(|(l, u)| to[l.place] += u);
+        each.for_each(|(l, u)| l.add_to(&mut to, *u));
         to
     }
 
     /// How far something goes of which nothing is known: an angle, or a coefficient of its own size.
     fn widest(&self, loose: &Loose, case: &Case) -> f64 {
-        match case.nominal().get(loose.place) {
+        let place = loose.along.first().map(|a| a.0);
+        match place.and_then(|place| case.nominal().get(place)) {
             Some(value) => value.abs(),
             None => TURN,
         }
+    }
+}
+
+impl Loose {
+    /// One place.
+    pub fn place(place: usize, spread: f64) -> Self {
+        Self {
+            along: vec![(place, 1.0)],
+            spread,
+        }
+    }
+
+    /// One unit of it.
+    pub fn direction(&self, places: Places) -> Vec<f64> {
+        let mut to = vec![0.0; places.len()];
+        self.add_to(&mut to, 1.0);
+        to
+    }
+
+    fn add_to(&self, to: &mut [f64], amount: f64) {
+        let each = self.along.iter();
+        each.for_each(|(place, factor)| to[*place] += factor * amount);
     }
 }
 

@@ -11,6 +11,7 @@ use crate::ground::spatial::{M3, V3, rotate};
 use crate::ground::stats::median;
 use crate::measurement::milling_force::{Facts, MillingForce};
 use rayon::prelude::*;
+use std::f64::consts::TAU;
 use std::sync::{Arc, OnceLock};
 
 /// Samples of all cuts that are compared at most: more cost time and tell little.
@@ -21,6 +22,9 @@ const PIECES: usize = 8;
 const LAW: f64 = 2e-3;
 /// Readings that a stated noise is worth, and an estimated one.
 const WORTH: [f64; 2] = [60.0, 30.0];
+
+/// Share of the deepest cut, from the tip, in which a tooth mostly breaks that does not break altogether.
+const TIP: f64 = 0.7;
 
 /// A sensor that shows what there is.
 const IDENTITY: M3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -263,6 +267,22 @@ impl Case {
         reading
     }
 
+    /// Runout of the simulation, along tooth 1 and a quarter turn on, m.
+    pub(super) fn runout(&self) -> [f64; 2] {
+        let stated = &self.cuts()[0].present.p;
+        [0, 1].map(|k| stated[RUNOUT + k] + self.offset[RUNOUT + k])
+    }
+
+    /// Revolutions of the spindle in the samples of a cut, on average.
+    pub fn revolutions(&self) -> f64 {
+        let of = |cut: &CutSamples| {
+            let steps = cut.time.windows(2).map(|w| w[1] - w[0]);
+            let step = steps.fold(f64::INFINITY, f64::min);
+            cut.time.len() as f64 * step * cut.present.scene.cut.spindle_rad_s / TAU
+        };
+        self.cuts().iter().map(of).sum::<f64>() / self.cuts().len().max(1) as f64
+    }
+
     /// Time of every sample over the whole file, 0 to 1.
     pub(super) fn progress(&self, cut: usize, sample: usize) -> f64 {
         let cuts = self.cuts();
@@ -296,6 +316,8 @@ fn samples(
     nominal: &[f64; 6],
 ) -> Vec<CutSamples> {
     let share = (MOST_SAMPLES / account.cuts.len().max(1)).max(64);
+    let depths = file.facts.cuts.iter().map(|c| c.depth_m);
+    let deepest = depths.fold(0.0, f64::max);
     let mut first = 0;
     let mut one = |(i, fit): (usize, &CutFit)| {
         let data = &fit.data;
@@ -303,6 +325,7 @@ fn samples(
         let mut scene = data.scene.clone();
         let whole = (1.0 + speeds[i]) * (1.0 + fit.p[SPEED]);
         scene.cut.spindle_rad_s = file.facts.cuts[i].spindle_rad_s * whole;
+        scene.chipped_to_m = TIP * deepest;
         scene.time = used.iter().map(|at| data.scene.time[*at]).collect();
         let mut p = fit.p;
         p[..6].copy_from_slice(nominal);

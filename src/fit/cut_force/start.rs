@@ -119,12 +119,13 @@ impl Folded {
                 total += left * left;
                 for a in 0..n {
                     right[a] += slope(a) * left;
-                    for b in 0..n {
+                    for b in 0..=a {
                         normal[(a, b)] += slope(a) * slope(b);
                     }
                 }
             }
         }
+        normal.fill_upper_triangle_with_lower_triangle();
         (normal, right, total)
     }
 }
