@@ -37,7 +37,7 @@ pub struct Found {
 }
 
 /// Rounds in which a kind that is not linear is stated anew about what was found.
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 6;
 /// Change of what every cause adds, as a share of it, at which a round has arrived.
 const ARRIVED: f64 = 0.03;
 /// A round that leaves so much more than the one before went astray.

@@ -54,8 +54,8 @@ impl Measured for Case {
         let usual = Judgement::default();
         Judgement {
             peak: usual.peak / self.revolutions().max(1.0).sqrt(),
-            peak_above: 0.998,
-            share: 0.04,
+            peak_above: 0.995,
+            share: 0.05,
             companion_gain: 0.3,
             noise_beyond: NOISE_BEYOND[usize::from(self.file().facts.sensor_noise_n.is_none())],
             ..usual

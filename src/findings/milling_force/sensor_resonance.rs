@@ -28,7 +28,7 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 };
 
 /// Shares by which it is brought closer, one after the other.
-const CLOSER: [f64; 3] = [0.006, 0.003, 0.0015];
+const CLOSER: [f64; 4] = [0.006, 0.003, 0.0015, 0.0007];
 /// Steps of the frequency, in these shares.
 const STEPS_ABOUT: [f64; 3] = [-1.0, 0.0, 1.0];
 /// Steps of the damping ratio, in these shares.
