@@ -2,7 +2,8 @@
 //! how often the diagnosis names it. `IDENT_BLIND_SEED` and `IDENT_BLIND_CASES` ask for more.
 
 use crate::milling_bench::hidden::{FAULTS, Hidden, STRANGERS, hidden};
-use ident::findings::engine::{Judgement, diagnose};
+use ident::findings::engine::diagnose;
+use ident::findings::kinds::Measured;
 use ident::findings::milling_force::Case;
 use ident::findings::{Answer, Verdict};
 use ident::ground::random::Random;
@@ -20,7 +21,7 @@ fn answered(hidden: &Hidden) -> Answer {
     let bytes = hidden.text.len() as u64;
     let table = Table::from_reader("cuts.csv".as_ref(), hidden.text.as_bytes(), bytes).unwrap();
     let case = Case::new(MillingForce::from_table(table).unwrap());
-    diagnose(&case, &Judgement::default()).answer
+    diagnose(&case, &case.judgement()).answer
 }
 
 /// All cases, each on the next free thread, in their order.

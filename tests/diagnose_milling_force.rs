@@ -2,7 +2,8 @@
 //! program, and must be named, alone or among at most three that the data cannot tell apart.
 
 use crate::milling_bench::{Cutter, Pass, Recording, csv, record};
-use ident::findings::engine::{Found, Judgement, diagnose};
+use ident::findings::engine::{Found, diagnose};
+use ident::findings::kinds::Measured;
 use ident::findings::milling_force::Case;
 use ident::findings::{Answer, Verdict};
 use ident::ground::random::Random;
@@ -84,7 +85,7 @@ impl Bench {
         let bytes = text.len() as u64;
         let table = Table::from_reader("cuts.csv".as_ref(), text.as_bytes(), bytes).unwrap();
         let case = Case::new(MillingForce::from_table(table).unwrap());
-        diagnose(&case, &Judgement::default())
+        diagnose(&case, &case.judgement())
     }
 }
 

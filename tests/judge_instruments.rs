@@ -37,7 +37,8 @@ fn force_sensors_by_strangers_are_judged_rightly() {
     floors.hold(&rates);
 }
 
-/// One seed, 24 cases: clean 6 of 6, single 4 of 10, pair 1 of 3, outside 3 of 5, untrue names in 1 of 19.
+/// Seeds 301 to 305, 100 cases looked at once, after the last change: clean 24 of 25, single 40 of 47, pair 6 of 15,
+/// outside 11 of 13, untrue names in 11 of 87.
 #[test]
 fn cutting_forces_by_strangers_are_judged_rightly() {
     let rates = conclude("milling-force", &judged(judge::milling_force::draw, 4));

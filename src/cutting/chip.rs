@@ -113,30 +113,50 @@ impl<S: Scalar> Steady<S> {
         }
     }
 
-    /// Distance along the ray to the surface that all earlier teeth left, m.
-    fn surface(&self, ray: [S; 2], tooth: usize, tips: &[Tip<S>]) -> S {
-        let teeth = tips.len();
-        let left = |k: usize| {
-            let tip = tips[(tooth + k) % teeth];
-            let turn = tip.aside - tips[tooth].aside + TAU * k as f64 / teeth as f64;
-            self.left_by(ray, turn, tip.radius)
+    /// How far the tip of a tooth stands behind the border of the stock, as an angle, rad: negative outside,
+    /// infinite where there is none. No derivatives: what it is for is to pass over a tooth that meets nothing.
+    pub fn ahead(&self, direction: [f64; 2], tip: &Tip<S>) -> f64 {
+        let [sin, cos] = turned(direction, tip.aside.value());
+        let own = tip.radius.value();
+        let (border, into) = match self.stock {
+            Stock::Full => return f64::INFINITY,
+            Stock::Left(y) => (y.value(), cos),
+            Stock::Right(y) => (-y.value(), -cos),
         };
-        (2..=teeth).fold(left(1), |far, k| far.max(left(k)))
+        (own * into - border) / (own * sin).abs().max(FLAT * own)
     }
 
-    /// Distance along the ray to the surface that a tip left which the spindle's turn carried there by
-    /// `turn` (rad) earlier, m.
-    fn left_by(&self, [sin, cos]: [S; 2], turn: S, radius: S) -> S {
-        let q = self.feed_per_radian;
-        let lean = radius + cos * q;
-        let first = cos * turn * q / lean;
-        // R sin ε = q (turn - ε) cos φ; sin ε to third order, exact to ε⁵
-        let angle = first + radius * first * first * first / 6.0 / lean;
-        let behind = (turn - angle) * q;
-        let square = angle * angle;
-        let fall = square * 0.5 - square * square / 24.0;
-        radius - radius * fall - behind * sin
+    /// Distance along the ray to the surface that all earlier teeth left, m.
+    fn surface(&self, ray: [S; 2], tooth: usize, tips: &[Tip<S>]) -> S {
+        let (q, teeth) = (self.feed_per_radian, tips.len());
+        let turn = |k: usize| TAU * k as f64 / teeth as f64;
+        let plain = ray.map(Scalar::value);
+        // which tooth left the farthest surface is told without derivatives
+        let reach = |k: &usize| {
+            let tip = &tips[(tooth + k) % teeth];
+            let aside = tip.aside.value() - tips[tooth].aside.value();
+            left_by(q, plain, aside + turn(*k), tip.radius.value())
+        };
+        let farthest = (1..=teeth).map(|k| (k, if teeth > 1 { reach(&k) } else { 0.0 }));
+        let last = |a: (usize, f64), b: (usize, f64)| if b.1 > a.1 { b } else { a };
+        let k = farthest.reduce(last).map_or(1, |f| f.0);
+        let tip = tips[(tooth + k) % teeth];
+        left_by(q, ray, tip.aside - tips[tooth].aside + turn(k), tip.radius)
     }
+}
+
+/// Distance along the ray to the surface that a tip left which the spindle's turn carried there by
+/// `turn` (rad) earlier, m; `q` the feed per radian.
+#[inline]
+fn left_by<S: Scalar>(q: f64, [sin, cos]: [S; 2], turn: S, radius: S) -> S {
+    let lean = radius + cos * q;
+    let first = cos * turn * q / lean;
+    // R sin ε = q (turn - ε) cos φ; sin ε to third order, exact to ε⁵
+    let angle = first + radius * first * first * first / 6.0 / lean;
+    let behind = (turn - angle) * q;
+    let square = angle * angle;
+    let fall = square * 0.5 - square * square / 24.0;
+    radius - radius * fall - behind * sin
 }
 
 /// A direction across the axis turned by a small angle, to second order.
@@ -225,12 +245,7 @@ mod tests {
     fn a_tooth_stands_where_its_surface_is() {
         // the earlier tooth's position, straight from its trochoid, lies on the ray
         let (q, teeth, k, phi) = (0.1e-3, 3.0, 2.0, 0.9_f64);
-        let steady = Steady::<f64> {
-            feed_per_radian: q,
-            stock: Stock::Full,
-            before: 0.0,
-        };
-        let rho = steady.left_by([phi.sin(), phi.cos()], TAU * k / teeth, R);
+        let rho = left_by(q, [phi.sin(), phi.cos()], TAU * k / teeth, R);
         let point = [rho * phi.sin(), rho * phi.cos()];
         let nearest = (0..2_000_000)
             .map(|i| {

@@ -14,6 +14,7 @@ pub mod directional;
 pub mod law;
 pub mod mean;
 pub mod stability;
+mod stirred;
 pub mod tool;
 pub mod wave;
 

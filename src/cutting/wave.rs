@@ -71,6 +71,8 @@ pub struct Wave<'a, S: Scalar> {
     pub discs: Vec<Disc>,
     /// Tips of all teeth, disc by disc.
     tips: Vec<Vec<Tip<S>>>,
+    /// Sine and cosine of the angles by which they stand ahead of tooth 1 at the tip.
+    pub(super) lags: Vec<Vec<[f64; 2]>>,
     steady: Steady<S>,
 }
 
@@ -80,9 +82,15 @@ impl<'a, S: Scalar> Wave<'a, S> {
     pub fn new(tool: &'a Tool, cut: &Cut, runout: [S; 2], width: S) -> Self {
         let discs = tool.discs(cut.depth_m);
         let all = |disc: &Disc| (0..tool.teeth).map(|j| tool.tip(disc, j, runout)).collect();
+        let ahead = |disc: &Disc, j: usize| {
+            let (sin, cos) = tool.tooth_angle(0.0, j, disc).sin_cos();
+            [sin, cos]
+        };
+        let lags = |disc: &Disc| (0..tool.teeth).map(|j| ahead(disc, j)).collect();
         Self {
             tool,
             tips: discs.iter().map(all).collect(),
+            lags: discs.iter().map(lags).collect(),
             discs,
             steady: Steady {
                 feed_per_radian: cut.feed_per_radian(),
@@ -99,11 +107,11 @@ impl<'a, S: Scalar> Wave<'a, S> {
         self
     }
 
-    /// The same with teeth shorter by these lengths (m; none given: unchanged) along their whole edge.
+    /// The same with teeth shorter by these lengths (m; none given: unchanged) from the tip to a height (m).
     #[must_use]
-    pub fn shorter(mut self, by: &[f64]) -> Self {
-        for tips in &mut self.tips {
-            for (tip, by) in tips.iter_mut().zip(by) {
+    pub fn shorter(mut self, by: &[f64], height_m: f64) -> Self {
+        for (disc, tips) in self.discs.iter().zip(&mut self.tips) {
+            for (tip, by) in tips.iter_mut().zip(by).filter(|_| disc.z_m < height_m) {
                 tip.radius += S::constant(-by);
             }
         }
@@ -114,28 +122,41 @@ impl<'a, S: Scalar> Wave<'a, S> {
     /// which an entry or exit is spread: the distance of the samples if the wave is to be filtered.
     pub fn basis(&self, spindle: S, blur: f64) -> Basis<S> {
         let mut sums = [[S::constant(0.0); 3]; 6];
-        for (disc, tips) in self.discs.iter().zip(&self.tips) {
-            for tooth in 0..self.tool.teeth {
-                let lag = tooth as f64 * self.tool.pitch_rad() - disc.lag_rad;
-                self.add(&mut sums, disc, spindle + lag, tooth, tips, blur);
+        let [sin, cos] = [spindle.sin(), spindle.cos()];
+        let plain = [sin.value(), cos.value()];
+        for ((disc, tips), lags) in self.discs.iter().zip(&self.tips).zip(&self.lags) {
+            let lag = disc.lag_width_rad;
+            let reach = 0.5 * (lag.max(SHARP) + blur);
+            for (tooth, [s, c]) in lags.iter().enumerate() {
+                let near = [plain[0] * c + plain[1] * s, plain[1] * c - plain[0] * s];
+                if near[0] < OUTSIDE || self.steady.ahead(near, &tips[tooth]) <= -reach {
+                    continue;
+                }
+                let direction = [sin * *c + cos * *s, cos * *c - sin * *s];
+                self.add(&mut sums, disc, direction, tooth, tips, blur);
             }
         }
         sums
+    }
+
+    /// Whether a tooth cuts in a disc, at its tooth angle as sine and cosine.
+    pub(super) fn cuts(&self, disc: usize, tooth: usize, direction: [S; 2]) -> bool {
+        let tips = &self.tips[disc];
+        let near = direction.map(Scalar::value);
+        near[0] > OUTSIDE
+            && self.steady.ahead(near, &tips[tooth]) > 0.0
+            && self.steady.bite(direction, tooth, tips).depth_rad.value() > 0.0
     }
 
     fn add(
         &self,
         sums: &mut Basis<S>,
         disc: &Disc,
-        phi: S,
+        mut direction: [S; 2],
         tooth: usize,
         tips: &[Tip<S>],
         blur: f64,
     ) {
-        let mut direction = [phi.sin(), phi.cos()];
-        if direction[0].value() < OUTSIDE {
-            return;
-        }
         let mut bite = self.steady.bite(direction, tooth, tips);
         let lag = disc.lag_width_rad;
         let share = passed(bite.depth_rad, lag.max(SHARP), blur);
@@ -144,8 +165,9 @@ impl<'a, S: Scalar> Wave<'a, S> {
         }
         if share.value() < 1.0 && lag > 0.0 {
             // the middle of that part of the edge that is in
-            let middle = phi + (-share + 1.0) * (0.5 * lag * bite.side);
-            direction = [middle.sin(), middle.cos()];
+            let further = (-share + 1.0) * (0.5 * lag * bite.side);
+            let ([sin, cos], [s, c]) = (direction, [further.sin(), further.cos()]);
+            direction = [sin * c + cos * s, cos * c - sin * s];
             bite = self.steady.bite(direction, tooth, tips);
         }
         let length = share * disc.edge_m;

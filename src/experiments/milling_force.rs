@@ -1,16 +1,13 @@
 //! What a dynamometer should have read in a straight cut: the wave form of the force at every sample,
 //! with its slopes over all that may be unknown.
 
+use super::around::LowPass;
 use crate::cutting::tool::Tool;
 use crate::cutting::wave::{Basis, Cut, Side, Wave, force};
 use crate::ground::dual::{Dual, Scalar};
 use crate::ground::spatial::V3;
 use crate::measurement::milling_force::{CutFacts, CutSide, Facts};
-use crate::signal::low_pass::{butterworth2, butterworth2_slope};
-use rustfft::num_complex::Complex64;
-use rustfft::{Fft, FftPlanner};
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
 /// Unknowns of one cut, in the order of the slopes: six coefficients (Ktc, Krc, Kac, Kte, Kre, Kae; SI),
 /// runout along tooth 1 and a quarter turn on (m), logarithm of the bandwidth, angle of tooth 1 at the
@@ -48,8 +45,12 @@ pub struct CutScene {
     pub time: Vec<f64>,
     /// Whether a low pass stands between the force and the file.
     pub low_pass: bool,
-    /// By how much each tooth is shorter than the others, m; empty: none is.
+    /// By how much each tooth is shorter than the others along its whole edge, m; empty: none is.
     pub shorter: Vec<f64>,
+    /// The same from the tip up to [`CutScene::chipped_to_m`] alone.
+    pub chipped: Vec<f64>,
+    /// Height up to which teeth are chipped, m.
+    pub chipped_to_m: f64,
 }
 
 /// Forces at the samples, N, and their slopes over the [`UNKNOWNS`].
@@ -92,21 +93,43 @@ impl CutScene {
         }
     }
 
+    /// Forces at `p` without their slopes, N: a fraction of the work.
+    pub fn force(&self, p: &[f64; UNKNOWNS]) -> Vec<V3> {
+        let wave = self.wave(p, |value, _| value);
+        let at = |angle: f64, blur: f64| force(&wave.basis(angle, blur), &p[..6]);
+        let angles = self.angles(p).into_iter();
+        if !self.low_pass {
+            return angles.map(|angle| at(angle, 0.0)).collect();
+        }
+        let (grid, pass) = self.grid(p);
+        let step = TAU / grid as f64;
+        let around: Vec<V3> = (0..grid).map(|i| at(i as f64 * step, step)).collect();
+        let passed = pass.plain(&around);
+        angles
+            .map(|angle| Place::of(angle, grid).read(&passed))
+            .collect()
+    }
+
     /// Angle of tooth 1 at every sample, rad.
     pub fn angles(&self, p: &[f64; UNKNOWNS]) -> Vec<f64> {
         let rate = self.cut.spindle_rad_s * (1.0 + p[SPEED]);
         self.time.iter().map(|t| p[PHASE] + rate * t).collect()
     }
 
-    fn wave(&self, p: &[f64; UNKNOWNS]) -> Wave<'_, D> {
-        let runout = [0, 1].map(|k| D::variable(p[RUNOUT + k], k));
-        Wave::new(&self.tool, &self.cut, runout, D::variable(p[WIDTH], 2))
-            .before_the_border(D::variable(p[BORDER], 4))
-            .shorter(&self.shorter)
+    fn wave<S: Scalar>(
+        &self,
+        p: &[f64; UNKNOWNS],
+        unknown: impl Fn(f64, usize) -> S,
+    ) -> Wave<'_, S> {
+        let runout = [0, 1].map(|k| unknown(p[RUNOUT + k], k));
+        Wave::new(&self.tool, &self.cut, runout, unknown(p[WIDTH], 2))
+            .before_the_border(unknown(p[BORDER], 4))
+            .shorter(&self.shorter, f64::INFINITY)
+            .shorter(&self.chipped, self.chipped_to_m)
     }
 
     fn ideal(&self, p: &[f64; UNKNOWNS]) -> Predicted {
-        let wave = self.wave(p);
+        let wave = self.wave(p, D::variable);
         let rate = self.cut.spindle_rad_s;
         let mut predicted = Predicted::zeros(self.time.len());
         for (i, angle) in self.angles(p).into_iter().enumerate() {
@@ -119,17 +142,23 @@ impl CutScene {
         predicted
     }
 
+    /// Samples of a revolution, and the low pass for them.
+    fn grid(&self, p: &[f64; UNKNOWNS]) -> (usize, LowPass) {
+        let (hertz, corner) = (self.cut.spindle_rad_s / TAU, p[BANDWIDTH].exp());
+        let grid = samples_around(hertz, corner);
+        (grid, LowPass::new(grid, hertz, corner))
+    }
+
     fn filtered(&self, p: &[f64; UNKNOWNS]) -> Predicted {
-        let wave = self.wave(p);
-        let hertz = self.cut.spindle_rad_s / TAU;
-        let grid = samples_around(hertz, p[BANDWIDTH].exp());
+        let wave = self.wave(p, D::variable);
+        let (grid, pass) = self.grid(p);
         let step = TAU / grid as f64;
         let mut around = Predicted::zeros(grid);
         for i in 0..grid {
             let basis = wave.basis(D::constant(i as f64 * step), step);
             around.set(i, &basis, &force(&basis, &p[..6]));
         }
-        let passed = LowPass::new(grid, hertz, p[BANDWIDTH].exp()).pass(&around);
+        let passed = Predicted::passed(&around, &pass);
         let rate = self.cut.spindle_rad_s;
         let mut predicted = Predicted::zeros(self.time.len());
         for (i, angle) in self.angles(p).into_iter().enumerate() {
@@ -172,92 +201,22 @@ impl Predicted {
             self.slopes[BORDER][i][k] = f[k].eps[4];
         }
     }
-}
 
-/// The second-order low pass of the dynamometer on what repeats with every revolution.
-struct LowPass {
-    grid: usize,
-    forward: Arc<dyn Fft<f64>>,
-    back: Arc<dyn Fft<f64>>,
-    spindle_hz: f64,
-    corner_hz: f64,
-}
-
-impl LowPass {
-    fn new(grid: usize, spindle_hz: f64, corner_hz: f64) -> Self {
-        let mut planner = FftPlanner::new();
-        Self {
-            grid,
-            forward: planner.plan_fft_forward(grid),
-            back: planner.plan_fft_inverse(grid),
-            spindle_hz,
-            corner_hz,
-        }
-    }
-
-    fn pass(&self, around: &Predicted) -> Predicted {
-        let mut passed = Predicted::zeros(self.grid);
-        for k in 0..3 {
-            let lines = self.spectrum(&around.force, k);
-            let through = |h: &dyn Fn(f64, Complex64) -> Complex64| self.turned(&lines, h);
-            let corner = self.corner_hz;
-            let plain = through(&|f, _| butterworth2(f, corner));
-            let slower = through(&|f, _| butterworth2_slope(f, corner));
-            let turned = through(&|f, order| order * butterworth2(f, corner));
-            for i in 0..self.grid {
-                passed.force[i][k] = plain[i];
-                passed.slopes[BANDWIDTH][i][k] = slower[i];
-                passed.slopes[PHASE][i][k] = turned[i];
-            }
-            for j in [0, 1, 2, 3, 4, 5, RUNOUT, RUNOUT + 1, WIDTH, BORDER] {
-                let lines = self.spectrum(&around.slopes[j], k);
-                let own = self.turned(&lines, &|f, _| butterworth2(f, corner));
-                for (slope, value) in passed.slopes[j].iter_mut().zip(own) {
-                    slope[k] = value;
-                }
+    /// One revolution behind a low pass.
+    fn passed(around: &Self, pass: &LowPass) -> Self {
+        let mut passed = Self::zeros(around.force.len());
+        let [plain, slower, turned] = pass.with_slopes(&around.force);
+        passed.force = plain;
+        passed.slopes[BANDWIDTH] = slower;
+        passed.slopes[PHASE] = turned;
+        for j in [0, 1, 2, 3, 4, 5, RUNOUT, RUNOUT + 1, WIDTH, BORDER] {
+            let own = &around.slopes[j];
+            if own.iter().flatten().any(|x| *x != 0.0) {
+                passed.slopes[j] = pass.plain(own);
             }
         }
         passed
     }
-
-    fn spectrum(&self, wave: &[V3], k: usize) -> Vec<Complex64> {
-        let mut lines: Vec<Complex64> = wave.iter().map(|v| Complex64::new(v[k], 0.0)).collect();
-        self.forward.process(&mut lines);
-        lines
-    }
-
-    /// The wave whose lines are multiplied with a function of frequency (Hz) and j·order.
-    fn turned(
-        &self,
-        lines: &[Complex64],
-        factor: &dyn Fn(f64, Complex64) -> Complex64,
-    ) -> Vec<f64> {
-        let half = self.grid / 2;
-        let of = |(i, line): (usize, &Complex64)| {
-            let order = if i < half {
-                i as f64
-            } else {
-                i as f64 - self.grid as f64
-            };
-            match i == half {
-                true => Complex64::new(0.0, 0.0),
-                // entries and exits are spread over a sample: undone here
-                false => {
-                    line * factor(order * self.spindle_hz, Complex64::new(0.0, order))
-                        / sinc(order / self.grid as f64)
-                }
-            }
-        };
-        let mut lines: Vec<Complex64> = lines.iter().enumerate().map(of).collect();
-        self.back.process(&mut lines);
-        lines.iter().map(|c| c.re / self.grid as f64).collect()
-    }
-}
-
-/// sin(πx) / πx.
-fn sinc(x: f64) -> f64 {
-    let y = std::f64::consts::PI * x;
-    if y.abs() < 1e-6 { 1.0 } else { y.sin() / y }
 }
 
 /// Where an angle lies between the samples of a revolution.
@@ -306,6 +265,8 @@ mod tests {
             time: (0..400).map(|i| 5.3e-5 * f64::from(i)).collect(),
             low_pass,
             shorter: Vec::new(),
+            chipped: Vec::new(),
+            chipped_to_m: 0.0,
         };
         let k = [800e6, 300e6, 100e6, 20e3, 25e3, 3e3];
         let mut p = [0.0; UNKNOWNS];
@@ -343,6 +304,16 @@ mod tests {
                     "{j} {low_pass}: {off} {size}"
                 );
             }
+        }
+    }
+
+    #[test]
+    fn forces_alone_are_the_same() {
+        for low_pass in [true, false] {
+            let (scene, p) = scene(low_pass);
+            let (alone, with) = (scene.force(&p), scene.predict(&p).force);
+            let pairs = alone.iter().flatten().zip(with.iter().flatten());
+            assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-9));
         }
     }
 

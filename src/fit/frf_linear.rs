@@ -5,7 +5,7 @@ use super::frf_data::Measured;
 use super::frf_model::Pose;
 use super::frf_residuals::{Residuals, residual_basis};
 use super::frf_tuning::Tuning;
-use crate::ground::product::{gram, transposed};
+use crate::ground::products::{gram, tr_mul};
 use crate::motion::frf::Response;
 use crate::signal::modal_model::stacked;
 use nalgebra::{DMatrix, DVector};
@@ -75,7 +75,7 @@ impl Frozen {
             let (own, rest) = (&channel.jacobian, &channel.rest - along * &moved);
             let mut block = sum.normal.view_mut((0, 0), (count, count));
             block += gram(own);
-            across += transposed(own, along);
+            across += tr_mul(own, along);
             let mut slope = sum.slope.rows_mut(0, count);
             slope += own.tr_mul(&rest);
             let mut slope = sum.slope.rows_mut(count, n - count);

@@ -8,7 +8,7 @@ use super::frf_data::Measured;
 use super::frf_linear::{Channel, channels};
 use super::frf_tuning::Tuning;
 use super::parameter::Z95;
-use crate::ground::product::gram;
+use crate::ground::products::gram;
 use crate::signal::jackknife::{covariance, t95};
 use crate::signal::line_noise::LineNoise;
 use nalgebra::{DMatrix, DVector};

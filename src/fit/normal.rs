@@ -1,7 +1,7 @@
 //! Whitened normal equations of a dictionary of curves, the spring projected out.
 
 use super::candidates::Candidates;
-use crate::ground::product;
+use crate::ground::products;
 use crate::signal::colour::Colour;
 use nalgebra::DMatrix;
 
@@ -45,7 +45,7 @@ impl Normal {
             .map(|(v, s)| v / s)
             .collect();
         let y = nalgebra::DVector::from_vec(y);
-        let full = product::gram(&whitened);
+        let full = products::gram(&whitened);
         let product = whitened.tr_mul(&y);
         let spring = full[(0, 0)].max(f64::MIN_POSITIVE);
         let gram = DMatrix::from_fn(m, m, |i, j| {

@@ -6,7 +6,7 @@ use super::parameter::{Identified, Status, Z95};
 use super::starts::starts;
 use crate::effects::composite::Slot;
 use crate::effects::{Composite, Scale};
-use crate::ground::product::gram;
+use crate::ground::products::gram;
 use crate::measurement::load_cycle::Port;
 use crate::signal::colour::Colour;
 use nalgebra::DMatrix;

@@ -7,7 +7,7 @@ pub mod dual;
 pub mod files;
 pub mod nearest;
 pub mod problem;
-pub mod product;
+pub mod products;
 pub mod random;
 pub mod spatial;
 pub mod stats;

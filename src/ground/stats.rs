@@ -15,14 +15,15 @@ pub fn rms(values: &[f64]) -> f64 {
 
 /// Value below which the share `q` (0 to 1) of the values lies, linear between order statistics; 0 of nothing.
 pub fn quantile(values: &[f64], q: f64) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let Some(last) = sorted.len().checked_sub(1) else {
+    let mut values = values.to_vec();
+    let Some(last) = values.len().checked_sub(1) else {
         return 0.0;
     };
     let at = q.clamp(0.0, 1.0) * last as f64;
-    let (low, high) = (sorted[at.floor() as usize], sorted[at.ceil() as usize]);
-    low + (high - low) * at.fract()
+    let (_, low, above) = values.select_nth_unstable_by(at.floor() as usize, f64::total_cmp);
+    let next = above.iter().copied().min_by(f64::total_cmp);
+    let high = next.filter(|_| at.fract() > 0.0).unwrap_or(*low);
+    *low + (high - *low) * at.fract()
 }
 
 /// Median; 0 of nothing.

@@ -1,7 +1,7 @@
 //! Bounded nonlinear least squares: Levenberg and Marquardt (Moré 1978), bounds by projection with an
 //! active set. Unknowns are scaled to order one by the problem; a prior is a row like any other.
 
-use crate::ground::product::gram;
+use crate::ground::products::gram;
 use nalgebra::{DMatrix, DVector};
 
 /// What is minimised: ½|residual|² over unknowns of order one.

@@ -134,16 +134,25 @@ impl World {
         for disc in 0..discs {
             let height = (disc as f64 + 0.5) * dz;
             for tooth in 0..self.teeth {
-                let (own, angle) = self.edge(cut, speed, tooth, height, t);
+                let (_, angle) = self.edge(cut, speed, tooth, height, t);
                 let (s, c) = angle.sin_cos();
-                let stock = match cut.side {
-                    "up" => own[1] > self.radius - width,
-                    "down" => own[1] < width - self.radius,
-                    _ => true,
-                };
-                if s <= -0.2 || !stock {
+                if s <= -0.2 {
                     continue;
                 }
+                // An edge enters and leaves steadily: a disc on the border counts by its share.
+                let [low, high] = [-0.5, 0.5].map(|end| {
+                    let y = self.edge(cut, speed, tooth, height + end * dz, t).0[1];
+                    match cut.side {
+                        "up" => y - (self.radius - width),
+                        "down" => width - self.radius - y,
+                        _ => 1.0,
+                    }
+                });
+                let share = match (low > 0.0, high > 0.0) {
+                    (true, true) => 1.0,
+                    (false, false) => continue,
+                    _ => low.max(high) / (low - high).abs(),
+                };
                 let mut h = self.thickness(cut, speed, tooth, height, t);
                 if let Some(tremor) = self.tremor.filter(|tremor| tremor.cut == index) {
                     let pass = TAU / speed / self.teeth as f64;
@@ -155,7 +164,7 @@ impl World {
                     continue;
                 }
                 let [ft, fr, fa]: [f64; 3] =
-                    std::array::from_fn(|i| (self.k[i] * h + self.k[i + 3]) * dz);
+                    std::array::from_fn(|i| (self.k[i] * h + self.k[i + 3]) * dz * share);
                 sum[0] += -ft * c - fr * s;
                 sum[1] += ft * s - fr * c;
                 sum[2] += fa;

@@ -6,6 +6,7 @@
 use super::entry::{Entry, entries};
 use super::nuisances::Nuisances;
 use super::statement::{Member, Statement, Suspect};
+use crate::ground::products::{gram, tr_mul};
 use crate::inference::gaussian::{Posterior, Products, Reading, Size, limited, update};
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeMap;
@@ -114,18 +115,22 @@ impl<'a> Bank<'a> {
         if !solved.is_some_and(beyond) {
             return 0.0;
         }
-        let columns = self.columns.select_columns(&own);
+        let marginal = self.marginal.select_columns(&own);
         let (k, p) = (held.most.len(), own.len());
-        let mut hessian = held.beside(&columns);
+        let products = self.products(members);
+        let mut hessian = held.beside(&marginal, &products.gram);
         let sizes = self.blocks(members).into_iter().zip(&posterior.sizes);
         let sizes = sizes.flat_map(|((count, _), size)| std::iter::repeat_n(*size, count));
         sizes
             .enumerate()
             .for_each(|(i, size)| hessian[(k + i, k + i)] += (size * size).recip());
-        let y = &self.whitened.0;
+        let (y, known) = &self.whitened;
         let mut right = DVector::zeros(k + p);
-        right.rows_mut(0, k).copy_from(&held.columns.tr_mul(y));
-        right.rows_mut(k, p).copy_from(&columns.tr_mul(y));
+        let known = DMatrix::from_column_slice(k, 1, known.as_slice());
+        right.rows_mut(0, k).copy_from(&held.crossed(&known));
+        right
+            .rows_mut(k, p)
+            .copy_from(&(products.right + marginal.tr_mul(&known)));
         let free = std::iter::repeat_n(f64::INFINITY, p);
         let most: Vec<f64> = held.most.iter().copied().chain(free).collect();
         let solved = limited(&hessian, &right, &most);
@@ -182,7 +187,7 @@ impl<'a> Bank<'a> {
         }
         let full = |m: &DMatrix<f64>| {
             let (x, y) = (m.columns(ra.start, ra.len()), m.columns(rb.start, rb.len()));
-            x.tr_mul(&y)
+            tr_mul(x, y)
         };
         full(&self.columns) - full(&self.marginal)
     }
@@ -193,7 +198,7 @@ impl<'a> Bank<'a> {
             return;
         }
         let own = self.entries[member].columns.clone();
-        let full = |m: &DMatrix<f64>| m.tr_mul(&m.columns(own.start, own.len()));
+        let full = |m: &DMatrix<f64>| tr_mul(m, m.columns(own.start, own.len()));
         let cross = full(&self.columns) - full(&self.marginal);
         self.crosses.insert(member, cross);
     }
@@ -251,9 +256,13 @@ impl<'a> Bank<'a> {
         self.columns.columns(own.start, own.len()) * DVector::from_column_slice(amounts)
     }
 
-    /// Whitened extra columns beside those of the bank: their products with one another, with the columns
-    /// of a set, and with the reading.
-    pub(super) fn beside(&self, members: &[usize], extra: &DMatrix<f64>) -> Products {
+    /// Whitened extra columns beside those of the bank: their products with one another (`own` before the
+    /// nuisances are integrated out), with the columns of a set, and with the reading.
+    pub(super) fn beside(
+        &self,
+        members: &[usize],
+        (extra, own_gram): (&DMatrix<f64>, &DMatrix<f64>),
+    ) -> Products {
         let inside = self.products(members);
         let ranges = members.iter().map(|m| self.entries[*m].columns.clone());
         let own: Vec<usize> = ranges.flatten().collect();
@@ -263,19 +272,19 @@ impl<'a> Bank<'a> {
         );
         let seen = self.nuisances.seen(extra);
         let (n, m) = (own.len(), extra.ncols());
-        let mut gram = DMatrix::zeros(n + m, n + m);
-        gram.view_mut((0, 0), (n, n)).copy_from(&inside.gram);
-        let cross = columns.tr_mul(extra) - marginal.tr_mul(&seen);
-        gram.view_mut((0, n), (n, m)).copy_from(&cross);
-        gram.view_mut((n, 0), (m, n)).copy_from(&cross.transpose());
-        gram.view_mut((n, n), (m, m))
-            .copy_from(&(extra.tr_mul(extra) - seen.tr_mul(&seen)));
+        let mut all = DMatrix::zeros(n + m, n + m);
+        all.view_mut((0, 0), (n, n)).copy_from(&inside.gram);
+        let cross = tr_mul(&columns, extra) - marginal.tr_mul(&seen);
+        all.view_mut((0, n), (n, m)).copy_from(&cross);
+        all.view_mut((n, 0), (m, n)).copy_from(&cross.transpose());
+        all.view_mut((n, n), (m, m))
+            .copy_from(&(own_gram - gram(&seen)));
         let mut right = DVector::zeros(n + m);
         right.rows_mut(0, n).copy_from(&inside.right);
         let (y, known) = &self.whitened;
         right
             .rows_mut(n, m)
             .copy_from(&(extra.tr_mul(y) - seen.tr_mul(known)));
-        Products { gram, right }
+        Products { gram: all, right }
     }
 }

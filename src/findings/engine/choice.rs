@@ -3,12 +3,12 @@
 
 use super::bank::Bank;
 use super::judgement::Judgement;
-use super::materiality::is_material;
+use super::materiality::Materiality;
 use super::posterior::Posterior;
 use super::rest::Span;
 use super::search::Scored;
 use super::statement::Statement;
-use super::unseen::gain;
+use super::unseen::gains;
 use crate::findings::gain::Gain;
 
 /// Sets below the best that matters by more than this are not tried, nats.
@@ -24,10 +24,10 @@ pub(super) fn material(
 ) -> Vec<Scored> {
     // with patterns beside the causes, and without: the best set of causes alone is what a kind is stated about
     let mut best = [f64::NEG_INFINITY; 2];
+    let mut materiality = Materiality::new(statement, bank, judgement);
     let mut holds = |s: &Scored| {
         let own = usize::from(s.suspects.iter().all(|s| bank.suspects[*s].named));
-        let matters =
-            s.score > best[own] - HOPELESS && is_material(statement, bank, &s.fit, judgement);
+        let matters = s.score > best[own] - HOPELESS && materiality.holds(&s.fit);
         if matters {
             best[own] = best[own].max(s.score);
         }
@@ -93,12 +93,7 @@ pub(super) fn drop_unreal(
     judgement: &Judgement,
 ) -> Vec<Gain> {
     loop {
-        let gains: Vec<Gain> = set
-            .fit
-            .members
-            .iter()
-            .map(|m| gain(statement, bank, &set.fit, *m))
-            .collect();
+        let gains = gains(statement, bank, &set.fit);
         let least = match gains.len() {
             1 => 0.0,
             _ => judgement.companion_gain,

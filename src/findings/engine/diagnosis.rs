@@ -37,7 +37,7 @@ pub struct Found {
 }
 
 /// Rounds in which a kind that is not linear is stated anew about what was found.
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 6;
 /// Change of what every cause adds, as a share of it, at which a round has arrived.
 const ARRIVED: f64 = 0.03;
 /// A round that leaves so much more than the one before went astray.
@@ -118,7 +118,8 @@ fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgeme
         s.rest(&bank, &set.fit, whole, judgement)
     });
     let share = rms(&in_noise(statement, &pattern.1)) / whole.max(f64::MIN_POSITIVE);
-    let rest = rest.with(share, judgement);
+    let noise = set.fit.posterior.noise_variance.sqrt();
+    let rest = rest.with(share, judgement).scattering(noise, judgement);
     let rest = match story.filter(|_| set.suspects.is_empty()) {
         Some(story) => unnamed(statement, &bank, (&story, whole), rest, judgement),
         None => rest,

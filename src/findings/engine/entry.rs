@@ -1,6 +1,7 @@
 //! One member's place in the bank.
 
 use super::statement::Suspect;
+use crate::ground::products::gram;
 use crate::inference::gaussian::Size;
 use nalgebra::DMatrix;
 use std::ops::Range;
@@ -40,7 +41,7 @@ pub(super) fn entries(
                     c.columns(range.start, range.len()),
                     u.columns(range.start, range.len()),
                 );
-                c.tr_mul(&c) - u.tr_mul(&u)
+                gram(c) - gram(u)
             };
             let square = product(columns, marginal).trace() / (rows * range.len().max(1) as f64);
             let scale = match m.size {

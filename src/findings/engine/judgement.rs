@@ -17,9 +17,10 @@ pub struct Judgement {
     pub amount: f64,
     /// Price of two causes of one mechanism, nats (F): mostly one law of another shape.
     pub same_mechanism: f64,
-    /// Peak (99 %) of a cause's own part, in noise deviations of one reading, below which it is too small to
-    /// be named (F).
+    /// Peak of a cause's own part, in noise deviations of one reading, below which it is too small to be named (F).
     pub peak: f64,
+    /// The share of the readings that lie below that peak.
+    pub peak_above: f64,
     /// Its rms as a share of all that is named, below which it does not matter (F) ...
     pub share: f64,
     /// ... and beside one of its own mechanism.
@@ -51,6 +52,8 @@ pub struct Judgement {
     pub left_peak: f64,
     /// ... and its rms above this share of the whole misfit.
     pub left_share: f64,
+    /// What is left scatters by so many times the noise that is stated: it is none.
+    pub noise_beyond: f64,
     /// Above this share of the misfit's rms what is left is the story, and the named causes are not.
     pub not_the_story: f64,
     /// Largest set of causes.
@@ -76,6 +79,7 @@ impl Default for Judgement {
             amount: 1.0,
             same_mechanism: 10.0,
             peak: 2.0,
+            peak_above: 0.99,
             share: 0.09,
             share_beside_kin: 0.2,
             temper: 0.35,
@@ -89,6 +93,7 @@ impl Default for Judgement {
             left_nats: 6.0,
             left_peak: 1.6,
             left_share: 0.15,
+            noise_beyond: f64::INFINITY,
             not_the_story: 0.5,
             largest: 4,
         }

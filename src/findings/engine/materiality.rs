@@ -4,31 +4,210 @@
 use super::bank::{Bank, Fit};
 use super::judgement::Judgement;
 use super::statement::Statement;
+use crate::ground::products::{gram, tr_mul};
 use crate::ground::stats::{quantile, rms};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use std::collections::BTreeMap;
 
-/// Whether all causes of a set matter.
-pub fn is_material(statement: &Statement, bank: &Bank, fit: &Fit, judgement: &Judgement) -> bool {
-    if fit.members.is_empty() {
-        return true;
+/// What tells whether causes matter, for many sets: the columns of members without what nobody knows anyway.
+pub struct Materiality<'a> {
+    statement: &'a Statement,
+    bank: &'a Bank<'a>,
+    judgement: &'a Judgement,
+    flat: Flat,
+    columns: BTreeMap<usize, DMatrix<f64>>,
+    products: BTreeMap<(usize, usize), DMatrix<f64>>,
+}
+
+impl<'a> Materiality<'a> {
+    /// Of the members of a bank.
+    pub fn new(statement: &'a Statement, bank: &'a Bank, judgement: &'a Judgement) -> Self {
+        Self {
+            flat: Flat::of(statement),
+            statement,
+            bank,
+            judgement,
+            columns: BTreeMap::new(),
+            products: BTreeMap::new(),
+        }
     }
-    let noise = fit.posterior.noise_variance.sqrt();
-    let parts = parts(statement, bank, fit);
-    let total = rms(&free_of(statement, &[], &sum(statement, &parts)));
-    (0..parts.len()).all(|at| {
-        let own = own_part(statement, bank, fit, (at, &parts[at]));
-        let peaks: Vec<f64> = own.iter().map(|v| v.abs()).collect();
+
+    /// Whether all causes of a set matter.
+    pub fn holds(&mut self, fit: &Fit) -> bool {
+        self.learn(&fit.members);
+        let total = self.rms_of(fit, &all_of(fit), &amounts(self.bank, fit));
+        (0..fit.members.len()).all(|at| self.matters(fit, at, total))
+    }
+
+    fn matters(&self, fit: &Fit, at: usize, total: f64) -> bool {
+        let (bank, judgement) = (self.bank, self.judgement);
         let share = match (bank.suspect(fit.members[at]).named, has_kin(bank, fit, at)) {
             (false, _) => judgement.left_share,
             (true, true) => judgement.share_beside_kin,
             (true, false) => judgement.share,
         };
-        let beside = (0..parts.len()).filter(|i| *i != at);
-        let rough = |i: usize| bank.suspect(fit.members[i]).law_error * rms(&parts[i]);
-        let missed = beside.map(rough).fold(0.0, f64::max);
-        quantile(&peaks, 0.99) >= judgement.peak * noise
-            && (parts.len() == 1 || rms(&own) >= (share * total).max(missed))
-    })
+        let own = self.own_amounts(fit, at);
+        let size = self.rms_of(fit, &all_of(fit), &own);
+        if fit.members.len() > 1 && size < (share * total).max(self.missed(fit, at)) {
+            return false;
+        }
+        let mut part = DVector::zeros(self.statement.reading.len());
+        for (member, amounts) in fit.members.iter().zip(&own) {
+            part.gemv(1.0, &self.columns[member], amounts, 1.0);
+        }
+        let peaks: Vec<f64> = part.iter().map(|v| v.abs()).collect();
+        let noise = fit.posterior.noise_variance.sqrt();
+        quantile(&peaks, judgement.peak_above) >= judgement.peak * noise
+    }
+
+    /// The most that the laws of the others miss, noise deviations rms.
+    fn missed(&self, fit: &Fit, at: usize) -> f64 {
+        let rough = |i: &usize| self.bank.suspect(fit.members[*i]).law_error > 0.0;
+        let others: Vec<usize> = (0..fit.members.len())
+            .filter(|i| *i != at)
+            .filter(rough)
+            .collect();
+        if others.is_empty() {
+            return 0.0;
+        }
+        let parts = raw_parts(self.bank, fit);
+        let size = |i: &usize| {
+            let law = self.bank.suspect(fit.members[*i]).law_error;
+            law * rms(&in_noise(self.statement, &parts[*i]))
+        };
+        others.iter().map(size).fold(0.0, f64::max)
+    }
+
+    /// Amounts of all members that make the part of one which the others cannot take over.
+    fn own_amounts(&self, fit: &Fit, at: usize) -> Vec<DVector<f64>> {
+        let mut all = amounts(self.bank, fit);
+        let others: Vec<usize> = (0..fit.members.len()).filter(|i| *i != at).collect();
+        if others.is_empty() {
+            return all;
+        }
+        let own = self.gram(fit, &others, &others);
+        let mut inner = own.clone();
+        (0..own.nrows()).for_each(|i| inner[(i, i)] += 1e-9 * own[(i, i)] + f64::MIN_POSITIVE);
+        let seen = self.gram(fit, &others, &[at]) * &all[at];
+        let taken = inner.cholesky().map(|root| root.solve(&seen));
+        let mut first = 0;
+        for i in others {
+            let count = all[i].len();
+            all[i] = match &taken {
+                Some(taken) => -taken.rows(first, count),
+                None => DVector::zeros(count),
+            };
+            first += count;
+        }
+        all
+    }
+
+    fn rms_of(&self, fit: &Fit, members: &[usize], amounts: &[DVector<f64>]) -> f64 {
+        let all: Vec<f64> = amounts.iter().flat_map(|a| a.iter().copied()).collect();
+        let all = DVector::from_vec(all);
+        let square = all.dot(&(self.gram(fit, members, members) * &all));
+        (square.max(0.0) / self.statement.reading.len().max(1) as f64).sqrt()
+    }
+
+    /// Products of the columns of some members of a set with those of others.
+    fn gram(&self, fit: &Fit, rows: &[usize], columns: &[usize]) -> DMatrix<f64> {
+        let count = |i: &usize| self.columns[&fit.members[*i]].ncols();
+        let (height, width) = (
+            rows.iter().map(count).sum(),
+            columns.iter().map(count).sum(),
+        );
+        let mut all = DMatrix::zeros(height, width);
+        let mut top = 0;
+        for i in rows {
+            let mut left = 0;
+            for j in columns {
+                let (a, b) = (fit.members[*i], fit.members[*j]);
+                let shape = (count(i), count(j));
+                let mut view = all.view_mut((top, left), shape);
+                match a <= b {
+                    true => view.copy_from(&self.products[&(a, b)]),
+                    false => view.copy_from(&self.products[&(b, a)].transpose()),
+                }
+                left += shape.1;
+            }
+            top += count(i);
+        }
+        all
+    }
+
+    fn learn(&mut self, members: &[usize]) {
+        for member in members {
+            if !self.columns.contains_key(member) {
+                let columns = self.bank.member(*member).columns.iter();
+                let own: Vec<DVector<f64>> = columns
+                    .map(|c| DVector::from_vec(in_noise(self.statement, c)))
+                    .collect();
+                let free = self.flat.free_of(DMatrix::from_columns(&own));
+                self.columns.insert(*member, free);
+            }
+        }
+        for a in members {
+            for b in members.iter().filter(|b| a <= b) {
+                let own = || tr_mul(&self.columns[a], &self.columns[b]);
+                self.products.entry((*a, *b)).or_insert_with(own);
+            }
+        }
+    }
+}
+
+fn all_of(fit: &Fit) -> Vec<usize> {
+    (0..fit.members.len()).collect()
+}
+
+/// Amounts of every member, in units of its columns.
+fn amounts(bank: &Bank, fit: &Fit) -> Vec<DVector<f64>> {
+    let mut at = 0;
+    let each = fit.members.iter().map(|member| {
+        let count = bank.member(*member).columns.len();
+        at += count;
+        fit.posterior.mean.rows(at - count, count) * bank.entries[*member].scale
+    });
+    each.collect()
+}
+
+/// The columns of what nobody knows anyway, of unit length in noise deviations of a reading.
+struct Flat {
+    columns: DMatrix<f64>,
+    root: Option<Cholesky<f64, Dyn>>,
+}
+
+impl Flat {
+    fn of(statement: &Statement) -> Self {
+        let nuisances = statement.nuisances.iter();
+        let flat = nuisances.filter(|n| n.spread.is_infinite());
+        let unit = |c: &Vec<f64>| {
+            let c = DVector::from_vec(in_noise(statement, c));
+            let length = c.norm().max(f64::MIN_POSITIVE);
+            c / length
+        };
+        let columns: Vec<DVector<f64>> = flat.map(|n| unit(&n.column)).collect();
+        let columns = match columns.is_empty() {
+            true => DMatrix::zeros(statement.reading.len(), 0),
+            false => DMatrix::from_columns(&columns),
+        };
+        let mut inner = gram(&columns);
+        (0..inner.nrows()).for_each(|i| inner[(i, i)] += 1e-9);
+        Self {
+            root: inner.cholesky(),
+            columns,
+        }
+    }
+
+    /// What they leave of columns in noise deviations.
+    fn free_of(&self, columns: DMatrix<f64>) -> DMatrix<f64> {
+        match &self.root {
+            Some(root) if self.columns.ncols() > 0 => {
+                let taken = root.solve(&tr_mul(&self.columns, &columns));
+                columns - &self.columns * taken
+            }
+            _ => columns,
+        }
+    }
 }
 
 /// Rms of all that a set explains beyond the nuisances, in noise deviations of a reading; 0 where its peak
@@ -39,15 +218,13 @@ pub(super) fn explained_rms(
     fit: &Fit,
     judgement: &Judgement,
 ) -> f64 {
-    let total = free_of(
-        statement,
-        &[],
-        &sum(statement, &parts(statement, bank, fit)),
-    );
+    let all = in_noise(statement, &sum(statement, &raw_parts(bank, fit)));
+    let all = DMatrix::from_column_slice(all.len(), 1, &all);
+    let total = Flat::of(statement).free_of(all);
     let peaks: Vec<f64> = total.iter().map(|v| v.abs()).collect();
     let noise = fit.posterior.noise_variance.sqrt();
     match quantile(&peaks, 0.98) > judgement.left_peak * noise {
-        true => rms(&total),
+        true => rms(total.as_slice()),
         false => 0.0,
     }
 }
@@ -63,12 +240,6 @@ fn has_kin(bank: &Bank, fit: &Fit, at: usize) -> bool {
     others
         .filter(|(i, _)| *i != at)
         .any(|(_, m)| bank.suspect(*m).mechanism == own)
-}
-
-/// What every member adds to the readings, in noise deviations of a reading.
-fn parts(statement: &Statement, bank: &Bank, fit: &Fit) -> Vec<Vec<f64>> {
-    let raw = raw_parts(bank, fit);
-    raw.iter().map(|part| in_noise(statement, part)).collect()
 }
 
 /// What every member of a fit adds to the readings, in their unit.
@@ -97,44 +268,4 @@ fn in_noise(statement: &Statement, raw: &[f64]) -> Vec<f64> {
         .zip(statement.noise.spread())
         .map(|(v, s)| v / s)
         .collect()
-}
-
-/// The part of a member that the others and what nobody knows anyway cannot take over.
-fn own_part(
-    statement: &Statement,
-    bank: &Bank,
-    fit: &Fit,
-    (at, part): (usize, &[f64]),
-) -> Vec<f64> {
-    let others = fit.members.iter().enumerate().filter(|(i, _)| *i != at);
-    let columns = others.flat_map(|(_, m)| bank.member(*m).columns.iter());
-    let columns: Vec<Vec<f64>> = columns.map(|c| in_noise(statement, c)).collect();
-    free_of(statement, &columns, part)
-}
-
-/// What columns and the nuisances without prior leave of numbers in noise deviations.
-fn free_of(statement: &Statement, columns: &[Vec<f64>], values: &[f64]) -> Vec<f64> {
-    let flat = statement
-        .nuisances
-        .iter()
-        .filter(|n| n.spread.is_infinite());
-    let flat = flat.map(|n| in_noise(statement, &n.column));
-    let unit = |c: Vec<f64>| {
-        let c = DVector::from_vec(c);
-        let length = c.norm().max(f64::MIN_POSITIVE);
-        c / length
-    };
-    let all: Vec<DVector<f64>> = columns.iter().cloned().chain(flat).map(unit).collect();
-    if all.is_empty() {
-        return values.to_vec();
-    }
-    let matrix = DMatrix::from_columns(&all);
-    let mut inner = matrix.tr_mul(&matrix);
-    (0..all.len()).for_each(|i| inner[(i, i)] += 1e-9);
-    let y = DVector::from_column_slice(values);
-    let taken = match inner.cholesky() {
-        Some(root) => &matrix * root.solve(&matrix.tr_mul(&y)),
-        None => DVector::zeros(values.len()),
-    };
-    (y - taken).as_slice().to_vec()
 }

@@ -2,6 +2,7 @@
 //! be off.
 
 use super::statement::{Nuisance, Statement};
+use crate::ground::products::{gram, tr_mul};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -49,7 +50,7 @@ impl Nuisances {
             true => DMatrix::zeros(rows, 0),
             false => DMatrix::from_columns(&scaled),
         };
-        let mut inner = matrix.tr_mul(&matrix);
+        let mut inner = gram(&matrix);
         let mut flat = 0;
         let allowed = allowed(&statement.nuisances);
         let mut most = Vec::new();
@@ -71,23 +72,32 @@ impl Nuisances {
 
     /// U of columns, nuisances × columns.
     pub fn seen(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut cross = self.columns.tr_mul(columns);
+        let mut cross = tr_mul(&self.columns, columns);
         if let Some(root) = &self.root {
             root.l_dirty().solve_lower_triangular_mut(&mut cross);
         }
         cross
     }
 
-    /// Products of the nuisances, their priors in it, beside those of other columns.
-    pub fn beside(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
-        let (k, p) = (self.most.len(), columns.ncols());
-        let cross = self.columns.tr_mul(columns);
+    /// Products of the nuisances, their priors in it, beside those of other columns: `seen` is U of these,
+    /// `own` their products with one another once the nuisances are integrated out.
+    pub fn beside(&self, seen: &DMatrix<f64>, own: &DMatrix<f64>) -> DMatrix<f64> {
+        let (k, p) = (self.most.len(), own.ncols());
+        let cross = self.crossed(seen);
         let mut all = DMatrix::zeros(k + p, k + p);
         all.view_mut((0, 0), (k, k)).copy_from(&self.inner);
         all.view_mut((0, k), (k, p)).copy_from(&cross);
         all.view_mut((k, 0), (p, k)).copy_from(&cross.transpose());
         all.view_mut((k, k), (p, p))
-            .copy_from(&columns.tr_mul(columns));
+            .copy_from(&(own + seen.tr_mul(seen)));
         all
+    }
+
+    /// Products of the nuisances with columns of which U is known.
+    pub fn crossed(&self, seen: &DMatrix<f64>) -> DMatrix<f64> {
+        match &self.root {
+            Some(root) => root.l() * seen,
+            None => seen.clone(),
+        }
     }
 }

@@ -4,6 +4,7 @@
 use super::bank::{Bank, Fit};
 use super::judgement::Judgement;
 use super::statement::Statement;
+use crate::ground::products::gram;
 use crate::ground::stats::{quantile, rms};
 use crate::inference::gaussian::{Products, evidence};
 use nalgebra::{DMatrix, DVector};
@@ -34,6 +35,20 @@ impl Rest {
     }
 }
 
+impl Rest {
+    /// The same where what is left scatters by so many times the stated noise.
+    pub(super) fn scattering(self, noise: f64, judgement: &Judgement) -> Self {
+        match noise > judgement.noise_beyond {
+            true => Self {
+                nats: self.nats.max(judgement.left_nats),
+                is_left: true,
+                ..self
+            },
+            false => self,
+        }
+    }
+}
+
 /// Structure that is always granted, noise deviations rms: digits and filters leave no less.
 const GRANTED: f64 = 0.15;
 /// How much more than granted is tried.
@@ -43,6 +58,8 @@ const TIMES: [f64; 9] = [1.5, 2.3, 3.5, 5.0, 8.0, 12.0, 20.0, 50.0, 150.0];
 pub struct Span {
     /// Whitened.
     columns: DMatrix<f64>,
+    /// Their products with one another.
+    gram: DMatrix<f64>,
     /// Row by row, in noise deviations of a reading.
     rows: DMatrix<f64>,
 }
@@ -62,8 +79,10 @@ impl Span {
             DVector::from_iterator(c.len(), each.map(|(v, s)| v / s))
         };
         let rows: Vec<DVector<f64>> = statement.span.iter().map(plain).collect();
+        let columns = DMatrix::from_columns(&columns) * scale;
         Some(Self {
-            columns: DMatrix::from_columns(&columns) * scale,
+            gram: gram(&columns),
+            columns,
             rows: DMatrix::from_columns(&rows) * scale,
         })
     }
@@ -72,7 +91,7 @@ impl Span {
     fn beside<'a>(&'a self, bank: &'a Bank, fit: &Fit) -> Beside<'a> {
         let own = fit.members.iter().zip(&fit.posterior.sizes);
         Beside {
-            products: bank.beside(&fit.members, &self.columns),
+            products: bank.beside(&fit.members, (&self.columns, &self.gram)),
             blocks: own
                 .map(|(m, size)| (bank.entries[*m].columns.len(), *size))
                 .collect(),

@@ -4,40 +4,21 @@ use super::bank::{Bank, Fit};
 use super::nuisances::allowed;
 use super::statement::Statement;
 use crate::findings::gain::Gain;
+use crate::ground::products::{gram, tr_mul};
 use crate::ground::stats::{Z95, mean, t95};
 use crate::inference::gaussian::{Size, limited};
 use nalgebra::{DMatrix, DVector};
+use std::ops::Range;
 
-/// The gain of one member of a set: on the first split that shows it, coarse before fine; where none does,
+/// The gain of every member of a set: on the first split that shows it, coarse before fine; where none does,
 /// that of the coarsest. What happens once, in as many readings as it has amounts, shows in no other reading:
 /// its gain is that on the readings themselves, each amount paid for.
-pub fn gain(statement: &Statement, bank: &Bank, fit: &Fit, member: usize) -> Gain {
-    let rest: Vec<usize> = fit
-        .members
-        .iter()
-        .copied()
-        .filter(|m| *m != member)
-        .collect();
-    let with = Design::of(statement, bank, &fit.members, fit);
-    let without = Design::of(statement, bank, &rest, fit);
-    if happens_once(bank, member) {
-        let n = statement.reading.len() as f64;
-        let errors = [&without, &with].map(|d| d.paid(statement));
-        let found = Gain::of(errors[0], errors[1], n.max(1.0).sqrt().recip());
-        if found.is_real() {
-            return found;
-        }
-    }
-    let mut first = None;
-    for split in &statement.splits {
-        let errors = [&without, &with].map(|d| d.held_out(statement, split));
-        let found = compare(&errors[0], &errors[1], split);
-        if found.is_real() {
-            return found;
-        }
-        first.get_or_insert(found);
-    }
-    first.unwrap_or(Gain::of(1.0, 1.0, f64::INFINITY))
+pub fn gains(statement: &Statement, bank: &Bank, fit: &Fit) -> Vec<Gain> {
+    let design = Design::of(statement, bank, fit);
+    let mut splits = Vec::new();
+    let each = fit.members.iter().enumerate();
+    each.map(|(at, member)| design.gain(bank, (at, *member), &mut splits))
+        .collect()
 }
 
 /// Whether a member acts on no more rows than it has amounts.
@@ -45,27 +26,47 @@ fn happens_once(bank: &Bank, member: usize) -> bool {
     let columns = &bank.member(member).columns;
     let acts = |row: &usize| columns.iter().any(|c| c[*row] != 0.0);
     let rows = columns.first().map_or(0, Vec::len);
-    (0..rows).filter(acts).count() <= columns.len()
+    (0..rows).filter(acts).take(columns.len() + 1).count() <= columns.len()
 }
 
 /// Rows in noise deviations, how stiffly every amount is held by its prior, and how far it may go: what is
 /// merely uncertain must not take over what a cause explains.
-struct Design {
+struct Design<'a> {
+    statement: &'a Statement,
     matrix: DMatrix<f64>,
+    y: DVector<f64>,
     precision: Vec<f64>,
     most: Vec<f64>,
+    /// Columns of every member.
+    own: Vec<Range<usize>>,
 }
 
-impl Design {
-    fn of(statement: &Statement, bank: &Bank, members: &[usize], fit: &Fit) -> Self {
+/// One way to hold out rows.
+struct Split<'a> {
+    folds: Vec<Fold>,
+    of: &'a [usize],
+    /// Errors with all members.
+    errors: Vec<f64>,
+}
+
+/// Rows that are held out together, with the products of all others.
+struct Fold {
+    rows: Vec<usize>,
+    own: DMatrix<f64>,
+    held: DVector<f64>,
+    gram: DMatrix<f64>,
+    right: DVector<f64>,
+}
+
+impl<'a> Design<'a> {
+    fn of(statement: &'a Statement, bank: &Bank, fit: &Fit) -> Self {
         let spread = statement.noise.spread();
         let white = |c: &[f64], scale: f64| {
             let each = c.iter().zip(spread);
             DVector::from_iterator(c.len(), each.map(|(v, s)| v * scale / s))
         };
-        let mut columns = Vec::new();
-        let mut precision = Vec::new();
-        let mut most = Vec::new();
+        let (mut columns, mut own) = (Vec::new(), Vec::new());
+        let (mut precision, mut most) = (Vec::new(), Vec::new());
         let allowed = allowed(&statement.nuisances);
         for nuisance in &statement.nuisances {
             let column = white(&nuisance.column, 1.0);
@@ -74,69 +75,125 @@ impl Design {
             columns.push(column);
             most.push(allowed * nuisance.spread);
         }
-        for member in members {
-            let own = bank.member(*member);
-            let scale = bank.entries[*member].scale;
-            let size = match own.size {
+        for (at, member) in fit.members.iter().enumerate() {
+            let (first, scale) = (columns.len(), bank.entries[*member].scale);
+            let size = match bank.member(*member).size {
                 Size::Given(size) => size,
-                Size::Free | Size::Drawn => fit
-                    .members
-                    .iter()
-                    .position(|m| m == member)
-                    .map_or(1.0, |i| fit.posterior.sizes[i]),
+                Size::Free | Size::Drawn => fit.posterior.sizes[at],
             };
-            columns.extend(own.columns.iter().map(|c| white(c, scale)));
-            precision.extend(own.columns.iter().map(|_| (size * size).recip()));
-            most.extend(own.columns.iter().map(|_| f64::INFINITY));
+            let member = &bank.member(*member).columns;
+            columns.extend(member.iter().map(|c| white(c, scale)));
+            precision.extend(member.iter().map(|_| (size * size).recip()));
+            most.extend(member.iter().map(|_| f64::INFINITY));
+            own.push(first..columns.len());
         }
-        let rows = statement.reading.len();
-        let matrix = match columns.is_empty() {
-            true => DMatrix::zeros(rows, 0),
-            false => DMatrix::from_columns(&columns),
-        };
         Self {
-            matrix,
+            matrix: match columns.is_empty() {
+                true => DMatrix::zeros(spread.len(), 0),
+                false => DMatrix::from_columns(&columns),
+            },
+            y: white(&statement.reading, 1.0),
+            statement,
             precision,
             most,
+            own,
         }
     }
 
-    /// Root mean square of what the fit leaves, in the unit of the readings, over the rows that its amounts
-    /// leave free.
-    fn paid(&self, statement: &Statement) -> f64 {
-        let spread = statement.noise.spread();
-        let each = statement.reading.iter().zip(spread);
-        let y = DVector::from_iterator(spread.len(), each.map(|(r, s)| r / s));
-        let mut gram = self.matrix.tr_mul(&self.matrix);
-        for (i, p) in self.precision.iter().enumerate() {
-            gram[(i, i)] += p;
+    fn gain(&self, bank: &Bank, (at, member): (usize, usize), splits: &mut Vec<Split<'a>>) -> Gain {
+        let all: Vec<usize> = (0..self.matrix.ncols()).collect();
+        let is_other = |c: &usize| !self.own[at].contains(c);
+        let others: Vec<usize> = all.iter().copied().filter(is_other).collect();
+        if happens_once(bank, member) {
+            let n = self.y.len() as f64;
+            let found = Gain::of(
+                self.paid(&others),
+                self.paid(&all),
+                n.max(1.0).sqrt().recip(),
+            );
+            if found.is_real() {
+                return found;
+            }
         }
-        let left = &y - &self.matrix * limited(&gram, &self.matrix.tr_mul(&y), &self.most);
-        let squares: f64 = left.iter().zip(spread).map(|(l, s)| (l * s).powi(2)).sum();
-        let free = spread.len() as f64 - self.matrix.ncols() as f64;
+        let mut first = None;
+        for (i, of) in self.statement.splits.iter().enumerate() {
+            if splits.len() == i {
+                splits.push(self.split(of, &all));
+            }
+            let split = &splits[i];
+            let found = compare(
+                &self.held_out(&split.folds, &others),
+                &split.errors,
+                split.of,
+            );
+            if found.is_real() {
+                return found;
+            }
+            first.get_or_insert(found);
+        }
+        first.unwrap_or(Gain::of(1.0, 1.0, f64::INFINITY))
+    }
+
+    fn split(&self, of: &'a [usize], all: &[usize]) -> Split<'a> {
+        let (whole, pull) = (gram(&self.matrix), self.matrix.tr_mul(&self.y));
+        let count = of.iter().copied().max().map_or(0, |f| f + 1);
+        let fold = |fold: usize| {
+            let rows: Vec<usize> = (0..of.len()).filter(|i| of[*i] == fold).collect();
+            let (own, held) = (self.matrix.select_rows(&rows), self.y.select_rows(&rows));
+            Fold {
+                gram: &whole - gram(&own),
+                right: &pull - own.tr_mul(&held),
+                rows,
+                own,
+                held,
+            }
+        };
+        let folds: Vec<Fold> = (0..count).map(fold).collect();
+        Split {
+            errors: self.held_out(&folds, all),
+            folds,
+            of,
+        }
+    }
+
+    /// Amounts of some columns by products.
+    fn amounts(
+        &self,
+        gram: &DMatrix<f64>,
+        right: &DVector<f64>,
+        columns: &[usize],
+    ) -> DVector<f64> {
+        let mut own = gram.select_rows(columns).select_columns(columns);
+        for (i, c) in columns.iter().enumerate() {
+            own[(i, i)] += self.precision[*c];
+        }
+        let most: Vec<f64> = columns.iter().map(|c| self.most[*c]).collect();
+        let solved = limited(&own, &right.select_rows(columns), &most);
+        let mut all = DVector::zeros(self.matrix.ncols());
+        let each = columns.iter().zip(solved.iter());
+        each.for_each(|(c, x)| all[*c] = *x);
+        all
+    }
+
+    /// Root mean square of what a fit of some columns leaves, in the unit of the readings, over the rows that
+    /// its amounts leave free.
+    fn paid(&self, columns: &[usize]) -> f64 {
+        let right = tr_mul(&self.matrix, &self.y).column(0).into_owned();
+        let left = &self.y - &self.matrix * self.amounts(&gram(&self.matrix), &right, columns);
+        let each = left.iter().zip(self.statement.noise.spread());
+        let squares: f64 = each.map(|(l, s)| (l * s).powi(2)).sum();
+        let free = self.y.len() as f64 - columns.len() as f64;
         (squares / free.max(1.0)).sqrt()
     }
 
-    /// Error of every row in the unit of the readings, each fold predicted from the others.
-    fn held_out(&self, statement: &Statement, split: &[usize]) -> Vec<f64> {
-        let spread = statement.noise.spread();
-        let each = statement.reading.iter().zip(spread);
-        let y = DVector::from_iterator(split.len(), each.map(|(r, s)| r / s));
-        let (gram, right) = (self.matrix.tr_mul(&self.matrix), self.matrix.tr_mul(&y));
-        let folds = split.iter().copied().max().map_or(0, |f| f + 1);
-        let mut error = statement.reading.clone();
-        for fold in 0..folds {
-            let rows: Vec<usize> = (0..split.len()).filter(|i| split[*i] == fold).collect();
-            let (own, held) = (self.matrix.select_rows(&rows), y.select_rows(&rows));
-            let mut rest = &gram - own.tr_mul(&own);
-            let pull = &right - own.tr_mul(&held);
-            for (i, p) in self.precision.iter().enumerate() {
-                rest[(i, i)] += p;
-            }
-            let left = held - own * limited(&rest, &pull, &self.most);
-            rows.iter()
-                .zip(left.iter())
-                .for_each(|(i, l)| error[*i] = l * spread[*i]);
+    /// Error of every row in the unit of the readings, each fold predicted from the others by some columns.
+    fn held_out(&self, folds: &[Fold], columns: &[usize]) -> Vec<f64> {
+        let spread = self.statement.noise.spread();
+        let mut error = self.statement.reading.clone();
+        for fold in folds {
+            let left = &fold.held - &fold.own * self.amounts(&fold.gram, &fold.right, columns);
+            let each = fold.rows.iter().zip(left.iter());
+            each.for_each(|(i, l)| error[*i] = l * spread[*i]);
         }
         error
     }

@@ -6,7 +6,7 @@ use super::nuisance::{Known, Nuisance};
 use super::prediction::{Machine, Point};
 use super::structure::Structure;
 use crate::ground::problem::Outcome;
-use crate::ground::product::gram;
+use crate::ground::products::gram;
 use crate::motion::uncertain::bodies;
 use crate::motion::uncertain::instrument::NUMBERS as INSTRUMENT;
 use crate::robot::Robot;

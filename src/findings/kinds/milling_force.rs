@@ -1,7 +1,7 @@
 //! Diagnosed cuts: their figures.
 
 use super::{Diagnosed, Measured, Source, examined};
-use crate::findings::engine::Found;
+use crate::findings::engine::{Found, Judgement};
 use crate::findings::milling_force::{Case, CutSamples};
 use crate::fit::suitability::{self, Doubt};
 use crate::ground::problem::Outcome;
@@ -14,6 +14,8 @@ use std::path::Path;
 const PLACES: usize = 120;
 /// Cuts that are drawn.
 const DRAWN: usize = 4;
+/// Times by which what is left may scatter beyond the noise: stated, and estimated from neighbours.
+const NOISE_BEYOND: [f64; 2] = [1.7, 2.5];
 /// Points over time that are drawn.
 const POINTS: usize = 600;
 
@@ -43,6 +45,18 @@ impl Measured for Case {
 
     fn doubts(&self) -> Vec<Doubt> {
         suitability::milling_force::doubts(self.file())
+    }
+
+    /// A cut repeats itself with every revolution of the spindle: what is smaller than the noise of one reading is
+    /// plain in so many. Another width shows on a narrow part of the turn. What scatters far beyond the noise is none.
+    fn judgement(&self) -> Judgement {
+        let usual = Judgement::default();
+        Judgement {
+            peak: usual.peak / self.revolutions().max(1.0).sqrt(),
+            peak_above: 0.995,
+            noise_beyond: NOISE_BEYOND[usize::from(self.file().facts.sensor_noise_n.is_none())],
+            ..usual
+        }
     }
 
     fn before_and_after(&self, found: &Found) -> Vec<Chart> {

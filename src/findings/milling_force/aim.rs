@@ -3,14 +3,16 @@
 //! what is uncertain (a secant): the angle of the tooth and the coefficients move along.
 
 use super::Case;
+use super::setting::Places;
+use crate::ground::products::gram;
 use crate::ground::spatial::{M3, V3, add, rotate, scale};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// A place of the vector that is uncertain although nothing is wrong.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A direction of the vector that is uncertain although nothing is wrong.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Loose {
-    /// The place.
-    pub place: usize,
+    /// Its places, with how far each goes.
+    pub along: Vec<(usize, f64)>,
     /// Its standard deviation before the data; infinite: nothing is known.
     pub spread: f64,
 }
@@ -26,6 +28,8 @@ pub struct Aim {
 
 /// Rounds in which a secant is improved.
 const ROUNDS: usize = 5;
+/// Change of an amount, as a share of it, at which its column has arrived.
+const ARRIVED: f64 = 0.01;
 /// What is uncertain goes no further than so many of its standard deviations.
 const FARTHEST: f64 = 3.0;
 /// An angle of the tooth goes no further, rad.
@@ -42,13 +46,13 @@ impl Aim {
         let places = case.places();
         let columns: Vec<DVector<f64>> = loose
             .iter()
-            .map(|l| white(&case.along(&places.unit(l.place)), &spread))
+            .map(|l| white(&case.along(&l.direction(places)), &spread))
             .collect();
         let nuisances = match columns.is_empty() {
             true => DMatrix::zeros(spread.len(), 0),
             false => DMatrix::from_columns(&columns),
         };
-        let mut inner = nuisances.tr_mul(&nuisances);
+        let mut inner = gram(&nuisances);
         for (k, l) in loose.iter().enumerate() {
             inner[(k, k)] += (l.spread * l.spread).recip() + 1e-10 * inner[(k, k)];
         }
@@ -100,6 +104,13 @@ impl Aim {
         }
     }
 
+    /// By how much some columns together lower the misfit, nats.
+    pub fn gain_of(&self, columns: &[Vec<f64>]) -> f64 {
+        let each = columns.iter().zip(self.amounts(columns));
+        let pull = |c: &Vec<f64>| self.free(&white(c, &self.spread)).dot(&self.reading);
+        0.5 * each.map(|(c, amount)| amount * pull(c)).sum::<f64>()
+    }
+
     /// The column of a direction of the vector as the way to where it fits best, at most `most` far. It begins
     /// at the slope, or at the best of some amounts: where the force jumps, no slope says where to go.
     pub fn secant(&self, case: &Case, direction: &[f64], most: f64, starts: &[f64]) -> Vec<f64> {
@@ -117,12 +128,13 @@ impl Aim {
         if best.1.iter().all(|x| *x == 0.0) {
             return best.1;
         }
-        let mut column = best.1.clone();
+        let (mut column, mut before) = (best.1.clone(), 0.0);
         for _ in 0..ROUNDS {
             let amount = self.amounts(std::slice::from_ref(&column))[0].clamp(-most, most);
-            if amount.abs() < 1e-3 * most {
+            if amount.abs() < 1e-3 * most || (amount - before).abs() < ARRIVED * amount.abs() {
                 break;
             }
+            before = amount;
             column = self.reached(case, direction, amount, &column);
             best = better(best, (self.worth(&column, amount), column.clone()));
         }
@@ -156,16 +168,17 @@ impl Aim {
             .collect();
         let flat = |f: V3| f.into_iter();
         let mut column: Vec<f64> = forces.iter().flat_map(|f| flat(rotate(map, *f))).collect();
-        let mut best = (0.0, column.clone());
+        let (mut best, mut before) = ((0.0, column.clone()), 0.0);
         for _ in 0..ROUNDS {
             let amount = self.amounts(std::slice::from_ref(&column))[0].clamp(-MOST_MAP, MOST_MAP);
             let worth = self.worth(&column, amount);
             if worth > best.0 {
                 best = (worth, column.clone());
             }
-            if amount.abs() < LEAST_MAP {
+            if amount.abs() < LEAST_MAP || (amount - before).abs() < ARRIVED * amount.abs() {
                 break;
             }
+            before = amount;
             column = self.beside(case, amount, &column, |to| {
                 let step = case.step(to);
                 let each = forces.iter().zip(step.chunks(3));
@@ -199,7 +212,7 @@ impl Aim {
                 false => self.widest(loose, case),
             };
             alone[k] = uncertain[k].clamp(-most, most);
-            to[loose.place] += alone[k];
+            loose.add_to(&mut to, alone[k]);
         }
         let alone = &self.nuisances * alone;
         let each = whole(&to).into_iter().zip(alone.iter()).zip(&self.spread);
@@ -212,16 +225,39 @@ impl Aim {
         let mut to = vec![0.0; case.places().len()];
         let seen = self.seen(&left);
         let each = self.loose.iter().zip(seen.iter());
-        each.for_each(|(l, u)| to[l.place] += u);
+        each.for_each(|(l, u)| l.add_to(&mut to, *u));
         to
     }
 
     /// How far something goes of which nothing is known: an angle, or a coefficient of its own size.
     fn widest(&self, loose: &Loose, case: &Case) -> f64 {
-        match case.nominal().get(loose.place) {
+        let place = loose.along.first().map(|a| a.0);
+        match place.and_then(|place| case.nominal().get(place)) {
             Some(value) => value.abs(),
             None => TURN,
         }
+    }
+}
+
+impl Loose {
+    /// One place.
+    pub fn place(place: usize, spread: f64) -> Self {
+        Self {
+            along: vec![(place, 1.0)],
+            spread,
+        }
+    }
+
+    /// One unit of it.
+    pub fn direction(&self, places: Places) -> Vec<f64> {
+        let mut to = vec![0.0; places.len()];
+        self.add_to(&mut to, 1.0);
+        to
+    }
+
+    fn add_to(&self, to: &mut [f64], amount: f64) {
+        let each = self.along.iter();
+        each.for_each(|(place, factor)| to[*place] += factor * amount);
     }
 }
 

@@ -1,9 +1,11 @@
 //! The statement about causes that were found: every effect is looked at with all others in place, so that
 //! what is not linear, and what a sensor makes of it, comes out right.
 
+use super::experiment::ROUGH;
 use super::patterns::PATTERNS;
 use super::setting::PROCESS;
-use super::{Case, EFFECTS, coefficients, cross_talk, force_gain};
+use super::{Case, EFFECTS, coefficients, cross_talk, force_gain, runout};
+use crate::experiments::milling_force::RUNOUT;
 use crate::findings::engine::{Blamed, Statement, Suspect};
 use crate::findings::table::{self, Effect};
 use crate::ground::spatial::{M3, add};
@@ -32,6 +34,7 @@ pub(super) fn about(case: &Case, blamed: &[Blamed]) -> Statement {
         add_to(&mut reading, &without.forces(), -1.0);
     }
     let mut suspects: Vec<Suspect> = EFFECTS.iter().flat_map(|e| anew.suspects(e)).collect();
+    suspects = table::rough(suspects, &ROUGH);
     suspects.extend(table::patterns(PATTERNS, &anew.all));
     Statement {
         reading,
@@ -60,6 +63,7 @@ impl Anew {
             let uncertain = all.aim().uncertain(&all, 0.0, &nothing);
             let places = case.places();
             (0..places.cuts).for_each(|c| turned[places.phase(c)] += uncertain[places.phase(c)]);
+            turn_runout(case, blamed, &uncertain, &mut turned);
             all = combined(case, &turned, blamed, "");
         }
         let mut names: Vec<&'static str> = blamed
@@ -79,6 +83,19 @@ impl Anew {
             without,
         }
     }
+}
+
+/// Turns a runout that is stated by its size alone to where what is uncertain takes it.
+fn turn_runout(case: &Case, blamed: &[Blamed], uncertain: &[f64], turned: &mut [f64]) {
+    let found = blamed.iter().any(|b| b.effect == runout::EFFECT.name);
+    let Some(size) = case.file().facts.runout_m.filter(|_| !found) else {
+        return;
+    };
+    let before = case.runout();
+    let [x, y] = [0, 1].map(|k| before[k] + turned[RUNOUT + k] + uncertain[RUNOUT + k]);
+    let long = x.hypot(y).max(f64::MIN_POSITIVE);
+    turned[RUNOUT] = x / long * size - before[0];
+    turned[RUNOUT + 1] = y / long * size - before[1];
 }
 
 impl Anew {

@@ -11,6 +11,7 @@ use crate::ground::spatial::{M3, V3, rotate};
 use crate::ground::stats::median;
 use crate::measurement::milling_force::{Facts, MillingForce};
 use rayon::prelude::*;
+use std::f64::consts::TAU;
 use std::sync::{Arc, OnceLock};
 
 /// Samples of all cuts that are compared at most: more cost time and tell little.
@@ -21,6 +22,9 @@ const PIECES: usize = 8;
 const LAW: f64 = 2e-3;
 /// Readings that a stated noise is worth, and an estimated one.
 const WORTH: [f64; 2] = [60.0, 30.0];
+
+/// Share of the deepest cut, from the tip, in which a tooth mostly breaks that does not break altogether.
+const TIP: f64 = 0.7;
 
 /// A sensor that shows what there is.
 const IDENTITY: M3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -239,7 +243,7 @@ impl Case {
         let one = |c: usize| {
             acts(c).then(|| {
                 let (scene, p) = cuts[c].present.moved(places, c, &there);
-                let force = scene.predict(&p).force;
+                let force = scene.force(&p);
                 force.iter().map(|f| self.shown(f)).collect()
             })
         };
@@ -261,6 +265,22 @@ impl Case {
         let each = reading.iter_mut().zip(&self.explained);
         each.for_each(|(r, e)| *r -= e);
         reading
+    }
+
+    /// Runout of the simulation, along tooth 1 and a quarter turn on, m.
+    pub(super) fn runout(&self) -> [f64; 2] {
+        let stated = &self.cuts()[0].present.p;
+        [0, 1].map(|k| stated[RUNOUT + k] + self.offset[RUNOUT + k])
+    }
+
+    /// Revolutions of the spindle in the samples of a cut, on average.
+    pub fn revolutions(&self) -> f64 {
+        let of = |cut: &CutSamples| {
+            let steps = cut.time.windows(2).map(|w| w[1] - w[0]);
+            let step = steps.fold(f64::INFINITY, f64::min);
+            cut.time.len() as f64 * step * cut.present.scene.cut.spindle_rad_s / TAU
+        };
+        self.cuts().iter().map(of).sum::<f64>() / self.cuts().len().max(1) as f64
     }
 
     /// Time of every sample over the whole file, 0 to 1.
@@ -296,6 +316,8 @@ fn samples(
     nominal: &[f64; 6],
 ) -> Vec<CutSamples> {
     let share = (MOST_SAMPLES / account.cuts.len().max(1)).max(64);
+    let depths = file.facts.cuts.iter().map(|c| c.depth_m);
+    let deepest = depths.fold(0.0, f64::max);
     let mut first = 0;
     let mut one = |(i, fit): (usize, &CutFit)| {
         let data = &fit.data;
@@ -303,6 +325,7 @@ fn samples(
         let mut scene = data.scene.clone();
         let whole = (1.0 + speeds[i]) * (1.0 + fit.p[SPEED]);
         scene.cut.spindle_rad_s = file.facts.cuts[i].spindle_rad_s * whole;
+        scene.chipped_to_m = TIP * deepest;
         scene.time = used.iter().map(|at| data.scene.time[*at]).collect();
         let mut p = fit.p;
         p[..6].copy_from_slice(nominal);
@@ -354,9 +377,9 @@ fn steady(cut: &CutSamples) -> Vec<bool> {
     let at = |place: usize, by: f64| {
         let mut p = present.p;
         p[place] += by;
-        present.scene.predict(&p).force
+        present.scene.force(&p)
     };
-    let here = present.scene.predict(&present.p).force;
+    let here = present.scene.force(&present.p);
     let least = [0, 1, 2].map(|k| {
         let own = here.iter().map(|f| f[k]);
         let (low, high) = own.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));

@@ -1,7 +1,9 @@
 //! The cut chatters: oscillations at frequencies that are no harmonics of the spindle.
 
 use super::Case;
+use super::lines::Line;
 use super::setting::SENSOR;
+use super::tremor::Tremor;
 use crate::findings::engine::Member;
 use crate::findings::table::{Effect, Place};
 use crate::inference::gaussian::Size;
@@ -16,7 +18,10 @@ pub(super) const EFFECT: Effect<Case> = Effect {
         let square: f64 = blamed.amounts.iter().map(|a| a * a).sum();
         let mut told = vec![
             ("frequency", blamed.shape[2], "Hz"),
-            ("amplitude", square.sqrt(), "N"),
+            match blamed.shape[3] > TREMOR {
+                true => ("amplitude", square.sqrt(), "N"),
+                false => ("tremor", 1e-6 * square.sqrt(), "m"),
+            },
         ];
         if blamed.shape[1] > 0.0 {
             told.push(("cut", blamed.shape[1], "1"));
@@ -35,12 +40,56 @@ fn members(case: &Case) -> Vec<Member> {
         .flat_map(|line| [2, 3].map(|axes| member(case, &[line.cut], line.frequency_hz, axes)))
         .collect();
     let highest = lines.iter().max_by(|a, b| a.height.total_cmp(&b.height));
+    if let Some(line) = highest {
+        members.extend(stirred(case, line));
+    }
     if let Some(line) = highest.filter(|_| case.cuts().len() > 1) {
         let every: Vec<usize> = (0..case.cuts().len()).collect();
         members.push(member(case, &every, line.frequency_hz, 2));
     }
     members
 }
+
+/// Multiples of the tooth passing by which a line may lie beside the tremor that makes it.
+const BESIDE: [f64; 7] = [-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0];
+
+/// The tremor of the tool that makes a line and those beside it.
+fn stirred(case: &Case, line: &Line) -> Option<Member> {
+    let tremor = Tremor::new(case, line.cut);
+    let passing = tremor.passing_hz(case);
+    let each = BESIDE.iter().map(|m| line.frequency_hz + m * passing);
+    let at = |hz: f64| {
+        let columns = tremor.columns(case, hz);
+        (case.aim().gain_of(&columns), hz, columns)
+    };
+    let tried = each.filter(|hz| *hz > 0.0).map(at);
+    let better = |a: Tried, b: Tried| if b.0 > a.0 { b } else { a };
+    let time = &case.cuts()[line.cut].time;
+    let ends = time.first().zip(time.last());
+    let resolution = ends.map_or(0.0, |(a, b)| (b - a).max(1e-9).recip());
+    let best = tried.reduce(better).map(|first| {
+        CLOSER.iter().fold(first, |best, share| {
+            let hz = best.1;
+            let about = [-1.0, 1.0].map(|side| at(hz + side * share * resolution));
+            about.into_iter().fold(best, better)
+        })
+    });
+    best.map(|(_, hz, columns)| Member {
+        columns,
+        size: Size::Free,
+        positive: None,
+        shape: vec![SENSOR, (line.cut + 1) as f64, hz, TREMOR],
+    })
+}
+
+/// Gain (nats), frequency (Hz) and columns of a tremor.
+type Tried = (f64, f64, Vec<Vec<f64>>);
+
+/// Steps in which its frequency is brought closer, as shares of the resolution of the record.
+const CLOSER: [f64; 5] = [0.4, 0.25, 0.15, 0.08, 0.04];
+
+/// Stands in the shape of a tremor where lines have the number of their axes.
+const TREMOR: f64 = 0.0;
 
 fn member(case: &Case, cuts: &[usize], hz: f64, axes: usize) -> Member {
     let wave = |cut: usize, axis: usize, quarter: f64| {

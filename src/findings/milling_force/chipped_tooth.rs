@@ -1,4 +1,4 @@
-//! One tooth is shorter than the others along its edge: it takes less, the next one more.
+//! One tooth is shorter than the others, along its whole edge or near its tip: it takes less, the next one more.
 
 use super::Case;
 use super::coefficients::{far, moved};
@@ -13,17 +13,20 @@ pub(super) const EFFECT: Effect<Case> = Effect {
         if teeth < 2 {
             return Vec::new();
         }
-        let one = |tooth: usize| {
+        let one = |place: usize| {
             let mut direction = vec![0.0; case.places().len()];
-            direction[case.places().shorter(tooth)] = 1e-6;
+            direction[place] = 1e-6;
             far(case, &direction, MOST, &[]).positive()
         };
-        vec![Place::new("tool", (0..teeth).map(one).collect())]
+        let places = case.places();
+        let own = (0..teeth).flat_map(|j| [places.shorter(j), places.chipped(j)]);
+        vec![Place::new("tool", own.map(one).collect())]
     },
     parameters: |case, blamed| {
         let sum = moved(case, blamed);
         let places = case.places();
-        let own = (0..places.teeth).map(|j| (j, sum[places.shorter(j)]));
+        let whole = (0..places.teeth).map(|j| (j, sum[places.shorter(j)]));
+        let own = whole.chain((0..places.teeth).map(|j| (j, sum[places.chipped(j)])));
         own.filter(|(_, by)| *by != 0.0)
             .flat_map(|(j, by)| [("tooth", (j + 1) as f64, "1"), ("shorter_by", by, "m")])
             .collect()

@@ -16,6 +16,8 @@ const SPEED: f64 = 5e-4;
 const WIDTH: f64 = 2e-5;
 /// Share of a stated runout within which it is as stated.
 const RUNOUT_SHARE: f64 = 0.15;
+/// Share of it by which its tip may stand aside: nobody states where it points.
+const RUNOUT_TURN: f64 = 0.8;
 /// Orders of the spindle in which structure is looked for.
 const ORDERS: usize = 8;
 /// Cuts whose structure is looked for apart.
@@ -34,7 +36,7 @@ impl Experiment for Case {
         match about {
             [] => Statement {
                 suspects: [
-                    table::suspects(EFFECTS, self),
+                    table::rough(table::suspects(EFFECTS, self), &ROUGH),
                     table::patterns(PATTERNS, self),
                 ]
                 .concat(),
@@ -92,6 +94,10 @@ impl Experiment for Case {
     }
 }
 
+/// Shares by which laws miss nature: a tremor has no single direction or frequency, and what carries a sensor
+/// more than one mode.
+pub(super) const ROUGH: [(&str, f64); 2] = [("chatter", 0.04), ("sensor_resonance", 0.04)];
+
 impl Case {
     /// The statement without anybody to blame.
     pub(super) fn statement(&self) -> Statement {
@@ -110,7 +116,7 @@ impl Case {
 
     fn nuisances(&self) -> Vec<Nuisance> {
         let loose = self.loose().into_iter();
-        let column = |l: &Loose| self.along(&self.places().unit(l.place));
+        let column = |l: &Loose| self.along(&l.direction(self.places()));
         loose
             .map(|l| Nuisance {
                 column: column(&l),
@@ -122,7 +128,7 @@ impl Case {
     /// The angle of tooth 1 of every cut, and what is stated only so well.
     pub(super) fn loose(&self) -> Vec<Loose> {
         let places = self.places();
-        let loose = |place: usize, spread: f64| Loose { place, spread };
+        let loose = Loose::place;
         let mut all: Vec<Loose> = (0..6)
             .map(|j| loose(j, self.coefficient_spread(j)))
             .collect();
@@ -134,11 +140,23 @@ impl Case {
             }
         }
         if let Some(stated) = self.file().facts.runout_m.filter(|_| places.teeth > 1) {
-            all.extend([0, 1].map(|k| loose(RUNOUT + k, RUNOUT_SHARE * stated)));
+            all.extend(self.loose_runout(stated));
         }
-        let shows = |l: &Loose| self.along(&places.unit(l.place)).iter().any(|x| *x != 0.0);
+        let shows = |l: &Loose| self.along(&l.direction(places)).iter().any(|x| *x != 0.0);
         all.retain(|l| l.spread > 0.0 && shows(l));
         all
+    }
+
+    /// A runout is stated by its size: its direction is what the fit of everything made of it.
+    fn loose_runout(&self, stated: f64) -> [Loose; 2] {
+        let [x, y] = self.runout();
+        let size = x.hypot(y).max(f64::MIN_POSITIVE);
+        let [x, y] = [x / size, y / size];
+        let towards = |x: f64, y: f64, share: f64| Loose {
+            along: vec![(RUNOUT, x), (RUNOUT + 1, y)],
+            spread: share * stated,
+        };
+        [towards(x, y, RUNOUT_SHARE), towards(-y, x, RUNOUT_TURN)]
     }
 
     fn coefficient_spread(&self, j: usize) -> f64 {

@@ -22,8 +22,8 @@ pub struct Line {
 const HIGH: f64 = 18.0;
 /// Lines of a cut that are tried.
 const MOST: usize = 2;
-/// Resolutions within which a line belongs to a harmonic of the spindle.
-const NEAR: f64 = 1.5;
+/// Resolutions within which a line belongs to a harmonic of the spindle: its place is told to a tenth of one.
+const NEAR: f64 = 0.6;
 /// Times by which the record is lengthened with zeros.
 const FINER: usize = 4;
 

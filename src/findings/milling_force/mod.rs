@@ -21,6 +21,7 @@ mod setting;
 mod spindle_speed;
 mod start;
 mod thermal_drift;
+mod tremor;
 
 use super::table::Effect;
 pub use case::{Case, CutSamples};

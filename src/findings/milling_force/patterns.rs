@@ -4,13 +4,19 @@ use super::Case;
 use crate::findings::engine::Member;
 use crate::findings::table::{self, Pattern};
 use crate::inference::gaussian::Size;
+use std::f64::consts::TAU;
 
 /// All of them.
 pub(super) const PATTERNS: &[Pattern<Case>] = &[
     Pattern {
         name: "uneven",
-        summary: "the whole force waxes and wanes during the cuts",
+        summary: "the whole force waxes and wanes within the cuts",
         members: uneven,
+    },
+    Pattern {
+        name: "hum",
+        summary: "a channel hums with the mains",
+        members: hums,
     },
     Pattern {
         name: "bend",
@@ -22,16 +28,50 @@ pub(super) const PATTERNS: &[Pattern<Case>] = &[
 /// Pieces of the record whose force may be more or less than simulated.
 const PIECES: usize = 24;
 
+/// Within the cuts: what differs from cut to cut is what causes do.
 fn uneven(case: &Case) -> Vec<Member> {
     let hat = |piece: usize| {
         let near = |c: usize, i: usize| {
             let apart = case.progress(c, i) * (PIECES - 1) as f64 - piece as f64;
             (1.0 - apart.abs()).max(0.0)
         };
-        case.column(|c, i, k| near(c, i) * case.simulated(c, i)[k])
+        let means = case.cuts().iter().enumerate().map(|(c, cut)| {
+            let count = cut.time.len();
+            (0..count).map(|i| near(c, i)).sum::<f64>() / count.max(1) as f64
+        });
+        let means: Vec<f64> = means.collect();
+        case.column(|c, i, k| (near(c, i) - means[c]) * case.simulated(c, i)[k])
     };
     table::flexible((0..PIECES).map(hat).collect())
 }
+
+/// Frequencies of mains and what rectifiers make of them, Hz.
+const MAINS: [f64; 6] = [50.0, 60.0, 100.0, 120.0, 150.0, 180.0];
+
+/// One channel at the frequency that suits it best, in every cut with a phase of its own.
+fn hums(case: &Case) -> Vec<Member> {
+    let wave = |axis: usize, hz: f64| -> Vec<Vec<f64>> {
+        let phases = (0..case.cuts().len()).flat_map(|cut| [0.0, 0.25].map(|q| (cut, q)));
+        let one = |(cut, quarter): (usize, f64)| {
+            case.column(|c, i, k| match c == cut && k == axis {
+                true => (TAU * (hz * case.cuts()[c].time[i] - quarter)).cos(),
+                false => 0.0,
+            })
+        };
+        phases.map(one).collect()
+    };
+    let best = |axis: usize| {
+        let tried = MAINS.map(|hz| wave(axis, hz));
+        let gains = tried.into_iter().map(|w| (case.aim().gain_of(&w), w));
+        gains.reduce(|a, b| if b.0 > a.0 { b } else { a })
+    };
+    let waves = (0..3).filter_map(best);
+    let worth = waves.filter(|(gain, _)| *gain > HUM);
+    worth.flat_map(|(_, w)| table::flexible(w)).collect()
+}
+
+/// Nats from which a hum is worth a comparison.
+const HUM: f64 = 12.0;
 
 /// Shares of its largest force from which a channel may show less.
 const LIMITS: [f64; 3] = [0.5, 0.7, 0.85];

@@ -2,8 +2,9 @@
 //! sensor that rings makes of them.
 
 use super::setting::{Places, Present};
-use crate::experiments::milling_force::PHASE;
+use crate::experiments::milling_force::{BANDWIDTH, PHASE};
 use crate::ground::spatial::V3;
+use crate::signal::low_pass::butterworth2;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
@@ -11,11 +12,22 @@ use std::f64::consts::TAU;
 /// Places of a revolution.
 const GRID: usize = 720;
 
+/// A resonance of the sensor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bell {
+    /// Frequency, Hz, and damping ratio.
+    pub at: [f64; 2],
+    /// Whether it stands in the place of the low pass that is stated, not beside it.
+    pub instead: bool,
+}
+
 /// One cut over a revolution.
 pub struct Revolution {
     /// Lines of each axis, N times the places.
     lines: [Vec<Complex64>; 3],
     spindle_hz: f64,
+    /// Corner of the low pass that is stated, Hz.
+    corner_hz: Option<f64>,
     /// Angle of tooth 1 at every sample, rad.
     angles: Vec<f64>,
 }
@@ -30,7 +42,7 @@ impl Revolution {
         let step = TAU / GRID as f64 / spindle;
         around.time = (0..GRID).map(|i| i as f64 * step).collect();
         level[PHASE] = 0.0;
-        let force = around.predict(&level).force;
+        let force = around.force(&level);
         let plan = FftPlanner::new().plan_fft_forward(GRID);
         let lines = std::array::from_fn(|k| {
             let mut own: Vec<Complex64> = force.iter().map(|f| Complex64::new(f[k], 0.0)).collect();
@@ -40,16 +52,17 @@ impl Revolution {
         Self {
             lines,
             spindle_hz: spindle / TAU,
+            corner_hz: around.low_pass.then(|| level[BANDWIDTH].exp()),
             angles,
         }
     }
 
-    /// What a resonance (Hz, damping ratio) of the sensor adds at every sample: 1/(1 - u² + 2jDu) less one.
-    pub fn rung(&self, [hz, damping]: [f64; 2]) -> Vec<V3> {
+    /// What a sensor that rings adds at every sample.
+    pub fn rung(&self, bell: Bell) -> Vec<V3> {
         let plan = FftPlanner::new().plan_fft_inverse(GRID);
         let around: [Vec<f64>; 3] = std::array::from_fn(|k| {
             let mut own: Vec<Complex64> = (0..GRID)
-                .map(|i| self.lines[k][i] * self.added(i, hz, damping))
+                .map(|i| self.lines[k][i] * self.added(i, bell))
                 .collect();
             plan.process(&mut own);
             own.iter().map(|c| c.re / GRID as f64).collect()
@@ -70,7 +83,15 @@ impl Revolution {
         self.spindle_hz
     }
 
-    fn added(&self, i: usize, hz: f64, damping: f64) -> Complex64 {
+    /// What it makes of a line of the spindle.
+    pub fn rings(&self, order: f64, bell: Bell) -> Complex64 {
+        let line_hz = order * self.spindle_hz;
+        let instead = self.corner_hz.filter(|_| bell.instead);
+        let passed = instead.map_or(Complex64::new(1.0, 0.0), |hz| butterworth2(line_hz, hz));
+        magnified(line_hz, bell.at) / passed
+    }
+
+    fn added(&self, i: usize, bell: Bell) -> Complex64 {
         let order = match i < GRID / 2 {
             true => i as f64,
             false => i as f64 - GRID as f64,
@@ -78,12 +99,12 @@ impl Revolution {
         if i == GRID / 2 {
             return Complex64::new(0.0, 0.0);
         }
-        magnified(order * self.spindle_hz, [hz, damping]) - 1.0
+        self.rings(order, bell) - 1.0
     }
 }
 
 /// What a resonance (Hz, damping ratio) makes of a line: 1/(1 - u² + 2jDu).
-pub fn magnified(line_hz: f64, [hz, damping]: [f64; 2]) -> Complex64 {
+fn magnified(line_hz: f64, [hz, damping]: [f64; 2]) -> Complex64 {
     let u = line_hz / hz;
     Complex64::new(1.0 - u * u, 2.0 * damping * u).inv()
 }

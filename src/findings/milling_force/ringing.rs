@@ -2,7 +2,7 @@
 //! so that the angle of the tooth is sought along, over a whole pitch.
 
 use super::Case;
-use super::revolution::{Revolution, magnified};
+use super::revolution::{Bell, Revolution};
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
 
@@ -21,8 +21,8 @@ const WIDTHS: [f64; 6] = [0.05, 0.03, 0.015, 0.008, 0.004, 0.002];
 /// A resonance and the angles of the teeth that go with it.
 #[derive(Debug, Clone)]
 pub struct Ringing {
-    /// Frequency, Hz, and damping ratio.
-    pub at: [f64; 2],
+    /// The resonance.
+    pub bell: Bell,
     /// Angle of tooth 1 of every cut, from where it is now, rad.
     pub turns: Vec<f64>,
     /// What it leaves of the lines, squared noise deviations.
@@ -30,22 +30,24 @@ pub struct Ringing {
 }
 
 /// Lines of one cut: order, weight by axis, measured and simulated by axis.
-struct Cut {
+struct Cut<'a> {
     lines: Vec<(usize, [Complex64; 3], [Complex64; 3])>,
-    spindle_hz: f64,
+    revolution: &'a Revolution,
+    /// Samples that a line is the mean of.
+    samples: f64,
 }
 
 /// The lines of a file.
-pub struct Lines {
-    cuts: Vec<Cut>,
+pub struct Lines<'a> {
+    cuts: Vec<Cut<'a>>,
     weight: [f64; 3],
     pitch: f64,
     range: [f64; 2],
 }
 
-impl Lines {
+impl<'a> Lines<'a> {
     /// Of a case; `revolutions` of its cuts as simulated.
-    pub fn of(case: &Case, revolutions: &[Revolution]) -> Self {
+    pub fn of(case: &Case, revolutions: &'a [Revolution]) -> Self {
         let teeth = case.places().teeth;
         let cuts = revolutions
             .iter()
@@ -64,53 +66,64 @@ impl Lines {
         self.range[1]
     }
 
-    /// The best resonance of one axis (3: of all).
-    pub fn best(&self, axis: usize) -> Ringing {
+    /// The best resonance of one axis (3: of all), beside the low pass that is stated or in its place.
+    pub fn best(&self, axis: usize, instead: bool) -> Ringing {
         let [low, high] = self.range;
         let hz = |i: usize| low * (high / low).powf(i as f64 / (STEPS - 1) as f64);
         let grid = (0..STEPS).flat_map(|i| DAMPING.map(|d| [hz(i), d]));
-        let all = grid.map(|at| self.fitted(axis, at));
+        let fitted = |at: [f64; 2]| self.fitted(axis, Bell { at, instead });
+        let all = grid.map(fitted);
         let least = |a: Ringing, b: Ringing| if b.misfit < a.misfit { b } else { a };
         let mut best = all
             .reduce(least)
-            .unwrap_or_else(|| self.fitted(axis, [low, DAMPING[0]]));
+            .unwrap_or_else(|| fitted([low, DAMPING[0]]));
         for width in WIDTHS {
             for _ in 0..3 {
-                let [hz, damping] = best.at;
+                let [hz, damping] = best.bell.at;
                 let about = [-1.0, 0.0, 1.0].map(|f| {
                     [-1.0, 0.0, 1.0].map(|d| {
                         let damping = damping * (1.0 + 8.0 * width * d).max(0.3);
                         [hz * (1.0 + width * f), damping.clamp(0.003, MOST_DAMPING)]
                     })
                 });
-                let found = about.into_iter().flatten().map(|at| self.fitted(axis, at));
+                let found = about.into_iter().flatten().map(fitted);
                 best = found.fold(best, least);
             }
         }
         best
     }
 
-    fn fitted(&self, axis: usize, at: [f64; 2]) -> Ringing {
+    /// What nothing that rings leaves of the lines, squared noise deviations.
+    pub fn silent(&self) -> f64 {
+        let bell = Bell {
+            at: [f64::INFINITY, 0.0],
+            instead: false,
+        };
+        self.fitted(0, bell).misfit
+    }
+
+    fn fitted(&self, axis: usize, bell: Bell) -> Ringing {
         let mut found = Ringing {
-            at,
+            bell,
             turns: Vec::new(),
             misfit: 0.0,
         };
         for cut in &self.cuts {
-            let (turn, misfit) = self.turn(cut, axis, at);
+            let (turn, misfit) = self.turn(cut, axis, bell);
             found.turns.push(turn);
-            found.misfit += misfit;
+            // a line's parts scatter by twice the noise over the root of its samples
+            found.misfit += 0.25 * cut.samples * misfit;
         }
         found
     }
 
     /// Angle that suits a cut best, and what it leaves.
-    fn turn(&self, cut: &Cut, axis: usize, at: [f64; 2]) -> (f64, f64) {
+    fn turn(&self, cut: &Cut, axis: usize, bell: Bell) -> (f64, f64) {
         let parts: Vec<(f64, f64, Complex64)> = cut
             .lines
             .iter()
             .map(|(order, measured, simulated)| {
-                let rings = magnified(*order as f64 * cut.spindle_hz, at);
+                let rings = cut.revolution.rings(*order as f64, bell);
                 let mut square = 0.0;
                 let mut cross = Complex64::new(0.0, 0.0);
                 for k in 0..3 {
@@ -148,7 +161,7 @@ impl Lines {
 /// Damping ratio above which nothing rings.
 pub(super) const MOST_DAMPING: f64 = 0.3;
 
-fn cut(case: &Case, number: usize, revolution: &Revolution, teeth: usize) -> Cut {
+fn cut<'a>(case: &Case, number: usize, revolution: &'a Revolution, teeth: usize) -> Cut<'a> {
     let samples = &case.cuts()[number];
     let angles = samples.present.scene.angles(&samples.present.p);
     let count = angles.len() as f64;
@@ -167,7 +180,8 @@ fn cut(case: &Case, number: usize, revolution: &Revolution, teeth: usize) -> Cut
     let orders = (1..=LINES).map(|m| m * teeth);
     Cut {
         lines: orders.filter(|o| (*o as f64) < highest).map(line).collect(),
-        spindle_hz: revolution.spindle_hz(),
+        revolution,
+        samples: count,
     }
 }
 

@@ -2,7 +2,7 @@
 //! the lines of the tooth passing, then brought closer while what is uncertain moves along.
 
 use super::Case;
-use super::revolution::Revolution;
+use super::revolution::{Bell, Revolution};
 use super::ringing::{Lines, MOST_DAMPING, Ringing};
 use super::setting::SENSOR;
 use crate::findings::engine::Member;
@@ -28,7 +28,7 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 };
 
 /// Shares by which it is brought closer, one after the other.
-const CLOSER: [f64; 3] = [0.006, 0.003, 0.0015];
+const CLOSER: [f64; 4] = [0.006, 0.003, 0.0015, 0.0007];
 /// Steps of the frequency, in these shares.
 const STEPS_ABOUT: [f64; 3] = [-1.0, 0.0, 1.0];
 /// Steps of the damping ratio, in these shares.
@@ -37,13 +37,23 @@ const SOFTER: [f64; 3] = [-12.0, 0.0, 12.0];
 const ROUNDS: usize = 3;
 /// Axes that are looked at further.
 const TRIED: usize = 2;
+/// Squared noise deviations that a resonance must take of the lines to be looked at further.
+const SEEN: f64 = 20.0;
 /// All axes.
 const ALL: usize = 3;
 
 /// The best of every axis and of all, brought closer.
 fn members(case: &Case) -> Vec<Member> {
-    let lines = Lines::of(case, &revolutions(case, &vec![0.0; case.places().len()]));
-    let mut all: Vec<(usize, Ringing)> = (0..=ALL).map(|axis| (axis, lines.best(axis))).collect();
+    let revolutions = revolutions(case, &vec![0.0; case.places().len()]);
+    let lines = Lines::of(case, &revolutions);
+    let silent = lines.silent();
+    let passes = case.cuts().iter().any(|c| c.present.scene.low_pass);
+    let ways: &[bool] = if passes { &[false, true] } else { &[false] };
+    let tried = ways.iter().flat_map(|w| (0..=ALL).map(|axis| (axis, *w)));
+    let mut all: Vec<(usize, Ringing)> = tried
+        .map(|(axis, instead)| (axis, lines.best(axis, instead)))
+        .collect();
+    all.retain(|(_, ringing)| ringing.misfit < silent - SEEN);
     all.sort_by(|a, b| a.1.misfit.total_cmp(&b.1.misfit));
     all.iter()
         .take(TRIED)
@@ -64,9 +74,9 @@ fn member(case: &Case, lines: &Lines, axis: usize, ringing: &Ringing) -> Member 
     for (c, turn) in ringing.turns.iter().enumerate() {
         to[places.phase(c)] = *turn;
     }
-    let mut at = ringing.at;
+    let mut bell = ringing.bell;
     let highest = lines.highest_hz();
-    let mut column = less(&whole(case, axis, at, &to), &case.along(&to));
+    let mut column = less(&whole(case, axis, bell, &to), &case.along(&to));
     for _ in 0..ROUNDS {
         let amount = aim.amounts(std::slice::from_ref(&column))[0].clamp(0.2, 1.5);
         to = aim.uncertain(case, amount, &column);
@@ -74,25 +84,29 @@ fn member(case: &Case, lines: &Lines, axis: usize, ringing: &Ringing) -> Member 
             revolutions(case, &to),
             less(&case.step(&to), &case.along(&to)),
         );
-        at = closer(case, axis, at, &own, &here);
-        at[0] = at[0].min(highest);
-        column = sum(&rung(case, axis, at, &own), &here);
+        let before = bell;
+        bell = closer(case, axis, bell, &own, &here);
+        bell.at[0] = bell.at[0].min(highest);
+        column = sum(&rung(case, axis, bell, &own), &here);
+        if bell == before {
+            break;
+        }
     }
     Member::free(column)
         .positive()
-        .shaped(&[SENSOR, axis as f64, at[0], at[1]])
+        .shaped(&[SENSOR, axis as f64, bell.at[0], bell.at[1]])
 }
 
 /// What a step of what is uncertain and the ringing there add together.
-fn whole(case: &Case, axis: usize, at: [f64; 2], to: &[f64]) -> Vec<f64> {
+fn whole(case: &Case, axis: usize, bell: Bell, to: &[f64]) -> Vec<f64> {
     sum(
-        &rung(case, axis, at, &revolutions(case, to)),
+        &rung(case, axis, bell, &revolutions(case, to)),
         &case.step(to),
     )
 }
 
-fn rung(case: &Case, axis: usize, at: [f64; 2], revolutions: &[Revolution]) -> Vec<f64> {
-    let rung: Vec<_> = revolutions.iter().map(|r| r.rung(at)).collect();
+fn rung(case: &Case, axis: usize, bell: Bell, revolutions: &[Revolution]) -> Vec<f64> {
+    let rung: Vec<_> = revolutions.iter().map(|r| r.rung(bell)).collect();
     case.column(|c, i, k| match axis == ALL || axis == k {
         true => rung[c][i][k],
         false => 0.0,
@@ -100,15 +114,18 @@ fn rung(case: &Case, axis: usize, at: [f64; 2], revolutions: &[Revolution]) -> V
 }
 
 /// A resonance a little better than this one.
-fn closer(case: &Case, axis: usize, at: [f64; 2], own: &[Revolution], here: &[f64]) -> [f64; 2] {
-    let fitness = |at: [f64; 2]| case.aim().gain(&sum(&rung(case, axis, at, own), here));
-    let mut best = (at, fitness(at));
+fn closer(case: &Case, axis: usize, bell: Bell, own: &[Revolution], here: &[f64]) -> Bell {
+    let fitness = |bell: Bell| case.aim().gain(&sum(&rung(case, axis, bell, own), here));
+    let mut best = (bell, fitness(bell));
     for width in CLOSER {
-        let ([hz, damping], _) = best;
+        let [hz, damping] = best.0.at;
         for f in STEPS_ABOUT {
-            for d in SOFTER {
+            for d in SOFTER.iter().filter(|d| f != 0.0 || **d != 0.0) {
                 let damping = (damping * (1.0 + d * width)).clamp(0.002, MOST_DAMPING);
-                let tried = [hz * (1.0 + width * f), damping];
+                let tried = Bell {
+                    at: [hz * (1.0 + width * f), damping],
+                    ..bell
+                };
                 let own = fitness(tried);
                 if own > best.1 {
                     best = (tried, own);

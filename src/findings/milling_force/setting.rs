@@ -1,5 +1,6 @@
 //! What of the process may differ from what is stated, as one vector: coefficients (SI), runout along
-//! tooth 1 and a quarter turn on (m), how much each tooth is shorter (m), then of every cut its width (m),
+//! tooth 1 and a quarter turn on (m), how much each tooth is shorter (m), along its whole edge and then near its
+//! tip alone, then of every cut its width (m),
 //! its depth (m), its relative spindle speed and the angle of tooth 1 at its first sample (rad).
 
 use crate::cutting::wave::Side;
@@ -29,17 +30,27 @@ pub struct Places {
 impl Places {
     /// Length of the vector.
     pub fn len(&self) -> usize {
-        8 + self.teeth + OF_CUT * self.cuts
+        self.common() + OF_CUT * self.cuts
     }
 
-    /// How much a tooth is shorter.
+    /// Places that act on all cuts.
+    fn common(&self) -> usize {
+        8 + 2 * self.teeth
+    }
+
+    /// How much a tooth is shorter along its whole edge.
     pub fn shorter(&self, tooth: usize) -> usize {
         8 + tooth
     }
 
+    /// How much it is shorter near its tip alone.
+    pub fn chipped(&self, tooth: usize) -> usize {
+        8 + self.teeth + tooth
+    }
+
     /// Width of a cut.
     pub fn width(&self, cut: usize) -> usize {
-        8 + self.teeth + OF_CUT * cut
+        self.common() + OF_CUT * cut
     }
 
     /// Depth of a cut.
@@ -66,7 +77,7 @@ impl Places {
 
     /// Places that act on a cut.
     pub fn of_cut(&self, cut: usize) -> impl Iterator<Item = usize> {
-        (0..8 + self.teeth).chain(self.width(cut)..self.width(cut) + OF_CUT)
+        (0..self.common()).chain(self.width(cut)..self.width(cut) + OF_CUT)
     }
 }
 
@@ -99,6 +110,9 @@ impl Present {
         scene.shorter = (0..places.teeth)
             .map(|j| offset[places.shorter(j)])
             .collect();
+        scene.chipped = (0..places.teeth)
+            .map(|j| offset[places.chipped(j)])
+            .collect();
         let most = 2.0 * scene.tool.radius_m;
         p[WIDTH] = (p[WIDTH] + offset[places.width(cut)]).clamp(1e-6, most);
         scene.cut.depth_m = (scene.cut.depth_m + offset[places.depth(cut)]).max(1e-6);
@@ -113,16 +127,18 @@ impl Present {
             let mut offset = offset.to_vec();
             offset[place] += step;
             let (scene, p) = self.moved(places, cut, &offset);
-            difference(&scene.predict(&p).force, &at.force, step)
+            difference(&scene.force(&p), &at.force, step)
         };
         let mut slopes: Vec<Vec<V3>> = at.slopes[..8].to_vec();
-        let teeth = 0..places.teeth;
-        slopes.extend(teeth.map(|j| match places.teeth {
-            1 => vec![[0.0; 3]; at.force.len()],
-            _ => stepped(places.shorter(j), STEPS[0]),
-        }));
+        let nothing = || vec![[0.0; 3]; at.force.len()];
+        let of_teeth = |place: usize| match places.teeth {
+            1 => nothing(),
+            _ => stepped(place, STEPS[0]),
+        };
+        slopes.extend((0..places.teeth).map(|j| of_teeth(places.shorter(j))));
+        slopes.extend((0..places.teeth).map(|j| of_teeth(places.chipped(j))));
         slopes.push(match scene.cut.side {
-            Side::Slot => vec![[0.0; 3]; at.force.len()],
+            Side::Slot => nothing(),
             _ => stepped(places.width(cut), -STEPS[1]),
         });
         slopes.push(stepped(places.depth(cut), STEPS[2]));

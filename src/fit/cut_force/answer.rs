@@ -51,6 +51,8 @@ pub struct Account {
 
 /// Rounds of noise and descent.
 const ROUNDS: usize = 4;
+/// Share of the squares that a step must be worth, while the noise is still being learned and in the end.
+const ARRIVED: [f64; 2] = [1e-5, 1e-8];
 /// A coefficient counts as fixed when its standard error is below this share of the size of its kind.
 const FIXED: f64 = 0.25;
 /// A runout counts as seen when it stands out of its standard error by this factor.
@@ -115,8 +117,8 @@ fn descend(cuts: &[CutData], layout: &Layout) -> (Optimum, DMatrix<f64>) {
             layout,
             whitening: &whitening,
         };
-        let found = descent.from(&p);
         round += 1;
+        let found = descent.from(&p, ARRIVED[usize::from(round == ROUNDS)]);
         if round == ROUNDS {
             let covariance = repeated::widened(covariance(&found, layout), &descent, &found.p);
             return (found, covariance);

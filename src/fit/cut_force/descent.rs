@@ -3,6 +3,7 @@
 use super::CutData;
 use super::layout::Layout;
 use super::whitening::Whitening;
+use crate::ground::products::gram;
 use crate::ground::spatial::V3;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -56,11 +57,10 @@ struct OneCut {
 }
 
 const MOST_STEPS: usize = 40;
-const ARRIVED: f64 = 1e-8;
 
 impl Descent<'_> {
-    /// Goes down from `start`.
-    pub fn from(&self, start: &[f64]) -> Optimum {
+    /// Goes down from `start` until a step lowers the squares by less than this share of them.
+    pub fn from(&self, start: &[f64], arrived: f64) -> Optimum {
         let mut p = start.to_vec();
         let mut at = self.linearise(&p);
         let mut damping = 1e-3;
@@ -76,7 +76,7 @@ impl Descent<'_> {
                 let fall = (at.chi2 - trial.chi2) / at.chi2.max(f64::MIN_POSITIVE);
                 (p, at) = (moved, trial);
                 damping = (damping * 0.1).max(1e-12);
-                if fall < ARRIVED {
+                if fall < arrived {
                     break;
                 }
             } else {
@@ -114,7 +114,7 @@ impl Descent<'_> {
         let white = self.whitened(i, p);
         OneCut {
             places: white.places,
-            normal: white.jacobian.tr_mul(&white.jacobian),
+            normal: gram(&white.jacobian),
             gradient: white.jacobian.tr_mul(&white.left),
             chi2: white.left.norm_squared(),
             residual: white.residual,

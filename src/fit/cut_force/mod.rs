@@ -74,6 +74,8 @@ fn one(file: &MillingForce, place: [usize; 2], record: &Record) -> CutData {
                 .collect(),
             low_pass: bandwidth.is_some(),
             shorter: Vec::new(),
+            chipped: Vec::new(),
+            chipped_to_m: 0.0,
         },
         force: record.force[settled..last].to_vec(),
         settling: settled,

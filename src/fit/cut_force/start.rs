@@ -119,12 +119,13 @@ impl Folded {
                 total += left * left;
                 for a in 0..n {
                     right[a] += slope(a) * left;
-                    for b in 0..n {
+                    for b in 0..=a {
                         normal[(a, b)] += slope(a) * slope(b);
                     }
                 }
             }
         }
+        normal.fill_upper_triangle_with_lower_triangle();
         (normal, right, total)
     }
 }
@@ -223,7 +224,7 @@ pub fn improve_teeth(cuts: &[CutData], layout: &Layout, p: &mut [f64]) -> bool {
         let (first, pitch) = (p[place], cut.scene.tool.pitch_rad());
         let mut left = |m: usize| {
             p[place] = first + m as f64 * pitch;
-            let predicted = cut.scene.predict(&layout.of_one(i, p)).force;
+            let predicted = cut.scene.force(&layout.of_one(i, p));
             let pairs = cut.force.iter().zip(&predicted);
             let square = |(a, b): (&V3, &V3)| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>();
             pairs.map(square).sum::<f64>()

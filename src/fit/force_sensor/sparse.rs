@@ -6,7 +6,7 @@ use super::fitted::{Fitted, rms};
 use super::poses::Pose;
 use super::remainder::terms;
 use super::statics::{N, sizes, slopes};
-use crate::ground::product;
+use crate::ground::products;
 use crate::measurement::force_sensor::{matrix, quaternion};
 use nalgebra::{Cholesky, DMatrix, DVector};
 
@@ -98,7 +98,7 @@ impl<'a> Bench<'a> {
 
     /// Normal equations with the priors about zero.
     fn normal(&self, design: &DMatrix<f64>) -> (DMatrix<f64>, DVector<f64>) {
-        let (mut gram, mut right) = (product::gram(design), design.tr_mul(&self.target));
+        let (mut gram, mut right) = (products::gram(design), design.tr_mul(&self.target));
         for j in 0..N {
             let stiffness = (self.size[j] / self.fitted.prior[j]).powi(2);
             gram[(j, j)] += stiffness.max(1e-6);
@@ -116,7 +116,7 @@ impl<'a> Bench<'a> {
         for fold in self.folds {
             let rows: Vec<usize> = fold.iter().flat_map(|i| 6 * i..6 * i + 6).collect();
             let (own, held) = (design.select_rows(&rows), self.target.select_rows(&rows));
-            let rest = Cholesky::new(&gram - product::gram(&own))?;
+            let rest = Cholesky::new(&gram - products::gram(&own))?;
             let left = &held - &own * rest.solve(&(&right - own.tr_mul(&held)));
             rows.iter()
                 .zip(left.iter())
