@@ -33,7 +33,13 @@ fn look(on: &Course) -> Said {
         found.extend(end.map(said));
     };
     say("deflection", clipped(&on.deflection, &file.load));
-    let held = |rows: &[f64], end: f64| is_held(rows, end * on.relation.slope.signum());
+    let (slope, least) = (on.relation.slope.signum(), HIDDEN * extent(&on.deflection));
+    let at_zero = |end: f64| end.abs() < ZERO * extent(&file.load);
+    let (low, high) = range(&file.load);
+    let held = |rows: &[f64], side: f64| {
+        let end = if side > 0.0 { high } else { low };
+        is_held(rows, side * slope) || at_zero(end) && extent(rows) < least
+    };
     let load = match is_commanded(&file.load) {
         true => None,
         false => clipped_but(&file.load, &on.deflection, held),
@@ -114,6 +120,10 @@ fn is_commanded(load: &[f64]) -> bool {
     between.map(|run| run.len()).sum::<usize>() as f64 > STAIRS * load.len() as f64
 }
 
+/// A load within this share of its range from zero is none, and a cell that cannot show the other sign hides
+/// at least this share of the deflection.
+const ZERO: f64 = 0.005;
+const HIDDEN: f64 = 0.2;
 /// Least share of all that the other channel does over a plateau by which its middle third is beyond both
 /// outer ones, where it goes out and back: half of it for a triangle.
 const HILL: f64 = 0.2;
