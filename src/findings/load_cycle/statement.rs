@@ -156,7 +156,7 @@ impl<'a> Record<'a> {
         Statement {
             reading: self.data.reading.clone(),
             noise: Box::new(noise.clone()),
-            nuisances: self.beside.iter().map(free).collect(),
+            nuisances: self.beside.iter().map(|c| free(c)).collect(),
             suspects,
             span: Vec::new(),
             splits: Vec::new(),
@@ -165,9 +165,9 @@ impl<'a> Record<'a> {
 }
 
 /// A column of which nothing is known.
-fn free(column: &Vec<f64>) -> Nuisance {
+fn free(column: &[f64]) -> Nuisance {
     Nuisance {
-        column: column.clone(),
+        column: column.to_vec(),
         spread: f64::INFINITY,
     }
 }
