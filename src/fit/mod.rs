@@ -57,6 +57,8 @@ pub mod stiffness;
 pub mod store;
 pub mod stored_text;
 pub mod suitability;
+mod supported;
+mod time_course;
 pub mod told_force;
 pub mod validation;
 pub mod weighing;

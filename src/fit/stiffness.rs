@@ -5,7 +5,9 @@ use super::derived::derived;
 use super::imposed::{self, fit_imposed, is_imposed};
 use super::observation::{MOST_ROWS, Observation};
 use super::parameter::{Identified, Status, Z95};
-use super::solution::{Solution, fit};
+use super::solution::Solution;
+use super::supported::{simpler, unsaid};
+use super::time_course::fit_beside;
 use crate::effects::{Composite, EFFECTS, shapes};
 use crate::experiments::load_cycle::{enclosed, settled_cycle, straight_line};
 use crate::fit::candidates::Candidates;
@@ -52,6 +54,8 @@ pub struct Account {
     pub straight: f64,
     /// Logarithm of the second sensor's deflection over the first's; its standard error.
     pub second: Option<(f64, f64)>,
+    /// Effects over time that are no part of the joint and were taken off the readings.
+    pub courses: Vec<&'static str>,
     /// What needs attention, one sentence each.
     pub warnings: Vec<String>,
     /// What is odd about the data.
@@ -122,6 +126,7 @@ fn moved(file: &LoadCycle) -> Account {
         noise: "from fourth differences".into(),
         straight: straight_line(&file.load, &file.deflection),
         second: None,
+        courses: Vec::new(),
         warnings: Vec::new(),
         doubts: Vec::new(),
         data: fitted.data,
@@ -131,8 +136,13 @@ fn moved(file: &LoadCycle) -> Account {
 
 /// The account of a test under imposed load.
 fn pressed(file: &LoadCycle, request: &Request) -> Account {
-    let data = Observation::of(file, MOST_ROWS);
-    let mut solution = fit(&request.model, &data);
+    let mut data = Observation::of(file, MOST_ROWS);
+    let (mut solution, courses) = fit_beside(&request.model, &mut data);
+    if solution.status[0] != Status::Identified
+        && let Some(simpler) = simpler(&solution, &data)
+    {
+        solution = simpler;
+    }
     let candidates = Candidates::new(&shapes(EFFECTS), &data);
     let noise = screen(&data, &candidates).colour;
     let (low, high) = data.load_range();
@@ -143,6 +153,7 @@ fn pressed(file: &LoadCycle, request: &Request) -> Account {
         let intervals = bootstrap::intervals(&solution, &data, request.bootstrap, request.seed);
         widen(&mut parameters, &intervals, &mut solution);
     }
+    parameters.extend(unsaid(&request.model, &solution.model, &site, file.port));
     rename(&mut parameters);
     parameters.extend(derived(&solution, &data, file));
     let straight = straight_line(&file.load, &file.deflection);
@@ -158,6 +169,7 @@ fn pressed(file: &LoadCycle, request: &Request) -> Account {
         imposed: false,
         straight,
         second,
+        courses,
         warnings: Vec::new(),
         doubts: Vec::new(),
     }
@@ -216,6 +228,14 @@ fn warnings(account: &Account, file: &LoadCycle) -> Vec<String> {
         said.push(format!(
             "one linear stiffness does not describe this curve: a straight line misses it by {:.0} % of its deflection",
             100.0 * line / scale
+        ));
+    }
+    if !account.courses.is_empty() {
+        said.push(format!(
+            "beside the joint the record holds what follows the time, not the load, and was taken off: {} \
+             (`ident diagnose {}` weighs it)",
+            account.courses.join(", "),
+            file.path.display()
         ));
     }
     if account.solution.rms > 1.5 * account.noise_rms {

@@ -112,6 +112,19 @@ fn a_clipped_laser_gives_no_stiffness() {
 }
 
 #[test]
+fn a_column_exported_twice_gives_no_stiffness() {
+    let file = axis();
+    let force = file.column("force_N");
+    let forces: Vec<f64> = (0..file.rows.len())
+        .map(|i| file.number(i, force))
+        .collect();
+    for factor in [1.0, 0.01] {
+        let copied = axis().map("displacement_mm", |i, _| factor * forces[i]);
+        is_withheld("copied", "copied", &copied);
+    }
+}
+
+#[test]
 fn a_wild_force_and_a_wrong_sign_give_no_stiffness() {
     let wild = axis().map("force_N", |i, f| if i == 400 { 1e40 } else { f });
     is_withheld("1e40", "wild-load", &wild);

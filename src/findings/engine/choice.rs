@@ -74,6 +74,23 @@ pub(super) fn choose(posterior: &Posterior, judgement: &Judgement) -> Scored {
     set
 }
 
+/// Most causes of a set that is named because it leaves only scatter.
+const PLAIN: usize = 2;
+
+/// The smallest set, the best of its size, of which `is_scatter` says that it leaves nothing more.
+pub(super) fn plain(posterior: &Posterior, is_scatter: impl Fn(&Scored) -> bool) -> Option<Scored> {
+    let of_size = |size: usize| {
+        let mut own = posterior
+            .sets
+            .iter()
+            .map(|s| &s.0)
+            .filter(move |s| s.suspects.len() == size);
+        own.next()
+    };
+    let found = (1..=PLAIN).filter_map(of_size).find(|s| is_scatter(s));
+    found.cloned()
+}
+
 fn without(posterior: &Posterior, set: &Scored, suspect: usize) -> Option<Scored> {
     let rest: Vec<usize> = set
         .suspects

@@ -1,7 +1,7 @@
 //! The whole way: from a kind's statement to its answer.
 
 use super::bank::{Bank, Fit};
-use super::choice::{choose, drop_unreal, loses_to_structure, material, nothing};
+use super::choice::{choose, drop_unreal, loses_to_structure, material, nothing, plain};
 use super::judgement::Judgement;
 use super::materiality::{explained_rms, raw_parts};
 use super::posterior::Posterior;
@@ -102,12 +102,15 @@ fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgeme
     let sets = material(statement, &bank, compared, judgement);
     let rough = experiment.has_rough_laws();
     let nats = sets.first().filter(|_| rough).map(|s| worth(&bank, &s.fit));
-    let posterior = Posterior::of(sets, judgement.exponent(nats));
+    let mut posterior = Posterior::of(sets, judgement.exponent(nats));
     let span = Span::of(statement);
     let mut set = choose(&posterior, judgement);
     let mut gains = drop_unreal(statement, &bank, &posterior, &mut set, judgement);
+    let is_scatter = |set: &Scored| experiment.is_scatter(&residual(statement, &bank, &set.fit).0);
     if loses_to_structure(&bank, &posterior, &set, span.as_ref()) {
-        (set, gains) = (nothing(&posterior), Vec::new());
+        set = plain(&posterior, is_scatter).unwrap_or_else(|| nothing(&posterior));
+        posterior = posterior.up_to(set.suspects.len());
+        gains = drop_unreal(statement, &bank, &posterior, &mut set, judgement);
     }
     let missed = residual(statement, &bank, &nothing(&posterior).fit).0;
     let pattern = pattern(&bank, &set.fit, statement.reading.len());

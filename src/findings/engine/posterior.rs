@@ -25,6 +25,18 @@ impl Posterior {
         }
     }
 
+    /// The same of the sets with at most so many causes; of all, where none is left.
+    pub fn up_to(self, causes: usize) -> Self {
+        let kept = |s: (Scored, f64)| (s.0.suspects.len() <= causes).then_some(s.0);
+        match causes {
+            0 => self,
+            _ => Self::of(
+                self.sets.into_iter().filter_map(kept).collect(),
+                self.temper,
+            ),
+        }
+    }
+
     /// Probability that a suspect is at work.
     pub fn inclusion(&self, suspect: usize) -> f64 {
         let holding = self.sets.iter().filter(|s| s.0.suspects.contains(&suspect));

@@ -216,6 +216,11 @@ pub trait Experiment: Sync {
     fn has_rough_laws(&self) -> bool {
         false
     }
+    /// Whether what a set leaves scatters from reading to reading and no more: then nothing beyond the set is
+    /// asked for. Kinds whose readings have no neighbours cannot say.
+    fn is_scatter(&self, _left: &[f64]) -> bool {
+        false
+    }
     /// The parameters of a named cause: name, value SI, unit.
     fn parameters(&self, blamed: &Blamed) -> Vec<(&'static str, f64, &'static str)>;
     /// What would tell these rivals (effect, site) apart: a phrase.

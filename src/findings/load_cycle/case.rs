@@ -54,7 +54,9 @@ impl<'a> Case<'a> {
         let start = [data.scene.load_scale / data.scene.deflection_scale];
         let plain = refine_from(Composite::new(&[]), &start, &data, &colour, FIT.0);
         let restless = is_no_noise(&found.left, &noise, &View::of(&data));
-        let step = lattice::step(&file.deflection).filter(|s| *s > COARSE * colour.floor());
+        let step = lattice::step(&file.deflection)
+            .filter(|s| *s > COARSE * colour.floor())
+            .or_else(|| lattice::plain_step(&file.deflection));
         Self {
             file,
             data,

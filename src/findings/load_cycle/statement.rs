@@ -22,6 +22,8 @@ pub struct Record<'a> {
     data: &'a Observation,
     unit: &'static str,
     view: View,
+    /// What nobody is to blame for: the spring, and the noise of the load cell.
+    beside: Vec<Vec<f64>>,
     suspects: Vec<Suspect>,
     /// Its noise.
     pub noise: Coloured,
@@ -31,6 +33,8 @@ pub struct Record<'a> {
 
 /// Sizes of structure that may stand beside colour, noise deviations, and its price, nats.
 const STRUCTURED: ([f64; 3], f64) = ([1.5, 6.0, 25.0], 8.0);
+/// What is left may be so many times the scatter of neighbours and is nothing else: half a deviation beside it.
+const SCATTER: f64 = 1.12;
 /// Sets whose evidence chooses the noise.
 const LEADING: usize = 4;
 /// Rounds in which noise and causes are sought in turn.
@@ -60,6 +64,9 @@ impl<'a> Record<'a> {
             span: span(&view),
             coarse: coarse_span(&view),
             noise: Coloured::white(cosine, first.max(digits)),
+            beside: std::iter::once(view.spring.clone())
+                .chain(view.cell())
+                .collect(),
             data,
             unit,
             view,
@@ -132,7 +139,7 @@ impl<'a> Record<'a> {
     fn residual(&self, set: &(Vec<Member>, f64)) -> Vec<f64> {
         let columns = set.0.iter().flat_map(|m| m.columns.iter());
         let unit = |c: &Vec<f64>| DVector::from_column_slice(c) / rms(c).max(f64::MIN_POSITIVE);
-        let all: Vec<DVector<f64>> = columns.chain([&self.view.spring]).map(unit).collect();
+        let all: Vec<DVector<f64>> = columns.chain(&self.beside).map(unit).collect();
         let matrix = DMatrix::from_columns(&all);
         let y = DVector::from_column_slice(&self.data.reading);
         let mut inner = matrix.tr_mul(&matrix);
@@ -149,14 +156,19 @@ impl<'a> Record<'a> {
         Statement {
             reading: self.data.reading.clone(),
             noise: Box::new(noise.clone()),
-            nuisances: vec![Nuisance {
-                column: self.view.spring.clone(),
-                spread: f64::INFINITY,
-            }],
+            nuisances: self.beside.iter().map(|c| free(c)).collect(),
             suspects,
             span: Vec::new(),
             splits: Vec::new(),
         }
+    }
+}
+
+/// A column of which nothing is known.
+fn free(column: &[f64]) -> Nuisance {
+    Nuisance {
+        column: column.to_vec(),
+        spread: f64::INFINITY,
     }
 }
 
@@ -201,6 +213,12 @@ impl Experiment for Record<'_> {
     /// Contacts, joints and creep follow nobody's formula.
     fn has_rough_laws(&self) -> bool {
         true
+    }
+
+    fn is_scatter(&self, left: &[f64]) -> bool {
+        let each = left.iter().zip(&self.noise.spread);
+        let own: Vec<f64> = each.map(|(l, s)| l / s).collect();
+        rms(&own) < SCATTER * rough(&own)
     }
 
     /// Told by the named law, which is fitted after the choice.

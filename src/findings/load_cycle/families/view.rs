@@ -66,6 +66,14 @@ impl View {
         }
     }
 
+    /// The load cell's own noise, where it is not negligible: what a cause that holds the smoothed load would
+    /// otherwise take off the readings.
+    pub fn cell(&self) -> Option<Vec<f64>> {
+        let each = self.spring.iter().zip(&self.u);
+        let cell: Vec<f64> = each.map(|(read, smooth)| read - smooth).collect();
+        cell.iter().any(|c| *c != 0.0).then_some(cell)
+    }
+
     /// Number of rows.
     pub fn rows(&self) -> usize {
         self.u.len()

@@ -3,6 +3,7 @@
 mod clipped;
 mod clock;
 mod coarse;
+mod copied;
 mod few_rows;
 mod left_out;
 mod long;
@@ -46,6 +47,7 @@ pub type Rule = super::Rule<for<'a, 'b> fn(&'b Course<'a>) -> Said>;
 /// Every rule, in the order in which its findings are said.
 pub const RULES: &[Rule] = &[
     unchanging::RULE,
+    copied::RULE,
     few_rows::RULE,
     clock::RULE,
     part_of_a_cycle::RULE,

@@ -1,0 +1,93 @@
+//! What a record does over time whatever the load does: a slip, a drift, a zero. None of them is the
+//! joint's, and each would be taken for lost motion or friction: they are fitted beside the joint where the
+//! readings demand them, and taken off.
+
+use super::observation::Observation;
+use super::solution::{Solution, fit};
+use crate::effects::{Composite, Effect, named};
+use crate::signal::colour::Colour;
+use crate::signal::smooth::noise;
+use nalgebra::DMatrix;
+
+/// Courses that are tried, by the names of their effects.
+const COURSES: [&str; 3] = ["sensor_offset", "thermal_drift", "slip"];
+/// Most that are taken off together.
+const MOST: usize = 2;
+/// What a model leaves, over the scatter of neighbours, above which a course is sought.
+const LEFT: f64 = 1.03;
+/// Nats that a course must gain beyond half the logarithm of the rows per parameter (Schwarz 1978).
+const BEYOND: f64 = 5.0;
+
+/// The fit of a model with the courses that the readings demand, and what these are called; the readings are
+/// less by them after that.
+pub fn fit_beside(model: &Composite, data: &mut Observation) -> (Solution, Vec<&'static str>) {
+    let mut best = fit(model, data);
+    let mut taken: Vec<&'static dyn Effect> = Vec::new();
+    while taken.len() < MOST && best.rms > LEFT * noise(&best.residual) {
+        let Some((effect, better)) = next(&best, data) else {
+            break;
+        };
+        taken.push(effect);
+        best = better;
+    }
+    let names: Vec<&'static str> = taken.iter().map(|e| e.card().name).collect();
+    match names.is_empty() {
+        true => (best, names),
+        false => (less(best, model, data), names),
+    }
+}
+
+/// The course that helps most, if one helps.
+fn next(before: &Solution, data: &Observation) -> Option<(&'static dyn Effect, Solution)> {
+    let own = before.model.effects();
+    let others = COURSES.iter().filter_map(|name| named(name));
+    let others = others.filter(|e| own.iter().all(|o| o.card().name != e.card().name));
+    let with = |effect: &'static dyn Effect| {
+        let all: Vec<&'static dyn Effect> = own.iter().copied().chain([effect]).collect();
+        let model = Composite::new(&all);
+        let fits = model.len() <= crate::effects::contract::MOST;
+        fits.then(|| (effect, fit(&model, data)))
+    };
+    let rows = data.rows() as f64;
+    let worth = |(effect, after): (&'static dyn Effect, Solution)| {
+        let price = BEYOND + 0.5 * effect.card().parameters.len() as f64 * rows.ln();
+        let nats = nats(&before.colour, &after.colour) - price;
+        (nats > 0.0).then_some((nats, effect, after))
+    };
+    let each = others.filter_map(with).filter_map(worth);
+    let best = each.max_by(|a, b| a.0.total_cmp(&b.0));
+    best.map(|(_, effect, after)| (effect, after))
+}
+
+/// Rise of the log likelihood from one noise to another, each that of its own residual.
+fn nats(before: &Colour, after: &Colour) -> f64 {
+    let each = before.sigma.iter().zip(&after.sigma);
+    each.map(|(b, a)| (b / a).ln()).sum()
+}
+
+/// The solution in the parameters of a smaller model, the rest taken off the readings.
+fn less(all: Solution, model: &Composite, data: &mut Observation) -> Solution {
+    let slots = all.model.slots();
+    let kept: Vec<usize> = (0..slots.len())
+        .filter(|j| {
+            let name = slots[*j].effect.card().name;
+            model.effects().iter().any(|e| e.card().name == name)
+        })
+        .collect();
+    let p: Vec<f64> = kept.iter().map(|j| all.p[*j]).collect();
+    let whole = all.model.predict(&all.p, &data.scene);
+    let own = model.predict(&p, &data.scene);
+    for ((reading, whole), own) in data.reading.iter_mut().zip(&whole).zip(&own) {
+        *reading -= whole - own;
+    }
+    let part =
+        |m: &DMatrix<f64>| DMatrix::from_fn(kept.len(), kept.len(), |i, j| m[(kept[i], kept[j])]);
+    Solution {
+        model: model.clone(),
+        covariance: part(&all.covariance),
+        reach: part(&all.reach),
+        status: kept.iter().map(|j| all.status[*j]).collect(),
+        p,
+        ..all
+    }
+}
