@@ -1,12 +1,15 @@
 //! What a dynamometer should have read in a straight cut: the wave form of the force at every sample,
 //! with its slopes over all that may be unknown.
 
+mod place;
+
 use super::around::LowPass;
 use crate::cutting::tool::Tool;
 use crate::cutting::wave::{Basis, Cut, Side, Wave, force};
 use crate::ground::dual::{Dual, Scalar};
 use crate::ground::spatial::V3;
 use crate::measurement::milling_force::{CutFacts, CutSide, Facts};
+use place::Place;
 use std::f64::consts::TAU;
 
 /// Unknowns of one cut, in the order of the slopes: six coefficients (Ktc, Krc, Kac, Kte, Kre, Kae; SI),
@@ -216,34 +219,6 @@ impl Predicted {
             }
         }
         passed
-    }
-}
-
-/// Where an angle lies between the samples of a revolution.
-struct Place {
-    around: [usize; 4],
-    weight: [f64; 4],
-}
-
-impl Place {
-    fn of(angle: f64, grid: usize) -> Self {
-        let at = angle.rem_euclid(TAU) / TAU * grid as f64;
-        let (first, u) = (at.floor() as usize, at.fract());
-        Self {
-            around: [grid - 1, 0, 1, 2].map(|k| (first + k) % grid),
-            // Catmull and Rom 1974
-            weight: [
-                0.5 * u * (-1.0 + u * (2.0 - u)),
-                0.5 * (2.0 + u * u * (3.0 * u - 5.0)),
-                0.5 * u * (1.0 + u * (4.0 - 3.0 * u)),
-                0.5 * u * u * (u - 1.0),
-            ],
-        }
-    }
-
-    fn read(&self, wave: &[V3]) -> V3 {
-        let part = |k: usize, i: usize| self.weight[k] * wave[self.around[k]][i];
-        std::array::from_fn(|i| (0..4).map(|k| part(k, i)).sum())
     }
 }
 

@@ -1,30 +1,21 @@
 //! A milling-force file as its diagnosis sees it.
 
+mod samples;
+
 use super::aim::Aim;
 use super::lines::{Line, lines};
 use super::setting::{Places, Present, Slopes};
 use super::start::fitted;
-use crate::cutting::LINEAR_EDGE;
-use crate::experiments::milling_force::{BANDWIDTH, PHASE, RUNOUT, SPEED, WIDTH};
-use crate::fit::cut_force::{Account, CutFit};
+use crate::experiments::milling_force::RUNOUT;
 use crate::ground::spatial::{M3, V3, rotate};
-use crate::ground::stats::median;
-use crate::measurement::milling_force::{Facts, MillingForce};
+use crate::measurement::milling_force::MillingForce;
 use rayon::prelude::*;
+use samples::{noise, nominal, samples};
 use std::f64::consts::TAU;
 use std::sync::{Arc, OnceLock};
 
-/// Samples of all cuts that are compared at most: more cost time and tell little.
-const MOST_SAMPLES: usize = 2800;
-/// Pieces of a record that is longer than its share.
-const PIECES: usize = 8;
-/// Share of the force's own rms that the law of a sharp edge misses anyway: digits of the chip's surface.
-const LAW: f64 = 2e-3;
 /// Readings that a stated noise is worth, and an estimated one.
 const WORTH: [f64; 2] = [60.0, 30.0];
-
-/// Share of the deepest cut, from the tip, in which a tooth mostly breaks that does not break altogether.
-const TIP: f64 = 0.7;
 
 /// A sensor that shows what there is.
 const IDENTITY: M3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -291,156 +282,4 @@ impl Case {
         let length = (last.unwrap_or(first) - first).max(f64::MIN_POSITIVE);
         (cuts[cut].time[sample] - first) / length
     }
-}
-
-/// The stated coefficients, what is left out zero; else those of the fit.
-fn nominal(facts: &Facts, account: &Account) -> [f64; 6] {
-    let Some(stated) = &facts.nominal else {
-        return std::array::from_fn(|j| account.cuts[0].p[j]);
-    };
-    let card = LINEAR_EDGE.card();
-    std::array::from_fn(|j| {
-        let coefficient = &card.coefficients[j];
-        let own = stated
-            .coefficients
-            .iter()
-            .find(|(key, _)| key == coefficient.key);
-        own.map_or(0.0, |(_, value)| value * coefficient.factor)
-    })
-}
-
-fn samples(
-    file: &MillingForce,
-    account: &Account,
-    speeds: &[f64],
-    nominal: &[f64; 6],
-) -> Vec<CutSamples> {
-    let share = (MOST_SAMPLES / account.cuts.len().max(1)).max(64);
-    let depths = file.facts.cuts.iter().map(|c| c.depth_m);
-    let deepest = depths.fold(0.0, f64::max);
-    let mut first = 0;
-    let mut one = |(i, fit): (usize, &CutFit)| {
-        let data = &fit.data;
-        let used = pieces(data.force.len(), share);
-        let mut scene = data.scene.clone();
-        let whole = (1.0 + speeds[i]) * (1.0 + fit.p[SPEED]);
-        scene.cut.spindle_rad_s = file.facts.cuts[i].spindle_rad_s * whole;
-        scene.chipped_to_m = TIP * deepest;
-        scene.time = used.iter().map(|at| data.scene.time[*at]).collect();
-        let mut p = fit.p;
-        p[..6].copy_from_slice(nominal);
-        p[SPEED] = 0.0;
-        let size = fit.p[RUNOUT]
-            .hypot(fit.p[RUNOUT + 1])
-            .max(f64::MIN_POSITIVE);
-        for k in 0..2 {
-            p[RUNOUT + k] *= file.facts.runout_m.unwrap_or(0.0) / size;
-        }
-        p[WIDTH] = scene.cut.width_m;
-        if let Some(hz) = data.bandwidth_hz {
-            p[BANDWIDTH] = hz.ln();
-        }
-        debug_assert!(p[PHASE].is_finite());
-        let record = &file.records[i];
-        let mut cut = CutSamples {
-            measured: used
-                .iter()
-                .map(|at| record.force[data.settling + at])
-                .collect(),
-            time: used
-                .iter()
-                .map(|at| record.time[data.settling + at])
-                .collect(),
-            present: Present {
-                scene,
-                p,
-                speed: whole - 1.0,
-            },
-            first,
-        };
-        cut.only(&steady(&cut));
-        first += cut.time.len();
-        cut
-    };
-    account.cuts.iter().enumerate().map(&mut one).collect()
-}
-
-/// How well the angle of a jump is known, rad, and the width of the cut, m.
-const BESIDE: [f64; 2] = [4e-3, 5e-5];
-/// Share of the range of a force from which such a shift changes it by a jump.
-const JUMP: f64 = 0.1;
-
-/// Samples that do not stand beside a jump of the simulated force (straight teeth that enter or leave at
-/// once, and nothing that spreads it): those say only that the jump is thereabouts.
-fn steady(cut: &CutSamples) -> Vec<bool> {
-    let present = &cut.present;
-    let at = |place: usize, by: f64| {
-        let mut p = present.p;
-        p[place] += by;
-        present.scene.force(&p)
-    };
-    let here = present.scene.force(&present.p);
-    let least = [0, 1, 2].map(|k| {
-        let own = here.iter().map(|f| f[k]);
-        let (low, high) = own.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
-        JUMP * (high - low)
-    });
-    let [turn, width] = BESIDE;
-    let beside = [
-        (PHASE, turn),
-        (PHASE, -turn),
-        (WIDTH, width),
-        (WIDTH, -width),
-    ]
-    .map(|(place, by)| at(place, by));
-    let holds = |i: usize| {
-        let still = |b: &Vec<V3>| (0..3).all(|k| (b[i][k] - here[i][k]).abs() <= least[k]);
-        beside.iter().all(still)
-    };
-    (0..here.len()).map(holds).collect()
-}
-
-impl CutSamples {
-    fn only(&mut self, kept: &[bool]) {
-        let mut each = kept.iter();
-        self.measured.retain(|_| *each.next().unwrap_or(&true));
-        let mut each = kept.iter();
-        self.time.retain(|_| *each.next().unwrap_or(&true));
-        let mut each = kept.iter();
-        self.present
-            .scene
-            .time
-            .retain(|_| *each.next().unwrap_or(&true));
-    }
-}
-
-/// Samples of a record: all, or pieces all along it.
-fn pieces(count: usize, share: usize) -> Vec<usize> {
-    if count <= share {
-        return (0..count).collect();
-    }
-    let length = share / PIECES;
-    let piece = |k: usize| {
-        let first = k * (count - length) / (PIECES - 1);
-        first..first + length
-    };
-    (0..PIECES).flat_map(piece).collect()
-}
-
-/// Noise of each axis: as stated, else from how consecutive samples of what a fit leaves differ; and what
-/// the law misses.
-fn noise(facts: &Facts, account: &Account) -> Vec<f64> {
-    let axis = |k: usize| {
-        let differences = account.cuts.iter().flat_map(|c| {
-            let own = c.residual.windows(3);
-            own.map(|w| (w[0][k] - 2.0 * w[1][k] + w[2][k]).abs())
-        });
-        // second differences of white noise have six times its variance; median of |x| is 0.6745 σ
-        let own = median(&differences.collect::<Vec<_>>()) / (0.6745 * 6.0_f64.sqrt());
-        let forces = account.cuts.iter().flat_map(|c| &c.data.force);
-        let squares: Vec<f64> = forces.map(|f| f[0].hypot(f[1]).hypot(f[2])).collect();
-        let size = LAW * crate::ground::stats::rms(&squares);
-        facts.sensor_noise_n.unwrap_or(own).max(1e-9).hypot(size)
-    };
-    (0..3).map(axis).collect()
 }

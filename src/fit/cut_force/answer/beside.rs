@@ -1,0 +1,99 @@
+//! What stands beside the coefficients: runout, bandwidth, angles, speeds, widths.
+
+use super::{Answer, FIXED, FIXED_ANGLE, SEEN};
+use crate::experiments::milling_force::{BANDWIDTH, PHASE, RUNOUT, SPEED, WIDTH};
+use crate::fit::parameter::{Identified, Status, Z95};
+use crate::ground::units::DEGREE;
+use std::f64::consts::TAU;
+
+impl Answer<'_> {
+    pub(super) fn runout(&self) -> Vec<Identified> {
+        let meaning = "distance of the tool's axis from the spindle's";
+        let towards = "direction of the runout from tooth 1 at the tip, in the sense of rotation; tooth 1 is the one nearest to φ = 0 at the first sample of the first cut";
+        let unseen = |name: &str, unit: &str, meaning: &str| {
+            Identified::new(name, "tool", 0.0, unit, 0.0, meaning)
+                .without_value(Status::NotIdentifiable)
+        };
+        let places = [0, 1].map(|k| self.layout.of_cut[0][RUNOUT + k]);
+        let [Some(a), Some(b)] = places else {
+            return vec![
+                unseen("runout", "µm", meaning),
+                unseen("runout_angle", "deg", towards),
+            ];
+        };
+        let (x, y) = (self.p[a], self.p[b]);
+        let size = x.hypot(y).max(1e-15);
+        let spread = |u: f64, v: f64| {
+            let c = self.covariance;
+            (u * u * c[(a, a)] + 2.0 * u * v * c[(a, b)] + v * v * c[(b, b)])
+                .max(0.0)
+                .sqrt()
+        };
+        let (along, across) = (spread(x / size, y / size), spread(-y / size, x / size));
+        let widest = self.stderr(a).max(self.stderr(b));
+        let angle = y.atan2(x);
+        let runout = Identified::new("runout", "tool", 1e6 * size, "µm", 1e6 * along, meaning);
+        let turn = across / size;
+        let towards = Identified::new(
+            "runout_angle",
+            "tool",
+            angle / DEGREE,
+            "deg",
+            turn / DEGREE,
+            towards,
+        );
+        let open = widest > FIXED * self.mean_feed().max(size);
+        let (first, second) = match (open, size > SEEN * along) {
+            (true, _) => (Status::NotIdentifiable, Status::NotIdentifiable),
+            (false, false) => (Status::AtBound, Status::NotIdentifiable),
+            (false, true) if turn > FIXED_ANGLE => (Status::Identified, Status::NotIdentifiable),
+            _ => (Status::Identified, Status::Identified),
+        };
+        let said = |found: Identified, status: Status| match status {
+            Status::Identified => found,
+            Status::AtBound => found.limited(status, 1e6 * (size + Z95 * along)),
+            Status::NotIdentifiable => found.without_value(status),
+        };
+        vec![said(runout, first), said(towards, second)]
+    }
+
+    pub(super) fn nuisance(&self) -> Vec<Identified> {
+        let mut all = Vec::new();
+        if let Some(j) = self.layout.of_cut.iter().find_map(|c| c[BANDWIDTH]) {
+            let hz = self.p[j].exp();
+            all.push(Identified::new(
+                "bandwidth",
+                "sensor",
+                hz,
+                "Hz",
+                hz * self.stderr(j),
+                "corner of the dynamometer's second-order low pass",
+            ));
+        }
+        for (i, places) in self.layout.of_cut.iter().enumerate() {
+            let site = format!("cut{}", i + 1);
+            let one = |kind: usize, name: &str, factor: f64, unit: &str, meaning: &str| {
+                let j = places[kind]?;
+                let (value, stderr) = (factor * self.p[j], factor * self.stderr(j));
+                Some(Identified::new(name, &site, value, unit, stderr, meaning))
+            };
+            let rpm = 60.0 / TAU * self.cuts[i].scene.cut.spindle_rad_s;
+            all.extend(one(
+                PHASE,
+                "tooth_angle",
+                1.0 / DEGREE,
+                "deg",
+                "angle φ of tooth 1 at the first sample",
+            ));
+            all.extend(one(
+                SPEED,
+                "speed_error",
+                rpm,
+                "rpm",
+                "spindle speed less the stated one",
+            ));
+            all.extend(one(WIDTH, "width", 1e3, "mm", "width of cut"));
+        }
+        all
+    }
+}
