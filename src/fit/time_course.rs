@@ -5,6 +5,7 @@
 use super::observation::Observation;
 use super::solution::{Solution, fit};
 use crate::effects::{Composite, Effect, named};
+use crate::ground::stats::rms;
 use crate::signal::colour::Colour;
 use crate::signal::smooth::noise;
 use nalgebra::DMatrix;
@@ -15,6 +16,9 @@ const COURSES: [&str; 3] = ["sensor_offset", "thermal_drift", "slip"];
 const MOST: usize = 2;
 /// What a model leaves, over the scatter of neighbours, above which a course is sought.
 const LEFT: f64 = 1.03;
+/// Least size of a course, as a share of the readings' own (rms): below it no stiffness is moved by what
+/// millions of rows may show.
+const MATERIAL: f64 = 5e-4;
 /// Nats that a course must gain beyond half the logarithm of the rows per parameter (Schwarz 1978).
 const BEYOND: f64 = 5.0;
 
@@ -52,7 +56,9 @@ fn next(before: &Solution, data: &Observation) -> Option<(&'static dyn Effect, S
     let worth = |(effect, after): (&'static dyn Effect, Solution)| {
         let price = BEYOND + 0.5 * effect.card().parameters.len() as f64 * rows.ln();
         let nats = nats(&before.colour, &after.colour) - price;
-        (nats > 0.0).then_some((nats, effect, after))
+        let size = rms(&beside(&after, &before.model, data).1);
+        let holds = nats > 0.0 && size > MATERIAL * rms(&data.reading);
+        holds.then_some((nats, effect, after))
     };
     let each = others.filter_map(with).filter_map(worth);
     let best = each.max_by(|a, b| a.0.total_cmp(&b.0));
@@ -65,8 +71,8 @@ fn nats(before: &Colour, after: &Colour) -> f64 {
     each.map(|(b, a)| (b / a).ln()).sum()
 }
 
-/// The solution in the parameters of a smaller model, the rest taken off the readings.
-fn less(all: Solution, model: &Composite, data: &mut Observation) -> Solution {
+/// The places of a smaller model's parameters in those of a solution, and what the rest adds to the readings.
+fn beside(all: &Solution, model: &Composite, data: &Observation) -> (Vec<usize>, Vec<f64>) {
     let slots = all.model.slots();
     let kept: Vec<usize> = (0..slots.len())
         .filter(|j| {
@@ -77,8 +83,16 @@ fn less(all: Solution, model: &Composite, data: &mut Observation) -> Solution {
     let p: Vec<f64> = kept.iter().map(|j| all.p[*j]).collect();
     let whole = all.model.predict(&all.p, &data.scene);
     let own = model.predict(&p, &data.scene);
-    for ((reading, whole), own) in data.reading.iter_mut().zip(&whole).zip(&own) {
-        *reading -= whole - own;
+    let rest = whole.iter().zip(own).map(|(whole, own)| whole - own);
+    (kept, rest.collect())
+}
+
+/// The solution in the parameters of a smaller model, the rest taken off the readings.
+fn less(all: Solution, model: &Composite, data: &mut Observation) -> Solution {
+    let (kept, rest) = beside(&all, model, data);
+    let p: Vec<f64> = kept.iter().map(|j| all.p[*j]).collect();
+    for (reading, rest) in data.reading.iter_mut().zip(&rest) {
+        *reading -= rest;
     }
     let part =
         |m: &DMatrix<f64>| DMatrix::from_fn(kept.len(), kept.len(), |i, j| m[(kept[i], kept[j])]);
