@@ -6,11 +6,11 @@ use super::solution::{Solution, fit, unit_of};
 use crate::effects::{Composite, Effect};
 use crate::measurement::load_cycle::Port;
 
-/// A simpler model may leave so much more than the one asked for.
+/// A simpler model may leave so much more than the one asked for: a third of a deviation beside it.
 const WORSE: f64 = 1.05;
 
-/// The fit of the model with its last effects gone, one after the other, until its spring is fixed; `None`
-/// where it never is, or not without leaving more.
+/// The fit of the spring beside one of the model's effects, else alone: the first whose spring is fixed; `None` where it
+/// never is, or not without leaving more.
 pub fn simpler(fitted: &Solution, data: &Observation) -> Option<Solution> {
     let own: Vec<&'static dyn Effect> = fitted.model.effects()[1..].to_vec();
     let less = |kept: Vec<&'static dyn Effect>| fit(&Composite::new(&kept), data);

@@ -16,8 +16,8 @@ const COURSES: [&str; 3] = ["sensor_offset", "thermal_drift", "slip"];
 const MOST: usize = 2;
 /// What a model leaves, over the scatter of neighbours, above which a course is sought.
 const LEFT: f64 = 1.03;
-/// Least size of a course, as a share of the readings' own (rms): below it no stiffness is moved by what
-/// millions of rows may show.
+/// Least size of a course, as a share of the readings' own (rms): a sixth of what a lever is known to
+/// (`LEVER_REL_STD`), so that no stiffness is moved by what a million rows may show.
 const MATERIAL: f64 = 5e-4;
 /// Nats that a course must gain beyond half the logarithm of the rows per parameter (Schwarz 1978).
 const BEYOND: f64 = 5.0;
