@@ -33,9 +33,7 @@ impl Rest {
             false => self,
         }
     }
-}
 
-impl Rest {
     /// The same where what is left scatters by so many times the stated noise.
     pub(super) fn scattering(self, noise: f64, judgement: &Judgement) -> Self {
         match noise > judgement.noise_beyond {

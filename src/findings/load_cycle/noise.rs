@@ -271,3 +271,10 @@ pub fn rough(reading: &[f64]) -> f64 {
         _ => rms(&third),
     }
 }
+
+/// How many times the scatter of its neighbours a residual is, each reading in its own deviation.
+pub fn above_neighbours(residual: &[f64], spread: &[f64]) -> f64 {
+    let each = residual.iter().zip(spread);
+    let own: Vec<f64> = each.map(|(r, s)| r / s).collect();
+    rms(&own) / rough(&own).max(f64::MIN_POSITIVE)
+}

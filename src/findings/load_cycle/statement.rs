@@ -1,7 +1,7 @@
 //! A record of load cycles as the engine takes it.
 
 use super::families::{View, suspects};
-use super::noise::{Coloured, TINTS, rough};
+use super::noise::{Coloured, TINTS, above_neighbours, rough};
 use super::span::{coarse_span, span};
 use super::structure;
 use super::unseen::{Split, folds};
@@ -216,9 +216,7 @@ impl Experiment for Record<'_> {
     }
 
     fn is_scatter(&self, left: &[f64]) -> bool {
-        let each = left.iter().zip(&self.noise.spread);
-        let own: Vec<f64> = each.map(|(l, s)| l / s).collect();
-        rms(&own) < SCATTER * rough(&own)
+        above_neighbours(left, &self.noise.spread) < SCATTER
     }
 
     /// Told by the named law, which is fitted after the choice.

@@ -50,6 +50,10 @@ fn members(case: &Case) -> Vec<Member> {
     members
 }
 
+/// Stands in the shape of a tremor where lines have the number of their axes.
+const TREMOR: f64 = 0.0;
+/// Steps in which the frequency of a tremor is brought closer, as shares of the resolution of the record.
+const CLOSER: [f64; 5] = [0.4, 0.25, 0.15, 0.08, 0.04];
 /// Multiples of the tooth passing by which a line may lie beside the tremor that makes it.
 const BESIDE: [f64; 7] = [-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0];
 
@@ -84,12 +88,6 @@ fn stirred(case: &Case, line: &Line) -> Option<Member> {
 
 /// Gain (nats), frequency (Hz) and columns of a tremor.
 type Tried = (f64, f64, Vec<Vec<f64>>);
-
-/// Steps in which its frequency is brought closer, as shares of the resolution of the record.
-const CLOSER: [f64; 5] = [0.4, 0.25, 0.15, 0.08, 0.04];
-
-/// Stands in the shape of a tremor where lines have the number of their axes.
-const TREMOR: f64 = 0.0;
 
 fn member(case: &Case, cuts: &[usize], hz: f64, axes: usize) -> Member {
     let wave = |cut: usize, axis: usize, quarter: f64| {

@@ -27,6 +27,10 @@ pub(super) const PATTERNS: &[Pattern<Case>] = &[
 
 /// Pieces of the record whose force may be more or less than simulated.
 const PIECES: usize = 24;
+/// Frequencies of mains and what rectifiers make of them, Hz.
+const MAINS: [f64; 6] = [50.0, 60.0, 100.0, 120.0, 150.0, 180.0];
+/// Nats from which a hum is worth a comparison.
+const HUM: f64 = 12.0;
 
 /// Within the cuts: what differs from cut to cut is what causes do.
 fn uneven(case: &Case) -> Vec<Member> {
@@ -44,9 +48,6 @@ fn uneven(case: &Case) -> Vec<Member> {
     };
     table::flexible((0..PIECES).map(hat).collect())
 }
-
-/// Frequencies of mains and what rectifiers make of them, Hz.
-const MAINS: [f64; 6] = [50.0, 60.0, 100.0, 120.0, 150.0, 180.0];
 
 /// One channel at the frequency that suits it best, in every cut with a phase of its own.
 fn hums(case: &Case) -> Vec<Member> {
@@ -69,9 +70,6 @@ fn hums(case: &Case) -> Vec<Member> {
     let worth = waves.filter(|(gain, _)| *gain > HUM);
     worth.flat_map(|(_, w)| table::flexible(w)).collect()
 }
-
-/// Nats from which a hum is worth a comparison.
-const HUM: f64 = 12.0;
 
 /// Shares of its largest force from which a channel may show less.
 const LIMITS: [f64; 3] = [0.5, 0.7, 0.85];

@@ -20,6 +20,17 @@ const GOES_ON: f64 = 0.03;
 /// Steps of the converter by which the other channel's change would have moved this one.
 const STEPS: f64 = 4.0;
 
+/// Share of the rows that stand on plateaus between the ends of a load that somebody holds: weights, a
+/// commanded staircase.
+const STAIRS: f64 = 0.2;
+/// A load within this share of its range from zero is none, and a cell that cannot show the other sign hides
+/// at least this share of the deflection.
+const ZERO: f64 = 0.005;
+const HIDDEN: f64 = 0.2;
+/// Least share of all that the other channel does over a plateau by which its middle third is beyond both
+/// outer ones, where it goes out and back: half of it for a triangle.
+const HILL: f64 = 0.2;
+
 fn look(on: &Course) -> Said {
     let file = on.file;
     let mut found = Vec::new();
@@ -109,24 +120,12 @@ fn runs(channel: &[f64]) -> impl Iterator<Item = Range<usize>> {
     all.filter(|run| run.len() >= PLATEAU)
 }
 
-/// Share of the rows that stand on plateaus between the ends of a load that somebody holds: weights, a
-/// commanded staircase.
-const STAIRS: f64 = 0.2;
-
 /// Whether a load stands between its ends as well: nothing clips there.
 fn is_commanded(load: &[f64]) -> bool {
     let (low, high) = range(load);
     let between = runs(load).filter(|run| load[run.start] > low && load[run.start] < high);
     between.map(|run| run.len()).sum::<usize>() as f64 > STAIRS * load.len() as f64
 }
-
-/// A load within this share of its range from zero is none, and a cell that cannot show the other sign hides
-/// at least this share of the deflection.
-const ZERO: f64 = 0.005;
-const HIDDEN: f64 = 0.2;
-/// Least share of all that the other channel does over a plateau by which its middle third is beyond both
-/// outer ones, where it goes out and back: half of it for a triangle.
-const HILL: f64 = 0.2;
 
 /// Whether the other channel does not go out and come back while this one stands: behind a clipped top there
 /// is a hill, while a load is held there is creep, drift and noise.
