@@ -67,6 +67,7 @@ mod inspect;
 mod instruments_cli;
 mod job_files;
 mod judge_instruments;
+mod judge_joint_motion;
 mod judge_load_cycle;
 mod judge_part;
 mod judge_workspace;

@@ -1,9 +1,9 @@
 //! A link bends.
 
 use super::contract::{Amount, Blame, Card, Cause, Sight};
-use super::places::{Said, add_axes, added, drive_compliance, number_in, said_axes};
+use super::places::{Said, add_axes, added, drive_compliance, ends, number_in, said_axes};
 use crate::effects::Family;
-use crate::ground::spatial::{dot, sub};
+use crate::ground::spatial::{norm, sub};
 use crate::robot::Robot;
 
 /// See the card.
@@ -78,13 +78,9 @@ const LIKELY: [f64; 9] = [1.0, 0.05, 0.05, 0.6, 0.6, 0.2, 1.0, 1.0, 0.2];
 /// The shortest of links is still blamed with this share of the readiness of the longest.
 const SHORT: f64 = 0.1;
 
-/// From the bearing of joint `i` (from 1) to the next one, m.
+/// Length of link `i` (from 1), m.
 fn length(robot: &Robot, i: usize) -> f64 {
-    let (Some(own), Some(next)) = (robot.joints.get(i.wrapping_sub(1)), robot.joints.get(i)) else {
-        return 0.0;
-    };
-    let along = sub(next.point, own.point);
-    dot(along, along).sqrt()
+    ends(robot, i).map_or(0.0, |[from, to]| norm(sub(to, from)))
 }
 
 impl Cause for LinkCompliance {
@@ -134,10 +130,9 @@ impl Cause for LinkCompliance {
 
     fn alter(&self, robot: &mut Robot, site: &str, amounts: &[f64]) {
         let number = number_in(site, "link");
-        let Some(i) = number.filter(|i| *i >= 1 && *i < robot.dof()) else {
+        let Some((i, [from, to])) = number.and_then(|i| Some((i, ends(robot, i)?))) else {
             return;
         };
-        let (from, to) = (robot.joints[i - 1].point, robot.joints[i].point);
         for (own, along) in amounts.chunks(3).zip(ALONG) {
             let at = [0, 1, 2].map(|k| from[k] + along * (to[k] - from[k]));
             add_axes(robot, site, i, at, own);

@@ -1,7 +1,7 @@
 //! What causes do to the places of a robot.
 
 use super::contract::Amount;
-use crate::ground::spatial::{IDENTITY, M3, V3};
+use crate::ground::spatial::{IDENTITY, M3, V3, dot, norm, sub};
 use crate::robot::model::ElasticAxis;
 use crate::robot::{Robot, Spring};
 
@@ -74,6 +74,23 @@ pub fn drive_compliance(robot: &Robot, i: usize) -> f64 {
     let spring = joint.and_then(|joint| joint.drive.as_ref().or(joint.tilt.as_ref()));
     spring.map_or(1.0, |s| 1.0 / (s.stiffness * UNIT_COMPLIANCE))
 }
+
+/// Both ends of link `i` (from 1): the bearing of its joint and where the next one sits. A bearing along the link may
+/// sit anywhere on it, and the point that a file gives for it says no more than its line: that link reaches to the joint
+/// behind.
+pub fn ends(robot: &Robot, i: usize) -> Option<[V3; 2]> {
+    let own = robot.joints.get(i.checked_sub(1)?)?.point;
+    let next = robot.joints.get(i)?;
+    let far = robot.joints.get(i + 1).map(|joint| joint.point);
+    let far = far.filter(|far| {
+        let reach = sub(*far, own);
+        dot(reach, next.axis).abs() > ALONG * norm(reach)
+    });
+    Some([own, far.unwrap_or(next.point)])
+}
+
+/// Cosine above which an axis runs along a link.
+const ALONG: f64 = 0.95;
 
 /// The number in a site as `link2`.
 pub fn number_in(site: &str, stem: &str) -> Option<usize> {

@@ -19,6 +19,10 @@ pub trait OnRobot {
     fn noise(&self) -> f64;
     /// Whether this kind shows a cause.
     fn shows(&self, cause: &str) -> bool;
+    /// How ready one is to blame a cause at a site, against its other sites.
+    fn readiness(&self, cause: &'static dyn Cause, site: &str) -> f64 {
+        cause.readiness(self.robot(), site)
+    }
     /// The robot that [`OnRobot::change`] is against, with a cause of some more amounts.
     fn with_cause(&self, cause: &'static dyn Cause, site: &str, amounts: &[f64]) -> Robot {
         let mut robot = self.robot().clone();
@@ -58,13 +62,10 @@ fn shows(case: &dyn OnRobot, cause: &dyn Cause) -> bool {
 
 fn of(case: &dyn OnRobot, cause: &'static dyn Cause) -> Vec<Suspect> {
     let sites = cause.sites(case.robot());
-    let total: f64 = sites
-        .iter()
-        .map(|site| cause.readiness(case.robot(), site))
-        .sum();
+    let total: f64 = sites.iter().map(|site| case.readiness(cause, site)).sum();
     let suspect = |site: String| {
         let members = members(case, cause, &site);
-        let share = (cause.readiness(case.robot(), &site) / total).ln();
+        let share = (case.readiness(cause, &site) / total).ln();
         let card = cause.card();
         (!members.is_empty()).then_some(Suspect {
             effect: card.name,

@@ -58,6 +58,13 @@ pub struct Problem<'a> {
 }
 
 impl Problem<'_> {
+    /// Natural sizes of the parameters, SI.
+    pub fn scale(&self) -> Vec<f64> {
+        let slots = self.model.slots();
+        let each = slots.iter().map(|s| s.parameter.scale.of(&self.data.scene));
+        each.collect()
+    }
+
     fn weigh(&self, residual: &mut [f64]) {
         for (r, ignored) in residual.iter_mut().zip(self.ignored) {
             if *ignored {
@@ -98,12 +105,7 @@ impl Problem<'_> {
 
 /// Minimises from `start`. Always returns the best point seen.
 pub fn minimise(problem: &Problem, start: &[f64], search: Search) -> Optimum {
-    let scale: Vec<f64> = problem
-        .model
-        .slots()
-        .iter()
-        .map(|s| s.parameter.scale.of(&problem.data.scene))
-        .collect();
+    let scale = problem.scale();
     let bounds = problem.model.bounds(&problem.data.scene);
     let mut p = project(start, &bounds);
     let (mut residual, mut jacobian) = problem.linearise(&p, &scale);

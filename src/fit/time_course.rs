@@ -2,13 +2,15 @@
 //! joint's, and each would be taken for lost motion or friction: they are fitted beside the joint where the
 //! readings demand them, and taken off.
 
+use super::candidates::{Atom, Candidates};
+use super::least_squares::Problem;
 use super::observation::Observation;
-use super::solution::{Solution, fit};
+use super::solution::{Solution, fit, fit_from};
 use crate::effects::{Composite, Effect, named};
 use crate::ground::stats::rms;
 use crate::signal::colour::Colour;
 use crate::signal::smooth::noise;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 /// Courses that are tried, by the names of their effects.
 const COURSES: [&str; 3] = ["sensor_offset", "thermal_drift", "slip"];
@@ -32,7 +34,12 @@ pub fn fit_beside(model: &Composite, data: &mut Observation) -> (Solution, Vec<&
             break;
         };
         taken.push(effect);
-        best = better;
+        let again = fit(&better.model, data);
+        best = if again.rms < better.rms {
+            again
+        } else {
+            better
+        };
     }
     let names: Vec<&'static str> = taken.iter().map(|e| e.card().name).collect();
     match names.is_empty() {
@@ -50,12 +57,13 @@ fn next(before: &Solution, data: &Observation) -> Option<(&'static dyn Effect, S
         let all: Vec<&'static dyn Effect> = own.iter().copied().chain([effect]).collect();
         let model = Composite::new(&all);
         let fits = model.len() <= crate::effects::contract::MOST;
-        fits.then(|| (effect, fit(&model, data)))
+        let (start, most) = fits.then(|| guess(effect, before, data))??;
+        let ignored = vec![false; data.rows()];
+        let after = || fit_from(&model, data, &[start], &ignored);
+        (most > price(effect, data)).then(|| (effect, after()))
     };
-    let rows = data.rows() as f64;
     let worth = |(effect, after): (&'static dyn Effect, Solution)| {
-        let price = BEYOND + 0.5 * effect.card().parameters.len() as f64 * rows.ln();
-        let nats = nats(&before.colour, &after.colour) - price;
+        let nats = nats(&before.colour, &after.colour) - price(effect, data);
         let size = rms(&beside(&after, &before.model, data).1);
         let holds = nats > 0.0 && size > MATERIAL * rms(&data.reading);
         holds.then_some((nats, effect, after))
@@ -63,6 +71,43 @@ fn next(before: &Solution, data: &Observation) -> Option<(&'static dyn Effect, S
     let each = others.filter_map(with).filter_map(worth);
     let best = each.max_by(|a, b| a.0.total_cmp(&b.0));
     best.map(|(_, effect, after)| (effect, after))
+}
+
+/// Nats that a course costs.
+fn price(effect: &dyn Effect, data: &Observation) -> f64 {
+    BEYOND + 0.5 * effect.card().parameters.len() as f64 * (data.rows() as f64).ln()
+}
+
+/// Where a fit with a course begins: at the one before, with the curve of the course that lowers its sum of squares
+/// most; and the nats that are in it at most, which are those of white noise.
+fn guess(
+    effect: &'static dyn Effect,
+    before: &Solution,
+    data: &Observation,
+) -> Option<(Vec<f64>, f64)> {
+    let problem = Problem {
+        model: &before.model,
+        data,
+        colour: &Colour::white(data.rows(), 1.0),
+        ignored: &vec![false; data.rows()],
+    };
+    let (residual, jacobian) = problem.linearise(&before.p, &problem.scale());
+    let basis = jacobian.qr().q();
+    let beside = |v: &DVector<f64>| v - &basis * basis.tr_mul(v);
+    let own = beside(&residual);
+    let candidates = Candidates::new(&[effect], data);
+    let gain = |atom: Atom| {
+        let column = beside(&DVector::from_vec(atom.column));
+        let amount = column.dot(&own) / column.norm_squared().max(f64::MIN_POSITIVE);
+        let possible = amount > 0.0 || !atom.one_signed;
+        possible.then(|| (amount * column.dot(&own), amount, atom.p))
+    };
+    let best = candidates.atoms.into_iter().filter_map(gain);
+    let (gain, amount, mut p) = best.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    p[0] = amount;
+    let all = own.norm_squared();
+    let nats = -0.5 * data.rows() as f64 * (1.0 - gain / all).max(f64::MIN_POSITIVE).ln();
+    Some((before.p.iter().copied().chain(p).collect(), nats))
 }
 
 /// Rise of the log likelihood from one noise to another, each that of its own residual.

@@ -526,10 +526,11 @@ fn cubes(
     };
     for link in 1..=6 {
         let p = frame.points[link - 1];
-        let end = if link < 6 {
-            frame.points[link]
-        } else {
-            frame.flange
+        // The fore-arm reaches to the wrist, wherever the file puts the point of its own axis.
+        let end = match link {
+            3 => frame.points[4],
+            6 => frame.flange,
+            _ => frame.points[link],
         };
         // At either end of the arm and the fore-arm, else once.
         let long = link == 2 || link == 3;
@@ -740,6 +741,7 @@ fn outside(name: &str, habit: &Habit, world: &World, random: &mut Random) -> Vec
                 let moment = dot(&s.axis, &plus(load.1, cross(arm, load.0)));
                 let angle = moment / s.stiffness;
                 let wanted = match name {
+                    _ if moment == 0.0 => 0.0,
                     "stiffens with load" => angle * (1.0 + 1.5 / (1.0 + (moment / 600.0).powi(2))),
                     _ => angle + gap * moment.signum(),
                 };

@@ -10,6 +10,7 @@ pub mod cubes;
 mod cut;
 pub mod force_sensor;
 pub mod intervals;
+pub mod joint_motion;
 pub mod load_cycle;
 pub mod milling_force;
 pub mod part;

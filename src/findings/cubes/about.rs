@@ -155,7 +155,8 @@ impl Case {
 
     /// What cubes that sit fast show of a robot under the load multiplied and turned; empty where the robot does not stand.
     pub fn fixed(&self, robot: &Robot, gain: f64, turn: V3) -> Vec<f64> {
-        let Ok(setup) = Setup::new(&self.test, robot) else {
+        let stated = self.robot.elastic.len();
+        let Ok(setup) = Setup::bending(&self.test, robot, stated) else {
             return Vec::new();
         };
         let angle = norm(turn);

@@ -19,7 +19,7 @@ pub struct Judgement {
     pub same_mechanism: f64,
     /// Peak of a cause's own part, in noise deviations of one reading, below which it is too small to be named (F).
     pub peak: f64,
-    /// The share of the readings that lie below that peak.
+    /// The share of the readings on which it acts at all that lie below that peak.
     pub peak_above: f64,
     /// Its rms as a share of all that is named, below which it does not matter (F) ...
     pub share: f64,

@@ -55,7 +55,10 @@ impl<'a> Materiality<'a> {
         for (member, amounts) in fit.members.iter().zip(&own) {
             part.gemv(1.0, &self.columns[member], amounts, 1.0);
         }
-        let peaks: Vec<f64> = part.iter().map(|v| v.abs()).collect();
+        let columns = &bank.member(fit.members[at]).columns;
+        let acts = |i: &usize| columns.iter().any(|c| c[*i] != 0.0);
+        let rows = (0..part.len()).filter(acts);
+        let peaks: Vec<f64> = rows.map(|i| part[i].abs()).collect();
         let noise = fit.posterior.noise_variance.sqrt();
         quantile(&peaks, judgement.peak_above) >= judgement.peak * noise
     }

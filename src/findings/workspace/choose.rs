@@ -5,7 +5,6 @@ use super::case::Case;
 use super::search::Set;
 use super::seats::Seat;
 use super::unseen::{Rows, fitted, gain, held_out};
-use crate::findings::gain::Gain;
 use crate::fit::force_shapes::Level;
 use crate::ground::spatial::M3;
 use std::collections::BTreeMap;
@@ -39,7 +38,7 @@ impl Case<'_> {
         let mut likely = likely.filter(|(_, p)| *p > UNLIKELY * self.posterior.sets[0].1);
         let real = |set: &Set| {
             let needed = set.seats.iter().all(|seat| self.is_needed(set, *seat));
-            needed && set.seats.iter().all(|s| self.gain_of(set, *s).is_real())
+            needed && set.seats.iter().all(|s| self.helps(set, *s))
         };
         if let Some((set, _)) = likely.find(|(set, _)| !set.seats.is_empty() && real(set)) {
             return set.clone();
@@ -52,7 +51,7 @@ impl Case<'_> {
     }
 
     fn is_real(&self, set: &Set, seat: usize) -> bool {
-        self.is_needed(set, seat) && self.gain_of(set, seat).is_real()
+        self.is_needed(set, seat) && self.helps(set, seat)
     }
 
     /// The set less one seat, its other seats in the same forms.
@@ -84,11 +83,12 @@ impl Case<'_> {
         with > NEEDED * (with + without)
     }
 
-    /// Gain of one seat: the set without it against the set, on data left out. What shows at one point
+    /// Whether a seat helps: the set without it against the set, on data left out. What shows at one point
     /// or in one set-up alone cannot be predicted from the others: then less is left out at a time.
-    pub(super) fn gain_of(&self, set: &Set, seat: usize) -> Gain {
+    fn helps(&self, set: &Set, seat: usize) -> bool {
         let (before, after) = self.left_without_and_with(set, seat);
-        gain(&before, &after, self.unit())
+        let real = gain(&before, &after, self.unit()).is_real();
+        real && self.told(&before, &after).ci95_percent[1] > 0.0
     }
 
     /// What is left of rows that were not fitted (NaN: fitted), in standard deviations, without a seat and

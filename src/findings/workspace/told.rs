@@ -1,6 +1,7 @@
 //! What naming a cause gains, as a reader would compute it from the file: root mean square of readings less
 //! predictions, in metres, on rows that were not fitted. Whether there is a gain at all is decided in standard
-//! deviations ([`Case::gain_of`]), where each set-up counts by how well it is known; that number is no error in metres.
+//! deviations ([`Case::helps`]), where each set-up counts by how well it is known; that number is no error in metres. But
+//! what makes the error in metres worse beyond chance is named by nobody.
 
 use super::case::Case;
 use super::search::Set;
@@ -15,16 +16,21 @@ impl Case<'_> {
     /// The gain of one seat in metres; its interval by leaving out one point after another.
     pub(super) fn told_gain(&self, set: &Set, seat: usize) -> Gain {
         let (before, after) = self.left_without_and_with(set, seat);
+        self.told(&before, &after)
+    }
+
+    /// The same of what is left without and with a cause, in standard deviations of the rows.
+    pub(super) fn told(&self, before: &Vec<f64>, after: &Vec<f64>) -> Gain {
         let mut points: BTreeMap<usize, Sums> = BTreeMap::new();
-        self.add_slopes(&mut points, [&before, &after]);
-        self.add_levels(&mut points, [&before, &after]);
+        self.add_slopes(&mut points, [before, after]);
+        self.add_levels(&mut points, [before, after]);
         let all: Vec<Sums> = points.into_values().collect();
         let total = |left_out: usize| -> Sums {
             let others = all.iter().enumerate().filter(|(i, _)| *i != left_out);
             others.fold([0.0; 3], |sum, (_, own)| [0, 1, 2].map(|k| sum[k] + own[k]))
         };
         let whole = total(usize::MAX);
-        let decided = gain(&before, &after, self.unit());
+        let decided = gain(before, after, self.unit());
         if !whole.iter().all(|sum| *sum > 0.0 && sum.is_finite()) {
             return decided;
         }

@@ -1,6 +1,8 @@
 //! Measuring cubes as the model predicts them: every elastic hinge turns by its compliance times the
 //! moment about it, and a cube moves with all hinges before it (source 002, section 2.5).
 
+mod seats;
+
 use super::workspace::Site;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{
@@ -11,6 +13,7 @@ use crate::motion::kinematics::{column, forward_kinematics, hinge_point, hinge_r
 use crate::motion::statics::springs;
 use crate::motion::{Chain, Work, elastic};
 use crate::robot::Robot;
+use seats::{before, bends_before};
 
 /// One file with its robot, ready to predict.
 #[derive(Debug, Clone)]
@@ -48,6 +51,15 @@ impl Setup {
     /// # Errors
     /// Another number of joints, nothing elastic, or a cube on a link or behind an axis that is not there.
     pub fn new(test: &CubeTest, robot: &Robot) -> Outcome<Self> {
+        Self::bending(test, robot, robot.elastic.len())
+    }
+
+    /// The same where elastic axes from the one of this index on are no part of the robot file: a bend within a link
+    /// has the cubes behind it that lie farther along the link.
+    ///
+    /// # Errors
+    /// As [`Setup::new`].
+    pub fn bending(test: &CubeTest, robot: &Robot, stated: usize) -> Outcome<Self> {
         let refuse = |what: String, remedy: &str| Problem::new(what, remedy).in_file(&test.path);
         let (given, joints) = (test.facts.joint_angles.len(), robot.dof());
         if given != joints {
@@ -70,8 +82,10 @@ impl Setup {
         let mut work = Work::new(&chain);
         let tcp = forward_kinematics(&chain, &mut work, &angles).point;
         let seat = |cube: &Cube| {
+            let own = (&robot.elastic[..stated], robot.dof());
+            let hinges = before(own, &chain, cube).map_err(|p| p.at_key(&test.path, "cubes"))?;
             Ok(Seat {
-                hinges: before(robot, &chain, cube).map_err(|p| p.at_key(&test.path, "cubes"))?,
+                hinges: hinges + bends_before((robot, stated), &chain, &work, (cube, hinges)),
                 at: cube.centre,
             })
         };
@@ -236,49 +250,4 @@ fn sites(chain: &Chain) -> Vec<Site> {
         }
     }
     sites
-}
-
-/// Hinges before a cube: those up to the drive of its link, and the elastic axes of the link up to the one
-/// it lies beyond.
-fn before(robot: &Robot, chain: &Chain, cube: &Cube) -> Outcome<usize> {
-    let refuse = |what: String, remedy: String| {
-        Problem::new(format!("cube `{}` {what}", cube.name), remedy).in_column("cubes")
-    };
-    let own: Vec<&str> = robot
-        .elastic
-        .iter()
-        .filter(|axis| axis.after == cube.after)
-        .map(|axis| axis.name.as_str())
-        .collect();
-    let start = match cube.after {
-        0 => 0,
-        n => {
-            1 + *chain.drives.get(n - 1).ok_or_else(|| {
-                refuse(
-                    format!("sits after axis {n}"),
-                    format!("`after` goes from 0 to {}", robot.dof()),
-                )
-            })?
-        }
-    };
-    match &cube.beyond {
-        None => Ok(start),
-        Some(name) => match own.iter().position(|known| known == name) {
-            Some(i) => Ok(start + i + 1),
-            None => Err(refuse(
-                format!(
-                    "lies beyond `{name}`, which is no elastic axis of link {}",
-                    cube.after
-                ),
-                format!(
-                    "leave `beyond` out, or name one of: {}",
-                    if own.is_empty() {
-                        "none there".into()
-                    } else {
-                        own.join(", ")
-                    }
-                ),
-            )),
-        },
-    }
 }

@@ -1,0 +1,79 @@
+//! On which side of the hinges of its link a cube sits.
+
+use crate::ground::problem::{Outcome, Problem};
+use crate::ground::spatial::{dot, sub};
+use crate::measurement::cubes::Cube;
+use crate::motion::kinematics::hinge_point;
+use crate::motion::{Chain, Work};
+use crate::robot::Robot;
+use crate::robot::model::ElasticAxis;
+
+/// Hinges before a cube: those up to the drive of its link, and the elastic axes of the link up to the one
+/// it lies beyond.
+pub(super) fn before(
+    (elastic, dof): (&[ElasticAxis], usize),
+    chain: &Chain,
+    cube: &Cube,
+) -> Outcome<usize> {
+    let refuse = |what: String, remedy: String| {
+        Problem::new(format!("cube `{}` {what}", cube.name), remedy).in_column("cubes")
+    };
+    let own: Vec<&str> = elastic
+        .iter()
+        .filter(|axis| axis.after == cube.after)
+        .map(|axis| axis.name.as_str())
+        .collect();
+    let start = match cube.after {
+        0 => 0,
+        n => {
+            1 + *chain.drives.get(n - 1).ok_or_else(|| {
+                refuse(
+                    format!("sits after axis {n}"),
+                    format!("`after` goes from 0 to {dof}"),
+                )
+            })?
+        }
+    };
+    match &cube.beyond {
+        None => Ok(start),
+        Some(name) => match own.iter().position(|known| known == name) {
+            Some(i) => Ok(start + i + 1),
+            None => Err(refuse(
+                format!(
+                    "lies beyond `{name}`, which is no elastic axis of link {}",
+                    cube.after
+                ),
+                format!(
+                    "leave `beyond` out, or name one of: {}",
+                    if own.is_empty() {
+                        "none there".into()
+                    } else {
+                        own.join(", ")
+                    }
+                ),
+            )),
+        },
+    }
+}
+
+/// Bends within the link of a cube that lie nearer along the link than it, where they are no part of the robot file.
+/// A cube before an axis of the file lies before them too.
+pub(super) fn bends_before(
+    (robot, stated): (&Robot, usize),
+    chain: &Chain,
+    work: &Work,
+    (cube, from): (&Cube, usize),
+) -> usize {
+    let drives = cube.after.checked_sub(1).map(|i| &chain.drives[i..]);
+    let Some([near, far, ..]) = drives else {
+        return 0;
+    };
+    let own = |axes: &[ElasticAxis]| axes.iter().filter(|a| a.after == cube.after).count();
+    let (known, added) = robot.elastic.split_at(stated);
+    if from <= *near + own(known) {
+        return 0;
+    }
+    let along = sub(hinge_point(work, *far), hinge_point(work, *near));
+    let is_behind = |hinge: &usize| dot(along, sub(cube.centre, hinge_point(work, *hinge))) > 0.0;
+    (from..from + own(added)).take_while(is_behind).count()
+}
