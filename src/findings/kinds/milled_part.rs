@@ -39,12 +39,15 @@ impl Measured for Case {
         suitability::milled_part::doubts(&self.test)
     }
 
-    /// A datum or a radius is plain in many places although each shows little of it. The columns are those of the model
+    /// A datum or a radius is plain in many places although each shows little of it, and so is a spring beside a datum
+    /// that is thirty times as large. The columns are those of the model
     /// that mills the part, so that evidence counts nearly in full.
     fn judgement(&self) -> Judgement {
         Judgement {
             peak: 1.0,
+            share: 0.03,
             temper: 0.8,
+            companion_needed: 0.85,
             group_carries: 0.9,
             noise_beyond: match self.test.facts.probe_noise {
                 Some(_) => NOISE_BEYOND,

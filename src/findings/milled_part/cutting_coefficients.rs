@@ -17,13 +17,7 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 /// Ordinary relative error of a coefficient.
 const ORDINARY: f64 = 0.3;
 /// Which coefficients change together: all cutting, all at all, tangential, radial, the edge.
-const FORMS: [&[usize]; 5] = [
-    &[0, 1, 2],
-    &[0, 1, 2, 3, 4, 5],
-    &[0],
-    &[1],
-    &[3, 4, 5],
-];
+const FORMS: [&[usize]; 5] = [&[0, 1, 2], &[0, 1, 2, 3, 4, 5], &[0], &[1], &[3, 4, 5]];
 
 fn members(case: &Case) -> Vec<Member> {
     let form = |(i, own): (usize, &&[usize])| {
@@ -43,7 +37,9 @@ pub(super) fn alter(blamed: &Blamed, setup: &mut Setup) -> bool {
     if own {
         let factor = (1.0 + blamed.amounts[0]).max(LEAST);
         let changed = FORMS[blamed.shape[1] as usize];
-        changed.iter().for_each(|k| setup.material.coefficients[*k] *= factor);
+        changed
+            .iter()
+            .for_each(|k| setup.material.coefficients[*k] *= factor);
     }
     own
 }

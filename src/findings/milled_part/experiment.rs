@@ -1,9 +1,10 @@
 //! The statement of a milled part for the engine.
 
+use super::noise::{Uneven, is_scatter};
 use super::patterns::PATTERNS;
 use super::uncertain::uncertain;
 use super::{Case, EFFECTS, Stated};
-use crate::findings::engine::{Blamed, Experiment, Remaining, Statement, White};
+use crate::findings::engine::{Blamed, Experiment, Remaining, Statement};
 use crate::findings::physics;
 use crate::findings::table;
 
@@ -37,7 +38,7 @@ impl Experiment for Case {
                 .zip(self.beyond_first_order(about, uncertain))
                 .map(|(missed, beyond)| missed - beyond)
                 .collect(),
-            noise: Box::new(White {
+            noise: Box::new(Uneven {
                 spread: self.spread.clone(),
                 rows: if stated { WORTH } else { 0.0 },
             }),
@@ -46,6 +47,14 @@ impl Experiment for Case {
             span: self.span(),
             splits: self.splits(),
         }
+    }
+
+    fn is_scatter(&self, left: &[f64]) -> bool {
+        let along = |wall: bool| {
+            let rows = (0..left.len()).filter(|i| self.rows[*i].left == wall);
+            rows.map(|i| left[i] / self.spread[i]).collect::<Vec<f64>>()
+        };
+        is_scatter(&[along(true), along(false)])
     }
 
     fn is_settled(&self, before: &Statement, after: &Statement) -> bool {

@@ -5,6 +5,7 @@ mod corner_lag;
 mod cutting_coefficients;
 mod experiment;
 mod hold;
+mod noise;
 mod patterns;
 mod robot;
 mod stations;
@@ -170,5 +171,6 @@ impl Case {
 
 fn seen(rows: &[Row], moved: &[V3]) -> Vec<f64> {
     let each = rows.iter();
-    each.map(|row| dot(row.across, moved[row.station])).collect()
+    each.map(|row| dot(row.across, moved[row.station]))
+        .collect()
 }

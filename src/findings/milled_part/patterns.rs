@@ -24,8 +24,8 @@ pub(super) const PATTERNS: &[Pattern<Case>] = &[
     },
 ];
 
-/// Times at which a step is sought, at most.
-const STEPS: usize = 40;
+/// Times at which a step is sought, at most: a large one at the wrong place is none.
+const STEPS: usize = 160;
 
 /// From a station on the tool is another one, or the part stands elsewhere.
 fn steps(case: &Case) -> Vec<Member> {

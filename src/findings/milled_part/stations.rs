@@ -30,7 +30,7 @@ pub struct Station {
     pub force: V3,
     /// Simulated deviation of the tool, m, workpiece frame.
     pub deviation: V3,
-    /// By how much that differs over `NEAR`, m.
+    /// By how much that differs over `STEEP`, m.
     pub steep: f64,
     /// Measured deviation, m; NaN where a component was not probed.
     pub measured: V3,
@@ -49,8 +49,10 @@ pub struct Row {
     pub measured: f64,
 }
 
-/// Distance over which a simulated deviation is called steep, and how well a place is known, m.
+/// How well a place is known, m.
 const NEAR: f64 = 0.25e-3;
+/// Distance over which a simulated deviation is called steep, m: as far as a tool that gives way is ahead or behind.
+const STEEP: f64 = 0.15e-3;
 /// A component that a direction hardly has may be missing.
 const HARDLY: f64 = 0.02;
 /// Share of a simulated deviation that the laws of the cut do not know.
@@ -126,7 +128,7 @@ fn station(reading: &Reading, time_s: f64, setup: &Setup, milled: &Milled) -> Op
         setup.way.at(time_s + 1e-3).tip,
         setup.way.at(time_s - 1e-3).tip,
     )) / 2e-3;
-    let near = NEAR / speed.max(1e-4);
+    let near = STEEP / speed.max(1e-4);
     let [before, after] = [-near, near].map(|d| milled.deviation_at(time_s + d));
     (norm(force) > 0.0).then(|| Station {
         time_s,

@@ -69,7 +69,11 @@ fn arm(case: &Case, constant: f64) -> Member {
 
 /// Links grow each by its own: in some direction.
 fn robot(case: &Case, constant: f64) -> Member {
-    let along = |k: usize| grown(case, constant, |_| [0, 1, 2].map(|i| f64::from(u8::from(i == k))));
+    let along = |k: usize| {
+        grown(case, constant, |_| {
+            [0, 1, 2].map(|i| f64::from(u8::from(i == k)))
+        })
+    };
     Member {
         columns: (0..3).map(along).collect(),
         size: Size::Free,

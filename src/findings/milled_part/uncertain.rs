@@ -28,7 +28,13 @@ pub(super) fn uncertain(case: &Case) -> Vec<(Known, Nuisance)> {
     let stds = case.planned.coefficient_stds();
     let coefficient = |(i, column): (usize, &Vec<f64>)| {
         let spread = stds.get(i).copied().flatten().unwrap_or(physics::USUAL);
-        (Known::Coefficient(i), Nuisance { column: column.clone(), spread })
+        (
+            Known::Coefficient(i),
+            Nuisance {
+                column: column.clone(),
+                spread,
+            },
+        )
     };
     let coefficients = case.coefficients.iter().enumerate().map(coefficient);
     let spread = case.test.facts.datum_std.unwrap_or(DATUM).max(1e-9);
