@@ -36,6 +36,9 @@ pub struct Judgement {
     pub law_error: f64,
     /// Odds against the named cause above which a stand-in cannot be ruled out.
     pub ambiguous: f64,
+    /// A group keeps its most probable members until they carry this share of what all of them have: the tail beyond
+    /// is no help to who looks for the cause.
+    pub group_carries: f64,
     /// Probability below which a companion is not named (F).
     pub companion_needed: f64,
     /// A companion that lowers the error on unseen rows by less than this, percent, is not named: what laws
@@ -86,6 +89,7 @@ impl Default for Judgement {
             temper_of_laws: 0.5,
             law_error: 0.03,
             ambiguous: 0.12,
+            group_carries: 1.0,
             companion_needed: 0.7,
             companion_gain: 1.5,
             certain: 0.985,

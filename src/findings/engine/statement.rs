@@ -13,6 +13,11 @@ pub trait Noise: Send + Sync {
     /// Rows that the stated deviations are worth: 0 where they are only relative to one another, infinite
     /// where they are certain.
     fn rows(&self) -> f64;
+    /// The unit in which the error of every reading enters a gain: that of the readings, or, where these differ much
+    /// in what they are worth, noise deviations times that of a typical one.
+    fn weights(&self) -> Vec<f64> {
+        self.spread().to_vec()
+    }
     /// In words, as in "the noise is white".
     fn describe(&self) -> String;
 }

@@ -180,20 +180,21 @@ impl<'a> Design<'a> {
     fn paid(&self, columns: &[usize]) -> f64 {
         let right = tr_mul(&self.matrix, &self.y).column(0).into_owned();
         let left = &self.y - &self.matrix * self.amounts(&gram(&self.matrix), &right, columns);
-        let each = left.iter().zip(self.statement.noise.spread());
-        let squares: f64 = each.map(|(l, s)| (l * s).powi(2)).sum();
+        let weights = self.statement.noise.weights();
+        let each = left.iter().zip(&weights);
+        let squares: f64 = each.map(|(l, w)| (l * w).powi(2)).sum();
         let free = self.y.len() as f64 - columns.len() as f64;
         (squares / free.max(1.0)).sqrt()
     }
 
     /// Error of every row in the unit of the readings, each fold predicted from the others by some columns.
     fn held_out(&self, folds: &[Fold], columns: &[usize]) -> Vec<f64> {
-        let spread = self.statement.noise.spread();
-        let mut error = self.statement.reading.clone();
+        let weights = self.statement.noise.weights();
+        let mut error = vec![0.0; weights.len()];
         for fold in folds {
             let left = &fold.held - &fold.own * self.amounts(&fold.gram, &fold.right, columns);
             let each = fold.rows.iter().zip(left.iter());
-            each.for_each(|(i, l)| error[*i] = l * spread[*i]);
+            each.for_each(|(i, l)| error[*i] = l * weights[*i]);
         }
         error
     }

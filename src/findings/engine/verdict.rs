@@ -40,6 +40,7 @@ pub fn name(
         rivals.retain(|r| r.1 > judgement.ambiguous && bank.suspects[r.0].named);
         rivals.truncate(LARGEST_GROUP - 1);
         let total: f64 = 1.0 + rivals.iter().map(|r| r.1).sum::<f64>();
+        rivals.truncate(carrying(&rivals, judgement.group_carries * total));
         if !rivals.is_empty() {
             let members = std::iter::once(*suspect).chain(rivals.iter().map(|r| r.0));
             let members = members.map(|s| (bank.suspects[s].effect, bank.suspects[s].site.clone()));
@@ -70,6 +71,14 @@ pub fn name(
     };
     named.causes.sort_by(by_gain);
     named
+}
+
+/// How many rivals, best first, carry so much together with the named cause, whose odds are one.
+fn carrying(rivals: &[(usize, f64)], wanted: f64) -> usize {
+    let before = |i: &usize| 1.0 + rivals[..*i].iter().map(|r| r.1).sum::<f64>();
+    (0..rivals.len())
+        .take_while(|i| before(i) < wanted - 1e-12)
+        .count()
 }
 
 /// Runners-up with their probability against the named cause.

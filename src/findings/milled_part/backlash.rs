@@ -2,7 +2,7 @@
 //! back, or where the load on it changes its sign.
 
 use super::Case;
-use super::stations::levers;
+use super::hold::levers;
 use crate::findings::engine::Member;
 use crate::findings::table::{Effect, Place};
 use crate::ground::spatial::{V3, scale};
@@ -22,34 +22,62 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     would_tell: "load the joint to and fro past zero (`ident stiffness`)",
 };
 
-/// Share of its greatest size below which speed or torque chooses no flank.
+/// Share of its greatest size below which a torque chooses no flank.
 const IDLE: f64 = 0.02;
+/// Ways by which a joint turns back until its link follows, rad: gaps of a good and of a worn drive.
+const GAPS: [f64; 2] = [2e-5, 2e-4];
 
 fn members(case: &Case, joint: usize, site: &str) -> Vec<Member> {
     let Some(levers) = levers(&case.setup, &case.stations, site) else {
         return Vec::new();
     };
-    let speeds: Vec<f64> = case.stations.iter().map(|s| -s.speeds[joint]).collect();
-    let cut: Vec<f64> = levers.iter().map(|l| l.cut).collect();
-    let loaded: Vec<f64> = levers.iter().map(|l| l.cut + l.weight).collect();
-    let by_flank = |(form, drive): (usize, &Vec<f64>)| {
-        let side = flanks(drive)?;
+    let cut = levers.iter().map(|l| l.cut).collect();
+    let loaded = levers.iter().map(|l| l.cut + l.weight).collect();
+    let by_load = [cut, loaded].map(|drive: Vec<f64>| flanks(&drive));
+    let by_motion = GAPS.map(|gap| followed(case, joint, gap));
+    let member = |(form, side): (usize, Vec<f64>)| {
         let moved: Vec<V3> = levers
             .iter()
             .zip(&side)
             .map(|(l, side)| scale(0.5 * side, l.motion))
             .collect();
-        Some(
-            Member::free(case.seen(&moved))
-                .positive()
-                .shaped(&[-1.0, form as f64]),
-        )
+        Member::free(case.answered(&moved))
+            .positive()
+            .shaped(&[-1.0, form as f64])
     };
-    [speeds, cut, loaded]
-        .iter()
-        .enumerate()
-        .filter_map(by_flank)
+    let sides = by_motion.into_iter().chain(by_load).enumerate();
+    sides
+        .filter_map(|(form, side)| Some(member((form, side?))))
         .collect()
+}
+
+/// Where in its gap a link lies that its joint drags along: +1 where the joint turns backwards, rapid motions
+/// included; none where it never turns back.
+fn followed(case: &Case, joint: usize, gap: f64) -> Option<Vec<f64>> {
+    let rows = case.setup.way.rows();
+    let angles: Vec<f64> = rows.iter().map(|row| row.joints[joint]).collect();
+    let sides = dragged(&angles, gap);
+    let at = |s: &super::Station| {
+        let after = rows.partition_point(|row| row.time_s < s.time_s);
+        sides[after.min(sides.len() - 1)]
+    };
+    let side: Vec<f64> = case.stations.iter().map(at).collect();
+    side.iter()
+        .any(|s| (s - side[0]).abs() > 0.5)
+        .then_some(side)
+}
+
+/// A link in a gap, at every angle of its joint: where it lies, -1 to +1.
+fn dragged(angles: &[f64], gap: f64) -> Vec<f64> {
+    let half = 0.5 * gap;
+    let first = angles.iter().find(|a| (*a - angles[0]).abs() > gap);
+    let towards = first.map_or(0.0, |a| (a - angles[0]).signum());
+    let mut link = angles[0] - half * towards;
+    let follow = |angle: &f64| {
+        link = link.clamp(angle - half, angle + half);
+        (link - angle) / half
+    };
+    angles.iter().map(follow).collect()
 }
 
 /// +1 or −1, kept while what drives it is idle; none where it never changes.
@@ -71,7 +99,14 @@ fn flanks(drive: &[f64]) -> Option<Vec<f64>> {
 
 #[cfg(test)]
 mod tests {
-    use super::flanks;
+    use super::{dragged, flanks};
+
+    #[test]
+    fn a_link_follows_once_the_gap_is_taken() {
+        let side = dragged(&[0.0, 1.0, 0.95, 0.8, 0.9], 0.1);
+        let right = [-1.0, -1.0, 0.0, 1.0, -1.0];
+        assert!(side.iter().zip(right).all(|(a, b)| (a - b).abs() < 1e-9));
+    }
 
     #[test]
     fn a_flank_is_kept_while_nothing_drives() {

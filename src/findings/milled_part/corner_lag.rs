@@ -1,10 +1,10 @@
-//! The controller rounds corners: the tool follows an average of the programmed path, over a length of it or
-//! over the time just past (source 001, figure 3).
+//! The controller rounds corners: the tool follows an average of the programmed path, over a length of it,
+//! over the way or over the time just past (source 001, figure 3).
 
-use super::Case;
+use super::{Case, Station};
 use crate::findings::engine::Member;
 use crate::findings::table::{Effect, Place};
-use crate::ground::spatial::{V3, add, scale, sub};
+use crate::ground::spatial::{V3, add, dot, norm, scale, sub};
 use crate::process::Way;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
@@ -13,11 +13,9 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     mechanism: "controller",
     places: |case| vec![Place::new("controller", members(case))],
     parameters: |_, blamed| {
-        let unit = if blamed.shape[1] == 0.0 { "m" } else { "s" };
-        let name = if blamed.shape[1] == 0.0 {
-            "length"
-        } else {
-            "time_constant"
+        let (name, unit) = match blamed.shape[1] as usize {
+            1 => ("time_constant", "s"),
+            _ => ("length", "m"),
         };
         vec![
             (name, blamed.shape[2], unit),
@@ -27,9 +25,12 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     would_tell: "record the joint angles while the path runs",
 };
 
-/// Lengths over which a controller may average, m, and its time constants, s.
+/// Lengths over which a controller may average, ways by which its axes stay behind, m, and its time constants, s.
 const LENGTHS: [f64; 6] = [0.5e-3, 1e-3, 2e-3, 4e-3, 8e-3, 16e-3];
+const WAYS: [f64; 5] = [0.15e-3, 0.3e-3, 0.6e-3, 1.2e-3, 2.4e-3];
 const TIMES: [f64; 5] = [5e-3, 10e-3, 20e-3, 40e-3, 80e-3];
+/// A driven path this near to a straight one rounds no corner there, m.
+const STRAIGHT: f64 = 1e-8;
 /// Samples of an average.
 const SAMPLES: usize = 40;
 /// How far the share may be from one.
@@ -42,40 +43,91 @@ fn members(case: &Case) -> Vec<Member> {
             .positive()
             .shaped(&[-1.0, form, size])
     };
-    let at = |of: &dyn Fn(f64) -> V3| case.stations.iter().map(|s| of(s.time_s)).collect();
-    let lengths = LENGTHS.map(|l| member(0.0, l, at(&|t| averaged(way, t, l))));
-    let times = TIMES.map(|tau| member(1.0, tau, at(&|t| late(way, t, tau))));
-    lengths.into_iter().chain(times).collect()
+    let each = |reach: f64, driven: &dyn Fn(&Station, f64) -> V3| -> Vec<V3> {
+        let stations = case.stations.iter();
+        stations
+            .map(|s| aside(s, reach, &|d| driven(s, d)))
+            .collect()
+    };
+    let lengths = LENGTHS.map(|l| member(0.0, l, each(l, &|s, d| averaged(way, s.s_m + d, l))));
+    let times = TIMES.map(|tau| {
+        let driven = |s: &Station, d: f64| late(way, s.time_s + d, tau);
+        member(1.0, tau, each(LATE * tau, &driven))
+    });
+    let ways = WAYS.map(|l| {
+        let driven = |s: &Station, d: f64| behind(way, s.s_m + d, l);
+        member(2.0, l, each(LATE * l, &driven))
+    });
+    lengths.into_iter().chain(times).chain(ways).collect()
 }
 
-/// Mean of the path over a length about a time, less the path there, m.
-fn averaged(way: &Way, time: f64, length: f64) -> V3 {
-    let tip = way.at(time).tip;
-    let speed = speed(way, time).max(1e-4);
-    let window = length / speed;
+/// Time constants after which a lag has forgotten.
+const LATE: f64 = 5.0;
+/// Places of the driven path that are tried on either side.
+const TRIED: usize = 24;
+
+/// From a place of the wall to where the driven path passes it: where the plane across the feed cuts that path, not
+/// where it is at the same time, m. `driven`: the path by a way or a time from the station on.
+fn aside(s: &Station, reach: f64, driven: &dyn Fn(f64) -> V3) -> V3 {
+    let from = |d: f64| sub(driven(d), s.tip);
+    let beside = |k: i32| {
+        let d = from(0.5 * f64::from(k) * reach);
+        norm(sub(d, scale(dot(d, s.feed), s.feed)))
+    };
+    if (-2..=2).all(|k| beside(k) < STRAIGHT) {
+        return [0.0; 3];
+    }
+    let step = reach / TRIED as f64;
+    let mut best: Option<(f64, V3)> = None;
+    let mut last = from(-reach);
+    for i in 1..=2 * TRIED {
+        let next = from(step * i as f64 - reach);
+        let [a, b] = [dot(last, s.feed), dot(next, s.feed)];
+        if a * b <= 0.0 && a != b {
+            let crossing = add(scale(b / (b - a), last), scale(a / (a - b), next));
+            let far = norm(crossing);
+            if best.is_none_or(|(least, _)| far < least) {
+                best = Some((far, crossing));
+            }
+        }
+        last = next;
+    }
+    best.map_or([0.0; 3], |b| b.1)
+}
+
+/// Mean of the path over a length about a place of it, m.
+fn averaged(way: &Way, s_m: f64, length: f64) -> V3 {
     let share = |i: usize| (i as f64 + 0.5) / SAMPLES as f64 - 0.5;
-    mean(
-        (0..SAMPLES).map(|i| (way.at(time + window * share(i)).tip, 1.0)),
-        tip,
-    )
+    mean((0..SAMPLES).map(|i| (along(way, s_m + length * share(i)), 1.0)))
 }
 
-/// What a first-order lag makes of the path at a time, less the path there, m.
+/// The programmed path at an arc length.
+fn along(way: &Way, s_m: f64) -> V3 {
+    let rows = way.rows();
+    let after = rows.partition_point(|row| row.s_m < s_m);
+    let [a, b] = [after.saturating_sub(1), after].map(|i| &rows[i.min(rows.len() - 1)]);
+    let share = match b.s_m > a.s_m {
+        true => ((s_m - a.s_m) / (b.s_m - a.s_m)).clamp(0.0, 1.0),
+        false => 1.0,
+    };
+    add(scale(1.0 - share, a.tip), scale(share, b.tip))
+}
+
+/// What axes make of the path at a place of it that stay behind by a way, m.
+fn behind(way: &Way, s_m: f64, length: f64) -> V3 {
+    let back = |i: usize| LATE * length * (i as f64 + 0.5) / SAMPLES as f64;
+    mean((0..SAMPLES).map(|i| (along(way, s_m - back(i)), (-back(i) / length).exp())))
+}
+
+/// What a first-order lag makes of the path at a time, m.
 fn late(way: &Way, time: f64, tau: f64) -> V3 {
-    let tip = way.at(time).tip;
-    let back = |i: usize| 5.0 * tau * (i as f64 + 0.5) / SAMPLES as f64;
-    let weighed = (0..SAMPLES).map(|i| (way.at(time - back(i)).tip, (-back(i) / tau).exp()));
-    mean(weighed, tip)
+    let back = |i: usize| LATE * tau * (i as f64 + 0.5) / SAMPLES as f64;
+    mean((0..SAMPLES).map(|i| (way.at(time - back(i)).tip, (-back(i) / tau).exp())))
 }
 
-fn mean(places: impl Iterator<Item = (V3, f64)>, about: V3) -> V3 {
+fn mean(places: impl Iterator<Item = (V3, f64)>) -> V3 {
     let (sum, weight) = places.fold(([0.0; 3], 0.0), |(sum, weight), (place, w)| {
-        (add(sum, scale(w, sub(place, about))), weight + w)
+        (add(sum, scale(w, place)), weight + w)
     });
     scale(1.0 / weight, sum)
-}
-
-fn speed(way: &Way, time: f64) -> f64 {
-    let [a, b] = [-1e-3, 1e-3].map(|d| way.at(time + d));
-    (b.s_m - a.s_m) / 2e-3
 }

@@ -1,7 +1,6 @@
 //! The material cuts harder or easier than it is stated.
 
 use super::Case;
-use super::stations::GROUPS;
 use crate::findings::engine::{Blamed, Member};
 use crate::findings::table::{Effect, Place};
 use crate::process::setup::Setup;
@@ -17,12 +16,12 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 
 /// Ordinary relative error of a coefficient.
 const ORDINARY: f64 = 0.3;
-/// Which groups change together: all cutting, all at all, tangential, radial.
-const FORMS: [&[usize]; 4] = [&[0, 1, 2], &[0, 1, 2, 3], &[0], &[1]];
+/// Which coefficients change together: all cutting, all at all, tangential, radial, the edge.
+const FORMS: [&[usize]; 5] = [&[0, 1, 2], &[0, 1, 2, 3, 4, 5], &[0], &[1], &[3, 4, 5]];
 
 fn members(case: &Case) -> Vec<Member> {
-    let form = |(i, groups): (usize, &&[usize])| {
-        let sum = |row: usize| groups.iter().map(|g| case.coefficients[*g][row]).sum();
+    let form = |(i, own): (usize, &&[usize])| {
+        let sum = |row: usize| own.iter().map(|k| case.coefficients[*k][row]).sum();
         let column: Vec<f64> = (0..case.rows.len()).map(sum).collect();
         Member::given(column, ORDINARY).shaped(&[-1.0, i as f64])
     };
@@ -37,9 +36,10 @@ pub(super) fn alter(blamed: &Blamed, setup: &mut Setup) -> bool {
     let own = blamed.effect == EFFECT.name;
     if own {
         let factor = (1.0 + blamed.amounts[0]).max(LEAST);
-        let groups = FORMS[blamed.shape[1] as usize];
-        let changed = groups.iter().flat_map(|g| GROUPS[*g]);
-        changed.for_each(|k| setup.material.coefficients[*k] *= factor);
+        let changed = FORMS[blamed.shape[1] as usize];
+        changed
+            .iter()
+            .for_each(|k| setup.material.coefficients[*k] *= factor);
     }
     own
 }

@@ -1,12 +1,13 @@
 //! The statement of a milled part for the engine.
 
-use super::{Case, EFFECTS};
-use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, White};
+use super::noise::{Uneven, is_scatter};
+use super::patterns::PATTERNS;
+use super::uncertain::uncertain;
+use super::{Case, EFFECTS, Stated};
+use crate::findings::engine::{Blamed, Experiment, Remaining, Statement};
 use crate::findings::physics;
 use crate::findings::table;
 
-/// Standard deviation of a datum that states none, m.
-const DATUM: f64 = 10e-6;
 /// Readings that a stated noise is worth.
 const WORTH: f64 = 60.0;
 /// Waves of what nobody knows, over the path and over the time.
@@ -24,25 +25,40 @@ impl Experiment for Case {
     }
 
     fn state(&self, about: &[Blamed]) -> Statement {
-        let mut suspects = physics::suspects(self);
-        suspects.extend(table::suspects(EFFECTS, self));
+        self.state_beside(about, &[])
+    }
+
+    fn state_beside(&self, about: &[Blamed], uncertain: &[f64]) -> Statement {
         let stated = self.test.facts.probe_noise.is_some();
+        let own = self.stated();
         Statement {
             reading: self
                 .missed
                 .iter()
-                .zip(self.beyond_first_order(about))
+                .zip(self.beyond_first_order(about, uncertain))
                 .map(|(missed, beyond)| missed - beyond)
                 .collect(),
-            noise: Box::new(White {
+            noise: Box::new(Uneven {
                 spread: self.spread.clone(),
                 rows: if stated { WORTH } else { 0.0 },
             }),
-            nuisances: self.uncertain(),
-            suspects,
+            nuisances: own.uncertain.iter().map(|u| u.1.clone()).collect(),
+            suspects: own.suspects.clone(),
             span: self.span(),
             splits: self.splits(),
         }
+    }
+
+    fn is_scatter(&self, left: &[f64]) -> bool {
+        let along = |wall: bool| {
+            let rows = (0..left.len()).filter(|i| self.rows[*i].left == wall);
+            rows.map(|i| left[i] / self.spread[i]).collect::<Vec<f64>>()
+        };
+        is_scatter(&[along(true), along(false)])
+    }
+
+    fn is_settled(&self, before: &Statement, after: &Statement) -> bool {
+        after.reads_as(before)
     }
 
     fn parameters(&self, blamed: &Blamed) -> Vec<(&'static str, f64, &'static str)> {
@@ -88,24 +104,17 @@ impl Experiment for Case {
 }
 
 impl Case {
-    /// Springs and coefficients within what is known of them, and the datum.
-    fn uncertain(&self) -> Vec<Nuisance> {
-        let stds = self.planned.coefficient_stds();
-        let coefficient = |(i, column): (usize, &Vec<f64>)| Nuisance {
-            column: column.clone(),
-            spread: stds.get(i).copied().flatten().unwrap_or(physics::USUAL),
-        };
-        let datum = (0..3).map(|k| Nuisance {
-            column: self.column(|_, row| row.across[k]),
-            spread: self.test.facts.datum_std.unwrap_or(DATUM).max(1e-9),
-        });
-        let coefficients = self.coefficients.iter().enumerate().map(coefficient);
-        let all = physics::springs(self)
-            .into_iter()
-            .chain(coefficients)
-            .chain(datum);
-        all.filter(|n| n.column.iter().any(|x| x.abs() > 1e-12))
-            .collect()
+    /// What every statement holds, found once.
+    pub(super) fn stated(&self) -> &Stated {
+        self.stated.get_or_init(|| {
+            let mut suspects = physics::suspects(self);
+            suspects.extend(table::suspects(EFFECTS, self));
+            suspects.extend(table::patterns(PATTERNS, self));
+            Stated {
+                suspects,
+                uncertain: uncertain(self),
+            }
+        })
     }
 
     /// Waves over path and time, and the simulated deviation changing along the path.

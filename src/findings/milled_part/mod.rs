@@ -4,22 +4,31 @@ mod backlash;
 mod corner_lag;
 mod cutting_coefficients;
 mod experiment;
+mod hold;
+mod noise;
+mod patterns;
 mod robot;
 mod stations;
 mod thermal_growth;
 mod tool_radius;
+mod tried;
+mod uncertain;
 mod workpiece_offset;
 mod workpiece_rotation;
 
-use super::engine::Blamed;
+use super::engine::{Blamed, Nuisance, Suspect};
 use super::table::Effect;
 use crate::ground::problem::Outcome;
-use crate::ground::spatial::{M3, V3, dot};
+use crate::ground::spatial::{M3, V3, dot, rotate};
 use crate::measurement::milled_part::PartTest;
 use crate::process::Planned;
 use crate::process::setup::{Setup, Support};
+use hold::{Hold, holds};
 pub use stations::{Row, Station};
-use stations::{compliances, grouped, placed, rows, spreads, still};
+use stations::{placed, rows, spreads};
+use std::sync::OnceLock;
+use tried::{still, tried};
+use uncertain::Known;
 
 /// Effects beside the causes of the whole robot (`robot`).
 pub const EFFECTS: &[Effect<Case>] = &[
@@ -50,13 +59,22 @@ pub struct Case {
     pub missed: Vec<f64>,
     /// Standard deviation of every row: the probe's, and what a simulation of this kind leaves, m.
     pub spread: Vec<f64>,
-    /// Change of every row by one of: all tangential, radial, axial cutting coefficients, all of the
-    /// edge, each doubled (linearised), m.
+    /// Change of every row by each of the six coefficients, doubled (linearised), m.
     pub coefficients: Vec<Vec<f64>>,
     /// What springs alone leave, row by row, m: what a change is told from.
-    still: Vec<f64>,
-    /// Compliance of the tool at every station, m/N, workpiece frame.
-    compliance: Vec<M3>,
+    pub still: Vec<f64>,
+    /// The robot at every station.
+    pub holds: Vec<Hold>,
+    /// How far the tool goes at every station where it is moved by one before the cut answers.
+    pub answer: Vec<M3>,
+    /// Who may be to blame, and what may be off: the same in every statement.
+    stated: OnceLock<Stated>,
+}
+
+/// What every statement holds.
+struct Stated {
+    suspects: Vec<Suspect>,
+    uncertain: Vec<(Known, Nuisance)>,
 }
 
 /// Noise of a probe that states none, m.
@@ -79,11 +97,14 @@ impl Case {
         let own = rows.iter().zip(&simulated);
         let missed = own.map(|(row, s)| row.measured - s).collect();
         let probe = test.facts.probe_noise.unwrap_or(PROBE);
-        let (still, coefficients) = grouped(&setup, &stations, &rows)?;
+        let tried = tried(&setup, &stations)?;
+        let coefficients = tried.coefficients.iter();
         Ok(Self {
-            still,
-            coefficients,
-            compliance: compliances(&setup, &setup.robot, &stations)?,
+            still: seen(&rows, &tried.still),
+            coefficients: coefficients.map(|moved| seen(&rows, moved)).collect(),
+            answer: tried.answer,
+            holds: holds(&setup, &setup.robot, &stations)?,
+            stated: OnceLock::new(),
             spread: spreads(&stations, &rows, probe),
             missed,
             simulated,
@@ -102,10 +123,15 @@ impl Case {
             .collect()
     }
 
-    /// How much more than in first order these causes change the rows, m: the cut is milled again with them,
-    /// and the force gives way.
-    fn beyond_first_order(&self, about: &[Blamed]) -> Vec<f64> {
+    /// How much more than in first order these causes and uncertain numbers change the rows, m: the cut is milled
+    /// again with them, and the force gives way.
+    fn beyond_first_order(&self, about: &[Blamed], uncertain: &[f64]) -> Vec<f64> {
         let mut setup = self.setup.clone();
+        let known = self.stated().uncertain.iter().zip(uncertain);
+        let known: Vec<(&Nuisance, f64)> = known
+            .filter(|((known, _), amount)| uncertain::put(known, **amount, &mut setup))
+            .map(|((_, nuisance), amount)| (nuisance, *amount))
+            .collect();
         let altered: Vec<&Blamed> = about
             .iter()
             .filter(|blamed| {
@@ -113,23 +139,38 @@ impl Case {
                     || robot::alter(self, blamed, &mut setup)
             })
             .collect();
-        let again = match altered.is_empty() {
+        let again = match altered.is_empty() && known.is_empty() {
             true => None,
-            false => still(&setup, &self.stations, &self.rows).ok(),
+            false => still(&setup, &self.stations).ok(),
         };
         let Some(again) = again else {
             return vec![0.0; self.rows.len()];
         };
-        let linear = |row: usize| altered.iter().map(|b| b.part[row]).sum::<f64>();
+        let again = self.seen(&again);
+        let linear = |row: usize| {
+            let causes: f64 = altered.iter().map(|b| b.part[row]).sum();
+            causes + known.iter().map(|(n, a)| a * n.column[row]).sum::<f64>()
+        };
         (0..self.rows.len())
             .map(|row| again[row] - self.still[row] - linear(row))
             .collect()
     }
 
-    /// A displacement of the tool at every station, as the rows see it.
+    /// A displacement of the surface at every station, as the rows see it.
     fn seen(&self, moved: &[V3]) -> Vec<f64> {
-        let each = self.rows.iter();
-        each.map(|row| dot(row.across, moved[row.station]))
-            .collect()
+        seen(&self.rows, moved)
     }
+
+    /// The same of the tool, to which the cut answers.
+    fn answered(&self, moved: &[V3]) -> Vec<f64> {
+        let each = moved.iter().zip(&self.answer);
+        let answered: Vec<V3> = each.map(|(m, answer)| rotate(answer, *m)).collect();
+        self.seen(&answered)
+    }
+}
+
+fn seen(rows: &[Row], moved: &[V3]) -> Vec<f64> {
+    let each = rows.iter();
+    each.map(|row| dot(row.across, moved[row.station]))
+        .collect()
 }

@@ -1,10 +1,10 @@
-//! The robot of a milled part: what another one would leave on the part, under the same force.
+//! The robot of a milled part: what another one would leave on the part.
 
 use super::Case;
-use super::stations::compliances;
+use super::hold::holds;
 use crate::findings::engine::Blamed;
 use crate::findings::physics::{self, OnRobot};
-use crate::ground::spatial::{V3, dot};
+use crate::ground::spatial::{V3, sub};
 use crate::process::setup::Setup;
 use crate::robot::Robot;
 
@@ -31,14 +31,14 @@ impl OnRobot for Case {
     }
 
     fn change(&self, robot: &Robot) -> Vec<f64> {
-        let Ok(other) = compliances(&self.setup, robot, &self.stations) else {
+        let Ok(other) = holds(&self.setup, robot, &self.stations) else {
             return Vec::new();
         };
-        let pairs = other.iter().zip(&self.compliance).zip(&self.stations);
+        let pairs = other.iter().zip(&self.holds).zip(&self.stations);
         let moved: Vec<V3> = pairs
-            .map(|((a, b), s)| [0, 1, 2].map(|k| dot(a[k], s.force) - dot(b[k], s.force)))
+            .map(|((a, b), s)| sub(a.under(s.force), b.under(s.force)))
             .collect();
-        self.seen(&moved)
+        self.answered(&moved)
     }
 
     fn noise(&self) -> f64 {

@@ -2,14 +2,10 @@
 //! surface shows, and how well a simulation knows them.
 
 use crate::ground::problem::{Outcome, Problem};
-use crate::ground::spatial::{M3, V3, cross, dot, norm, sub, unit};
+use crate::ground::spatial::{V3, cross, norm, sub, unit};
 use crate::measurement::milled_part::{At, PartTest, Reading};
-use crate::motion::elastic;
-use crate::process::pose::Carrier;
 use crate::process::run::Outcome as Milled;
-use crate::process::setup::{Setup, Support};
-use crate::robot::Robot;
-use rayon::prelude::*;
+use crate::process::setup::Setup;
 
 /// A probed place.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,7 +30,7 @@ pub struct Station {
     pub force: V3,
     /// Simulated deviation of the tool, m, workpiece frame.
     pub deviation: V3,
-    /// By how much that differs over `NEAR`, m.
+    /// By how much that differs over `STEEP`, m.
     pub steep: f64,
     /// Measured deviation, m; NaN where a component was not probed.
     pub measured: V3,
@@ -53,17 +49,14 @@ pub struct Row {
     pub measured: f64,
 }
 
-/// Distance over which a simulated deviation is called steep, and how well a place is known, m.
+/// How well a place is known, m.
 const NEAR: f64 = 0.25e-3;
+/// Distance over which a simulated deviation is called steep, m: as far as a tool that gives way is ahead or behind.
+const STEEP: f64 = 0.15e-3;
 /// A component that a direction hardly has may be missing.
 const HARDLY: f64 = 0.02;
-/// Share of a simulated deviation that the laws of the cut do not know (the force's feedback on the depth,
-/// `mill.md`: 3 to 9 % where it is left out of the changes).
-const LAW: f64 = 0.03;
-/// Relative change at which coefficients are tried.
-const TRIED: f64 = 0.1;
-/// Coefficients of one name: tangential, radial and axial cutting, the edge.
-pub(super) const GROUPS: [&[usize]; 4] = [&[0], &[1], &[2], &[3, 4, 5]];
+/// Share of a simulated deviation that the laws of the cut do not know.
+const LAW: f64 = 0.015;
 
 /// The stations of a test, those where nothing is cut left out.
 ///
@@ -135,7 +128,7 @@ fn station(reading: &Reading, time_s: f64, setup: &Setup, milled: &Milled) -> Op
         setup.way.at(time_s + 1e-3).tip,
         setup.way.at(time_s - 1e-3).tip,
     )) / 2e-3;
-    let near = NEAR / speed.max(1e-4);
+    let near = STEEP / speed.max(1e-4);
     let [before, after] = [-near, near].map(|d| milled.deviation_at(time_s + d));
     (norm(force) > 0.0).then(|| Station {
         time_s,
@@ -181,84 +174,4 @@ pub(super) fn spreads(stations: &[Station], rows: &[Row], probe: f64) -> Vec<f64
         (probe * probe + law * law + s.steep * s.steep).sqrt()
     };
     rows.iter().map(of).collect()
-}
-
-/// What springs alone leave at every row, m.
-///
-/// # Errors
-/// As a run of the job.
-pub(super) fn still(setup: &Setup, stations: &[Station], rows: &[Row]) -> Outcome<Vec<f64>> {
-    let (milled, _) = setup.run(Support::Static, |_| {})?;
-    let at = |row: &Row| {
-        let time = stations[row.station].time_s;
-        dot(row.across, milled.deviation_at(time))
-    };
-    Ok(rows.iter().map(at).collect())
-}
-
-/// What springs alone leave at every row, m, and its change by each group of coefficients, per relative
-/// change of one.
-///
-/// # Errors
-/// As a run of the job.
-pub(super) fn grouped(
-    setup: &Setup,
-    stations: &[Station],
-    rows: &[Row],
-) -> Outcome<(Vec<f64>, Vec<Vec<f64>>)> {
-    let run = |group: Option<&&[usize]>| {
-        let mut setup = setup.clone();
-        let changed = group.into_iter().flat_map(|g| g.iter());
-        changed.for_each(|k| setup.material.coefficients[*k] *= 1.0 + TRIED);
-        still(&setup, stations, rows)
-    };
-    let runs: Vec<Outcome<Vec<f64>>> = (0..=GROUPS.len())
-        .into_par_iter()
-        .map(|i| run(i.checked_sub(1).map(|i| &GROUPS[i])))
-        .collect();
-    let mut runs = runs.into_iter().collect::<Outcome<Vec<_>>>()?;
-    let base = runs.remove(0);
-    let change = |run: &Vec<f64>| {
-        let pairs = run.iter().zip(&base);
-        pairs.map(|(a, b)| (a - b) / TRIED).collect()
-    };
-    let changes = runs.iter().map(change).collect();
-    Ok((base, changes))
-}
-
-/// Compliance of the tool of a robot at every station, m/N, workpiece frame.
-///
-/// # Errors
-/// A robot in which nothing is elastic.
-pub(super) fn compliances(setup: &Setup, robot: &Robot, stations: &[Station]) -> Outcome<Vec<M3>> {
-    let mut carrier = Carrier::new(elastic(robot), setup.workpiece);
-    let at = |s: &Station| Ok(carrier.held(&s.joints)?.compliance());
-    stations.iter().map(at).collect()
-}
-
-/// One spring at a station.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Lever {
-    /// Motion of the tool per radian of it, m/rad, workpiece frame.
-    pub motion: V3,
-    /// Torque of the cut on it, N·m.
-    pub cut: f64,
-    /// Torque of the weight on it, N·m.
-    pub weight: f64,
-}
-
-/// A spring at every station; none where the robot has no such site.
-pub(super) fn levers(setup: &Setup, stations: &[Station], site: &str) -> Option<Vec<Lever>> {
-    let mut carrier = setup.carrier();
-    let at = |s: &Station| {
-        let held = carrier.held(&s.joints).ok()?;
-        let own = held.linear.names.iter().position(|name| name == site)?;
-        let motion = held.linear.tool[own];
-        Some(Lever {
-            motion,
-            cut: dot(motion, s.force),
-            weight: held.weight[own],
-        })
-    };
-    stations.iter().map(at).collect()
 }

@@ -1,0 +1,58 @@
+//! What may be off although nothing is wrong: springs and coefficients within what is known of them, and the datum.
+
+use super::Case;
+use crate::causes::places::soften;
+use crate::findings::engine::Nuisance;
+use crate::findings::physics;
+use crate::process::setup::Setup;
+
+/// A number that is merely uncertain.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Known {
+    /// Compliance of a spring, relative.
+    Spring(String),
+    /// A coefficient of the cut, relative.
+    Coefficient(usize),
+    /// Where the part was found again, along one axis, m.
+    Datum,
+}
+
+/// Standard deviation of a datum that states none, m.
+const DATUM: f64 = 10e-6;
+
+/// All of a case that the readings show, each with what one unit of it adds to them.
+pub(super) fn uncertain(case: &Case) -> Vec<(Known, Nuisance)> {
+    let sites = physics::shown_springs(case);
+    let springs = sites.into_iter().map(Known::Spring);
+    let springs = springs.zip(physics::springs(case));
+    let stds = case.planned.coefficient_stds();
+    let coefficient = |(i, column): (usize, &Vec<f64>)| {
+        let spread = stds.get(i).copied().flatten().unwrap_or(physics::USUAL);
+        (
+            Known::Coefficient(i),
+            Nuisance {
+                column: column.clone(),
+                spread,
+            },
+        )
+    };
+    let coefficients = case.coefficients.iter().enumerate().map(coefficient);
+    let spread = case.test.facts.datum_std.unwrap_or(DATUM).max(1e-9);
+    let datum = (0..3).map(|k| {
+        let column = case.column(|_, row| row.across[k]);
+        (Known::Datum, Nuisance { column, spread })
+    });
+    let all = springs.chain(coefficients).chain(datum);
+    all.filter(|(_, n)| n.column.iter().any(|x| x.abs() > 1e-12))
+        .collect()
+}
+
+/// Puts an amount of it in place; false where that changes neither robot nor cut.
+pub(super) fn put(known: &Known, amount: f64, setup: &mut Setup) -> bool {
+    match known {
+        Known::Spring(site) => soften(&mut setup.robot, site, amount),
+        Known::Coefficient(k) => setup.material.coefficients[*k] *= (1.0 + amount).max(0.05),
+        Known::Datum => return false,
+    }
+    true
+}
