@@ -71,14 +71,10 @@ pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
         spring.and_then(|c| joint.other_stiffness(c, &others(""))),
         joint.zero(answer.discrepancy.noise_rms),
     ];
-    for scale in scales.into_iter().flatten() {
-        answer.causes.push(scale);
-        answer.verdict = match answer.verdict {
-            Verdict::Sufficient | Verdict::CannotTell => Verdict::Explained,
-            Verdict::UnknownCause => Verdict::PartlyExplained,
-            other => other,
-        };
-    }
+    scales
+        .into_iter()
+        .flatten()
+        .for_each(|s| add(&mut answer, s));
     let simulated = joint.simulated();
     let missed = difference(&joint.data.twist, &simulated);
     answer.discrepancy.rms = rms(&missed);
@@ -93,6 +89,16 @@ pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
         compliance,
         data: joint.data,
     }
+}
+
+/// Names a cause beside what the engine found.
+fn add(answer: &mut Answer, cause: Cause) {
+    answer.causes.push(cause);
+    answer.verdict = match answer.verdict {
+        Verdict::Sufficient | Verdict::CannotTell => Verdict::Explained,
+        Verdict::UnknownCause => Verdict::PartlyExplained,
+        other => other,
+    };
 }
 
 /// A delay as all accounts of the rest have it, and what is known as twist as the torque that it is.

@@ -69,16 +69,21 @@ impl Joint {
             noise: Coloured::unit(data.rows()),
             data,
         };
-        let mut span = joint.base();
-        span.push(joint.data.torque_rate.clone());
-        let suspects = joint.suspects();
-        let few = |s: &Suspect| s.members.len().div_ceil(EACH);
+        joint.noise = Coloured::of(&joint.data.twist, &joint.beside_noise());
+        joint
+    }
+
+    /// A few shapes of everybody, beside which noise is sought.
+    fn beside_noise(&self) -> Vec<Vec<f64>> {
+        let mut span = self.base();
+        span.push(self.data.torque_rate.clone());
+        let suspects = self.suspects();
+        let every = |s: &Suspect| s.members.len().div_ceil(EACH).max(1);
         let members = suspects
             .iter()
-            .flat_map(|s| s.members.iter().step_by(few(s)));
+            .flat_map(|s| s.members.iter().step_by(every(s)));
         span.extend(members.flat_map(|m| m.columns.iter().cloned()));
-        joint.noise = Coloured::of(&joint.data.twist, &span);
-        joint
+        span
     }
 
     /// Columns that every model has: zero, torque, the inertia of the rotor, and the quick part of the torque, with

@@ -28,12 +28,14 @@ const STEADY: f64 = 1.2;
 /// Ratio of fast to slow speeds that allows the comparison.
 const CONTRAST: f64 = 2.5;
 
-/// Share of the twist's rms beside torque below which a ripple is none to speak of: an encoder's own by its order ...
-const SMALL: f64 = 0.1;
-/// ... one that is an encoder's only because it is steady, as that of some teeth is ...
-const SMALL_IF_STEADY: f64 = 0.5;
-/// ... and one that all gears have.
+/// Share of the twist's rms beside torque below which a ripple is none to speak of, and below which one of teeth is that
+/// all gears have.
+const SMALL: f64 = 0.02;
 const SMALL_OF_TEETH: f64 = 0.3;
+/// Share of what is left beside delay, friction and gap that a ripple must be: an encoder's own by its order, and
+/// one that is an encoder's only because it is steady, as that of some teeth is (two fifths of the variance).
+const OF_REST: f64 = 0.3;
+const OF_REST_IF_STEADY: f64 = 0.65;
 
 /// A period that a residual suggests.
 #[derive(Debug, Clone)]
@@ -55,7 +57,7 @@ pub const TRIED: f64 = (BINS / 8) as f64;
 pub fn waves(data: &Channels, residual: &[f64], ratio: Option<f64>) -> Vec<Wave> {
     let rows = moving(data);
     let base = [vec![1.0; data.rows()], data.torque.clone()];
-    let twist = rms(&left(&base, &data.twist));
+    let (twist, rest) = (rms(&left(&base, &data.twist)), rms(residual));
     let mut found: Vec<Wave> = Vec::new();
     for angle in [&data.link, &data.motor] {
         for order in peaks(angle, residual, &rows) {
@@ -64,10 +66,10 @@ pub fn waves(data: &Channels, residual: &[f64], ratio: Option<f64>) -> Vec<Wave>
                 continue;
             }
             let order = refined(angle, residual, &rows, order);
-            let (of_encoder, least) = whose(data, residual, angle, order, &rows, ratio);
+            let whose = whose(data, residual, angle, order, &rows, ratio);
             found.push(Wave {
-                of_encoder,
-                is_small: size(&wave(angle, order), residual) < least * twist,
+                of_encoder: whose != Whose::Teeth,
+                is_small: size(&wave(angle, order), residual) < whose.least(twist, rest),
                 columns: wave(angle, order),
                 order,
             });
@@ -162,7 +164,29 @@ fn spectrum(angle: &[f64], residual: &[f64], rows: &[usize], low: f64, width: f6
     bins.iter().map(|z| z.norm_sqr()).collect()
 }
 
-/// Whether an order is an encoder's own, or only in step with the joint, and how large it must be to count.
+/// Who makes a ripple.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Whose {
+    /// An encoder, by its order.
+    Encoder,
+    /// An encoder, because it is as large in slow as in fast motion.
+    Steady,
+    /// Meshing teeth.
+    Teeth,
+}
+
+impl Whose {
+    /// How large it must be to count.
+    fn least(self, twist: f64, rest: f64) -> f64 {
+        match self {
+            Self::Encoder => (SMALL * twist).max(OF_REST * rest),
+            Self::Steady => (SMALL * twist).max(OF_REST_IF_STEADY * rest),
+            Self::Teeth => SMALL_OF_TEETH * twist,
+        }
+    }
+}
+
+/// Whether an order is an encoder's own, or only in step with the joint.
 fn whose(
     data: &Channels,
     residual: &[f64],
@@ -170,7 +194,7 @@ fn whose(
     order: f64,
     rows: &[usize],
     ratio: Option<f64>,
-) -> (bool, f64) {
+) -> Whose {
     let near = 0.5 * resolution(angle);
     let of_motor = ratio.is_some_and(|r| {
         let turns = (order / r).round();
@@ -182,10 +206,10 @@ fn whose(
     // slow and fast motion must both have been seen, unless the order speaks for itself
     let seen = contrast > CONTRAST;
     match (few, of_motor, seen) {
-        (true, ..) | (_, true, false) => (true, SMALL),
-        (_, true, true) if even => (true, SMALL),
-        (_, false, true) if even => (true, SMALL_IF_STEADY),
-        _ => (false, SMALL_OF_TEETH),
+        (true, ..) | (_, true, false) => Whose::Encoder,
+        (_, true, true) if even => Whose::Encoder,
+        (_, false, true) if even => Whose::Steady,
+        _ => Whose::Teeth,
     }
 }
 
