@@ -59,14 +59,21 @@ pub fn compliance(joint: &Joint, parts: &[Vec<f64>]) -> Result<Compliance, &'sta
     Ok(Compliance { value, std })
 }
 
-/// Columns beside the torque: as few as found, with friction, and with slow structure over the angle.
+/// Columns beside the torque: as few as found, with friction, with slow structure over the angle, and
+/// with more of it and a drift.
 fn accounts(joint: &Joint, parts: &[Vec<f64>]) -> Vec<Vec<Vec<f64>>> {
     let data = &joint.data;
     let few = [&joint.beside_torque(), parts].concat();
     let rubbed = with(&with(&few, &sign(data)), &data.speed);
     let slow = waves(&unit_range(&data.motor), 2);
     let full = [rubbed.clone(), slow].concat();
-    vec![few, rubbed, full]
+    let slower = [
+        waves(&unit_range(&data.motor), 4),
+        waves(&unit_range(&data.time), 2),
+    ]
+    .concat();
+    let fullest = [rubbed.clone(), slower].concat();
+    vec![few, rubbed, full, fullest]
 }
 
 fn with(columns: &[Vec<f64>], one: &[f64]) -> Vec<Vec<f64>> {
