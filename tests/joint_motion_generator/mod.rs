@@ -24,6 +24,9 @@ pub struct Hidden {
     pub jump: (f64, f64),
     /// Constant difference of the zeros, rad.
     pub zero: f64,
+    /// What no cause of the library makes: a drift of a zero, rad, a spring stiffer by this share under load, a slow
+    /// error over the joint angle, rad, and a ripple that grows with the speed, rad.
+    pub strange: [f64; 4],
 }
 
 pub const NAMES: [&str; 9] = [
@@ -37,6 +40,9 @@ pub const NAMES: [&str; 9] = [
     "encoder_ripple",
     "sensor_offset",
 ];
+
+/// What no cause of the library makes.
+pub const STRANGE: [&str; 4] = ["drift", "stiffening", "gear_error", "teeth"];
 
 /// A joint and its motion.
 struct Plant {
@@ -124,23 +130,28 @@ impl Plant {
 struct Spring {
     k: f64,
     half_gap: f64,
+    stiffer: f64,
+    load: f64,
     sliders: [(f64, f64, f64); 4],
 }
 
 impl Spring {
-    fn new(k: f64, gap: f64, yields: f64) -> Self {
+    fn new(k: f64, gap: f64, yields: f64, (stiffer, load): (f64, f64)) -> Self {
         // sliders that yield one after the other: a smooth loop
         let at = |share: f64| (yields * share, 0.3 * k, 0.0);
         Self {
             k,
             half_gap: 0.5 * gap,
+            stiffer,
+            load,
             sliders: [at(0.1), at(0.2), at(0.3), at(0.4)],
         }
     }
 
     fn torque(&mut self, twist: f64, change: f64) -> f64 {
         let beyond = twist - twist.clamp(-self.half_gap, self.half_gap);
-        let mut torque = self.k * beyond;
+        let most = self.k * beyond / self.load;
+        let mut torque = self.k * beyond * (1.0 + self.stiffer * most * most);
         for (most, stiffness, force) in &mut self.sliders {
             if *most > 0.0 {
                 *force = (*force + *stiffness * change).clamp(-*most, *most);
@@ -164,6 +175,7 @@ pub fn hidden(name: &'static str, r: &mut Random, k: f64, load: f64) -> Hidden {
         ripple: (0.0, 0.0),
         jump: (0.0, 0.5),
         zero: 0.0,
+        strange: [0.0; 4],
     };
     let size = r.log_uniform(3e-5, 2e-4);
     let sign = if r.unit() < 0.5 { -1.0 } else { 1.0 };
@@ -215,7 +227,14 @@ pub fn hidden(name: &'static str, r: &mut Random, k: f64, load: f64) -> Hidden {
             jump: (sign * size, r.uniform(0.25, 0.75)),
             ..none
         },
-        _ => none,
+        _ => Hidden {
+            strange: std::array::from_fn(|i| match (STRANGE[i] == name, i) {
+                (false, _) => 0.0,
+                (true, 1) => r.uniform(0.5, 2.0),
+                (true, _) => sign * size,
+            }),
+            ..none
+        },
     }
 }
 
@@ -248,6 +267,7 @@ fn simulate(plant: &Plant, hidden: &Hidden, r: &mut Random) -> (Vec<[f64; 5]>, f
         plant.k * (1.0 - hidden.slider / plant.gravity),
         hidden.gap,
         hidden.slider,
+        (hidden.strange[1], plant.gravity),
     );
     let weight = |q: f64| {
         plant.gravity
@@ -349,6 +369,9 @@ fn sampled(
                 } else {
                     0.0
                 };
+            let [drift, _, gear, teeth] = hidden.strange;
+            link += drift * (-t / (0.3 * SECONDS)).exp() + gear * (2.6 * motor + 0.4).sin();
+            link += teeth * v.abs() * (0.77 * plant.ratio * motor).sin();
             link += slow + 0.3 * plant.noise * r.normal();
             [t, rough(motor), rough(link), torque / plant.ratio, v]
         })

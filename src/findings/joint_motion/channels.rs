@@ -1,6 +1,7 @@
 //! The channels of one joint as they are compared: averaged down, with speed and acceleration.
 
 use crate::fit::observation::reduce;
+use crate::ground::stats::mean;
 use crate::measurement::joint_motion::JointRecord;
 use crate::signal::outliers;
 
@@ -19,6 +20,10 @@ pub struct Channels {
     pub twist: Vec<f64>,
     /// Motor torque, smoothed, N·m.
     pub torque: Vec<f64>,
+    /// What smoothing took from it, N·m.
+    pub quick: Vec<f64>,
+    /// Its rate, N·m/s.
+    pub torque_rate: Vec<f64>,
     /// Speed, smoothed, rad/s.
     pub speed: Vec<f64>,
     /// Acceleration, smoothed, rad/s².
@@ -31,6 +36,7 @@ pub struct Channels {
     pub zero: f64,
     /// Wild readings that were replaced by their neighbours.
     pub wild: usize,
+    width: usize,
 }
 
 impl Channels {
@@ -50,9 +56,14 @@ impl Channels {
         let width = smoothing_rows(&time);
         let speed = smoothed(&slope(&time, &motor), width);
         let acceleration = smoothed(&slope(&time, &speed), width);
+        let raw = reduce(&joint.torque, block);
+        let torque = smoothed(&raw, width);
         Self {
             twist,
-            torque: smoothed(&reduce(&joint.torque, block), width),
+            quick: raw.iter().zip(&torque).map(|(r, t)| r - t).collect(),
+            torque_rate: slope(&time, &torque),
+            torque,
+            width,
             speed,
             acceleration,
             motor,
@@ -61,6 +72,11 @@ impl Channels {
             zero,
             wild: wild.len(),
         }
+    }
+
+    /// A column as smooth as the torque.
+    pub fn smoothed(&self, column: &[f64]) -> Vec<f64> {
+        smoothed(column, self.width)
     }
 
     /// Number of rows.
@@ -74,19 +90,15 @@ impl Channels {
     }
 }
 
-/// Mean of values.
-pub fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len().max(1) as f64
-}
-
-/// Root mean square of values.
-pub fn rms(values: &[f64]) -> f64 {
-    (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
-}
-
 /// Largest magnitude.
 pub fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |m: f64, v| m.max(v.abs()))
+}
+
+/// Smallest and largest value.
+pub fn range(values: &[f64]) -> (f64, f64) {
+    let wider = |(l, h): (f64, f64), v: &f64| (l.min(*v), h.max(*v));
+    values.iter().fold((f64::MAX, f64::MIN), wider)
 }
 
 fn smoothing_rows(time: &[f64]) -> usize {

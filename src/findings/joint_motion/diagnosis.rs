@@ -1,18 +1,15 @@
 //! The diagnosis of a file: its joints one by one, and one answer for all.
 
-use super::channels::rms;
-use super::joint::{JointFinding, Nominal, diagnose_joint};
-use super::parameters::{parameters, remarks};
-use crate::findings::answer::{Answer, Cause, Discrepancy, Structure, Verdict};
-use crate::findings::load_cycle::structure::binned;
+use super::finding::{JointFinding, diagnose_joint};
+use super::joint::Nominal;
+use super::remarks::{parameters, remarks};
+use crate::findings::answer::{Answer, Discrepancy, Structure, Verdict};
 use crate::fit::parameter::{Identified, Status};
 use crate::fit::suitability::joint_motion::doubts;
+use crate::ground::stats::{mean, rms};
 use crate::measurement::joint_motion::{JointMotion, JointRecord};
 use crate::robot::Robot;
 use rayon::prelude::*;
-
-/// Share of the discrepancy above which what was found is not the story.
-const NOT_THE_STORY: f64 = 0.5;
 
 /// What was found in a file.
 pub struct MotionDiagnosis {
@@ -35,22 +32,20 @@ pub fn diagnose(file: &JointMotion, robot: Option<&Robot>) -> MotionDiagnosis {
         .collect();
     let doubts = doubts(file, |joint| nominal(joint, robot).stiffness);
     let answer = answer(&joints).doubted(doubts);
-    let found = joints.iter().flat_map(parameters);
-    match answer.is_withheld() {
-        false => MotionDiagnosis {
-            answer,
-            parameters: found.collect(),
-            remarks: remarks(&joints),
-            joints,
-        },
-        true => MotionDiagnosis {
-            answer,
-            parameters: found
-                .map(|p| p.without_value(Status::NotIdentifiable))
-                .collect(),
-            remarks: Vec::new(),
-            joints,
-        },
+    let (mut parameters, mut remarks): (Vec<Identified>, _) = (
+        joints.iter().flat_map(parameters).collect(),
+        remarks(&joints),
+    );
+    if answer.is_withheld() {
+        let withheld = |p: Identified| p.without_value(Status::NotIdentifiable);
+        parameters = parameters.into_iter().map(withheld).collect();
+        remarks.clear();
+    }
+    MotionDiagnosis {
+        answer,
+        parameters,
+        remarks,
+        joints,
     }
 }
 
@@ -65,17 +60,21 @@ fn nominal(joint: &JointRecord, robot: Option<&Robot>) -> Nominal {
     }
 }
 
+/// Candidates that are told of every joint.
+const CANDIDATES: usize = 4;
+
 fn answer(joints: &[JointFinding]) -> Answer {
+    let answers = || joints.iter().map(|j| &j.answer);
     let pooled = |of: &dyn Fn(&JointFinding) -> f64| {
-        let squares: f64 = joints.iter().map(|j| of(j).powi(2)).sum();
-        (squares / joints.len().max(1) as f64).sqrt()
+        let squares: Vec<f64> = joints.iter().map(|j| of(j).powi(2)).collect();
+        mean(&squares).sqrt()
     };
-    let missed = |j: &JointFinding| rms(&j.missed());
     let left = |j: &JointFinding| rms(&j.residual());
-    let noise_rms = pooled(&|j| j.noise_rms);
-    let all = pooled(&missed);
-    let share = (pooled(&left).powi(2) - noise_rms.powi(2)) / all.powi(2).max(f64::MIN_POSITIVE);
-    let mut causes: Vec<Cause> = joints.iter().flat_map(|j| j.named.causes.clone()).collect();
+    let noise_rms = pooled(&|j| j.answer.discrepancy.noise_rms);
+    let all = pooled(&|j| j.answer.discrepancy.rms);
+    let share =
+        (pooled(&left).powi(2) - noise_rms * noise_rms) / all.powi(2).max(f64::MIN_POSITIVE);
+    let mut causes: Vec<_> = answers().flat_map(|a| a.causes.clone()).collect();
     causes.sort_by(|a, b| {
         b.gain
             .reduction_percent
@@ -83,66 +82,60 @@ fn answer(joints: &[JointFinding]) -> Answer {
     });
     let worst = joints.iter().max_by(|a, b| left(a).total_cmp(&left(b)));
     Answer {
-        verdict: verdict(joints),
+        verdict: verdict(&answers().map(|a| a.verdict).collect::<Vec<_>>()),
         discrepancy: Discrepancy {
             rms: all,
             noise_rms,
-            place: place(joints),
+            place: at_each(joints, |a| &a.discrepancy.place),
         },
         causes,
-        groups: joints.iter().flat_map(|j| j.named.groups.clone()).collect(),
+        groups: answers().flat_map(|a| a.groups.clone()).collect(),
         unexplained: worst.map_or_else(Structure::default, |j| structure(j, share.clamp(0.0, 1.0))),
-        p_value: joints.iter().map(|j| j.p_value).fold(1.0, f64::min),
-        candidates: joints.iter().flat_map(|j| j.candidates.clone()).collect(),
+        p_value: answers().map(|a| a.p_value).fold(1.0, f64::min),
+        candidates: answers()
+            .flat_map(|a| a.candidates.iter().take(CANDIDATES).cloned())
+            .collect(),
         unit: "rad",
-        noise: joints
-            .iter()
-            .map(|j| format!("{} at {}", j.noise, j.site))
-            .collect::<Vec<_>>()
-            .join(", "),
+        noise: at_each(joints, |a| &a.noise),
         unstated: false,
         doubts: Vec::new(),
     }
 }
 
-fn place(joints: &[JointFinding]) -> String {
-    let mut places: Vec<&str> = joints.iter().map(|j| j.place).collect();
-    places.dedup();
-    match places.as_slice() {
-        [one] => (*one).into(),
-        _ => joints
-            .iter()
-            .map(|j| format!("{} at {}", j.place, j.site))
-            .collect::<Vec<_>>()
-            .join(", "),
+/// What is said of every joint, once where all say the same.
+fn at_each(joints: &[JointFinding], said: impl Fn(&Answer) -> &String) -> String {
+    let mut all: Vec<&String> = joints.iter().map(|j| said(&j.answer)).collect();
+    all.dedup();
+    match all.as_slice() {
+        [one] => (*one).clone(),
+        _ => {
+            let each = joints.iter();
+            let each = each.map(|j| format!("{} at {}", said(&j.answer), j.site));
+            each.collect::<Vec<_>>().join(", ")
+        }
     }
 }
 
 /// The residual of one joint over its torque and over time.
 fn structure(joint: &JointFinding, share: f64) -> Structure {
-    let residual = joint.residual();
-    let seen = joint.description.clone();
-    let plain = || "no pattern over speed, torque or angle that a known cause makes".into();
+    let own = &joint.answer.unexplained;
+    let seen = joint.seen.as_ref().unwrap_or(&own.description);
     Structure {
         share_of_variance: share,
-        shape: binned(&joint.data.torque, &residual),
-        over_time: binned(&joint.data.time, &residual),
-        description: format!("at {}: {}.", joint.site, seen.unwrap_or_else(plain)),
+        description: format!("at {}: {seen}.", joint.site),
+        ..own.clone()
     }
 }
 
-fn verdict(joints: &[JointFinding]) -> Verdict {
-    let any = |of: &dyn Fn(&JointFinding) -> bool| joints.iter().any(of);
-    let caused = any(&|j| !j.named.causes.is_empty());
-    let grouped = any(&|j| !j.named.groups.is_empty());
-    let left = any(&|j| j.is_left);
-    let story = any(&|j| j.is_left && j.share_left > NOT_THE_STORY);
-    match (caused, grouped, left) {
-        (false, false, true) => Verdict::UnknownCause,
-        (false, true, true) if story => Verdict::UnknownCause,
-        (true, _, true) | (false, true, true) => Verdict::PartlyExplained,
-        (false, false, false) => Verdict::Sufficient,
-        (false, true, false) => Verdict::CannotTell,
-        (true, _, false) => Verdict::Explained,
+/// The verdict on all joints: where one joint is explained and another is not, the file is in part.
+fn verdict(joints: &[Verdict]) -> Verdict {
+    let mut open: Vec<Verdict> = joints.to_vec();
+    open.retain(|v| *v != Verdict::Sufficient);
+    let is_left = |v: &Verdict| matches!(v, Verdict::UnknownCause | Verdict::PartlyExplained);
+    match open.as_slice() {
+        [] => Verdict::Sufficient,
+        [first, rest @ ..] if rest.iter().all(|v| v == first) => *first,
+        all if all.iter().any(is_left) => Verdict::PartlyExplained,
+        _ => Verdict::Explained,
     }
 }

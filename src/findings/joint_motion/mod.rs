@@ -1,26 +1,57 @@
 //! Motion of joints with an encoder on either side of the gear.
 //!
 //! The difference of the encoders is torsion under the torque transmitted, and whatever the
-//! instruments add. The way of a joint: channels (averaged, smoothed) → columns (what each cause would
-//! add) → ripple (periodic in an angle) → noise (its colour) → search (sets of causes by evidence) →
-//! unseen (gain on pieces of time held out) → stiffness (is it fixed at all?) → verdict.
+//! instruments add. Every joint is an experiment of the common engine ([`crate::findings::engine`]): channels
+//! (averaged, smoothed) → what the torque shows of friction, which periods and jumps the twist suggests → noise (its
+//! colour) → statement. Its own are the scales, which no column tells: a stiffness ([`stiffness`]) where every
+//! piece of the record and every account agree on it, and the constant zero.
 
-mod case;
+mod backlash;
 mod channels;
-mod columns;
+mod coulomb_friction;
 mod delay;
-mod description;
 mod diagnosis;
-mod evidence;
+mod encoder_ripple;
+mod experiment;
+mod finding;
+mod friction;
+mod hysteresis;
 mod joint;
-mod named;
-mod next;
+mod jumps;
 mod noise;
-mod parameters;
+mod patterns;
+mod projection;
+mod remarks;
 mod ripple;
+mod scales;
+mod sensor_offset;
 mod stiffness;
-mod unseen;
+mod time_skew;
+mod viscous_friction;
 
 pub use channels::Channels;
 pub use diagnosis::{MotionDiagnosis, diagnose};
-pub use joint::JointFinding;
+pub use experiment::judgement;
+pub use finding::JointFinding;
+pub use joint::Joint;
+
+use super::table::Effect;
+
+/// Every effect of this kind.
+pub const EFFECTS: &[Effect<Joint>] = &[
+    viscous_friction::EFFECT,
+    time_skew::EFFECT,
+    coulomb_friction::EFFECT,
+    backlash::EFFECT,
+    hysteresis::EFFECT,
+    encoder_ripple::EFFECT,
+    sensor_offset::EFFECT,
+    scales::STIFFNESS,
+];
+
+/// Whether a channel lies beyond a limit for a twenty-fifth of its rows on either side.
+fn balanced(values: &[f64], limit: f64) -> bool {
+    let share =
+        |sign: f64| values.iter().filter(|v| sign * **v > limit).count() * 25 > values.len();
+    share(1.0) && share(-1.0)
+}

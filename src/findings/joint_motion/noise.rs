@@ -1,121 +1,140 @@
-//! Noise first: what a generous span of everything cannot explain, and its colour.
+//! Noise first: what a span of everybody cannot explain, and its colour. Torque has noise too, which smoothing makes
+//! slow, so that the colour is of no family: it is the spectrum itself, in bands.
 
-use super::channels::Channels;
-use super::columns::{Atom, base, range};
-use crate::signal::colour::Colour;
+use super::projection::{orthonormal, without};
+use crate::findings::engine;
 use crate::signal::cosine::Cosine;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
+use std::f64::consts::PI;
+use std::sync::Arc;
 
-/// Slow functions of time in the span.
-const SLOW: usize = 8;
-/// Powers of the angle, of the torque and of the speed.
-const POWERS: i32 = 4;
+/// Readings without any noise leave nothing to divide by, rad.
+const LEAST: f64 = 1e-12;
+/// Rounds in which colour and what the span leaves under it are found in turn.
+const ROUNDS: usize = 3;
+/// Lines that a band must have beyond what the span takes ...
+const FREE: f64 = 16.0;
+/// ... and its upper edge over its lower one, at least.
+const WIDE: f64 = 1.3;
+/// Rows per column of the span, at least.
+const ROOM: usize = 4;
+/// Correlation of neighbours that is told.
+const CORRELATED: f64 = 0.1;
 
 /// The noise of a joint's record.
-pub struct Noise {
-    /// Its colour.
-    pub colour: Colour,
-    /// Whitened sum of squares that the span leaves.
-    pub saturated: f64,
-    /// Dimension of the span.
-    pub dimension: usize,
-    /// The planned transform.
-    pub cosine: Cosine,
+#[derive(Clone)]
+pub struct Coloured {
+    /// Standard deviation of every cosine coefficient, rad.
+    sigma: Vec<f64>,
+    cosine: Arc<Cosine>,
+    spread: Vec<f64>,
+    worth: f64,
 }
 
-impl Noise {
-    /// From the readings and every candidate.
-    pub fn of(data: &Channels, atoms: &[Atom]) -> Self {
-        let cosine = Cosine::new(data.rows());
-        let reading = transformed(&cosine, &data.twist);
-        let span: Vec<Vec<f64>> = span(data, atoms)
-            .iter()
-            .map(|c| transformed(&cosine, c))
-            .collect();
-        let mut colour = Colour::white(data.rows(), 1.0);
-        for _pass in 0..2 {
-            let (basis, left) = project(&span, &reading, &colour);
-            let free: Vec<f64> = (0..data.rows())
-                .map(|k| (1.0 - basis.row(k).norm_squared()).max(0.0))
-                .collect();
-            let left: Vec<f64> = left.iter().zip(&colour.sigma).map(|(r, s)| r * s).collect();
-            colour = floored(Colour::estimate(&left, &free));
-        }
-        let (basis, left) = project(&span, &reading, &colour);
+impl Coloured {
+    /// White noise of one radian.
+    pub fn unit(rows: usize) -> Self {
         Self {
-            colour,
-            saturated: left.norm_squared(),
-            dimension: basis.ncols(),
-            cosine,
+            sigma: vec![1.0; rows],
+            cosine: Arc::new(Cosine::new(rows)),
+            spread: vec![1.0; rows],
+            worth: 0.0,
         }
     }
 
-    /// A column in the domain where the noise is white.
-    pub fn whiten(&self, column: &[f64]) -> DVector<f64> {
-        let mut column = transformed(&self.cosine, column);
-        self.colour.whiten(&mut column);
-        DVector::from_vec(column)
+    /// Of readings, from what the span of these columns leaves; short records have room for the first of them only.
+    pub fn of(reading: &[f64], span: &[Vec<f64>]) -> Self {
+        let span = &span[..span.len().min(reading.len() / ROOM)];
+        let mut noise = Self::unit(reading.len());
+        for _ in 0..ROUNDS {
+            let white: Vec<Vec<f64>> = span.iter().map(|c| noise.white(c)).collect();
+            let basis = orthonormal(&white);
+            let left = without(&basis, DVector::from_vec(noise.white(reading)));
+            let taken = |k: usize| basis.iter().map(|b| b[k] * b[k]).sum::<f64>();
+            let line = |k: usize| {
+                (
+                    (left[k] * noise.sigma[k]).powi(2),
+                    (1.0 - taken(k)).max(0.0),
+                )
+            };
+            let lines: Vec<(f64, f64)> = (0..reading.len()).map(line).collect();
+            noise.sigma = coloured(&lines);
+            noise.worth = (reading.len() - basis.len()) as f64;
+        }
+        let square = noise.sigma.iter().map(|s| s * s).sum::<f64>() / reading.len() as f64;
+        noise.spread.fill(square.sqrt());
+        noise
+    }
+
+    fn white(&self, column: &[f64]) -> Vec<f64> {
+        let mut column = column.to_vec();
+        self.cosine.transform(&mut column);
+        column
+            .iter_mut()
+            .zip(&self.sigma)
+            .for_each(|(c, s)| *c /= s);
+        column
+    }
+
+    fn correlation(&self) -> f64 {
+        let n = self.sigma.len() as f64;
+        let (mut whole, mut next) = (f64::MIN_POSITIVE, 0.0);
+        for (k, s) in self.sigma.iter().enumerate() {
+            whole += s * s;
+            next += s * s * (PI * k as f64 / n).cos();
+        }
+        next / whole
     }
 }
 
-/// Readings without any noise leave nothing to divide by.
-fn floored(mut colour: Colour) -> Colour {
-    colour.sigma.iter_mut().for_each(|s| *s = s.max(1e-12));
-    colour
-}
-
-fn transformed(cosine: &Cosine, column: &[f64]) -> Vec<f64> {
-    let mut column = column.to_vec();
-    cosine.transform(&mut column);
-    column
-}
-
-fn span(data: &Channels, atoms: &[Atom]) -> Vec<Vec<f64>> {
-    let mut span = base(data);
-    span.extend(atoms.iter().flat_map(|a| a.columns.iter().cloned()));
-    for channel in [&data.motor, &data.torque, &data.speed, &data.acceleration] {
-        let (low, high) = range(channel);
-        let x = |v: &f64| (2.0 * v - low - high) / (high - low).max(f64::MIN_POSITIVE);
-        span.extend((2..=POWERS).map(|p| channel.iter().map(|v| x(v).powi(p)).collect()));
-    }
-    let n = data.rows() as f64;
-    let slow = |k: usize| {
-        let wave = |i: usize| (std::f64::consts::PI * k as f64 * (i as f64 + 0.5) / n).cos();
-        (0..data.rows()).map(wave).collect()
-    };
-    span.extend((1..=SLOW).map(slow));
-    span
-}
-
-/// An orthonormal basis of the whitened span, and what it leaves of the whitened reading.
-fn project(span: &[Vec<f64>], reading: &[f64], colour: &Colour) -> (DMatrix<f64>, DVector<f64>) {
-    let white = |c: &[f64]| {
-        let mut c = c.to_vec();
-        colour.whiten(&mut c);
-        DVector::from_vec(c)
-    };
-    let basis = orthonormal(span.iter().map(|c| white(c)).collect());
-    let left = without(&basis, white(reading));
-    (DMatrix::from_columns(&basis), left)
-}
-
-/// An orthonormal basis of columns; those that depend on others are left out.
-pub fn orthonormal(columns: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
-    let mut basis: Vec<DVector<f64>> = Vec::new();
-    for column in columns {
-        let size = column.norm();
-        let column = without(&basis, without(&basis, column));
-        if column.norm() > 1e-7 * size && size > 0.0 {
-            basis.push(column.normalize());
+/// Deviations from squares of lines and how free each was: means over bands, between them straight over the logarithm.
+fn coloured(lines: &[(f64, f64)]) -> Vec<f64> {
+    let mut bands: Vec<[f64; 2]> = Vec::new();
+    let (mut first, mut square, mut free) = (0, 0.0, 0.0);
+    for (k, line) in lines.iter().enumerate() {
+        (square, free) = (square + line.0, free + line.1);
+        let (low, high) = (first as f64 + 1.0, k as f64 + 1.0);
+        if free >= FREE && high >= WIDE * low {
+            bands.push([
+                0.5 * (low.ln() + high.ln()),
+                0.5 * (square / free).max(LEAST * LEAST).ln(),
+            ]);
+            (first, square, free) = (k + 1, 0.0, 0.0);
         }
     }
-    basis
+    if bands.is_empty() {
+        bands.push([0.0, 0.5 * (square / free.max(1.0)).max(LEAST * LEAST).ln()]);
+    }
+    let at = |k: usize| {
+        let x = (k as f64 + 1.0).ln();
+        let above = bands.iter().position(|b| b[0] > x).unwrap_or(bands.len());
+        let (a, b) = (bands.get(above.saturating_sub(1)), bands.get(above));
+        match (a, b) {
+            (Some(a), Some(b)) if above > 0 => a[1] + (b[1] - a[1]) * (x - a[0]) / (b[0] - a[0]),
+            (Some(end), _) => end[1],
+            (None, _) => LEAST.ln(),
+        }
+    };
+    (0..lines.len()).map(|k| at(k).exp()).collect()
 }
 
-/// A column less its projection on a basis.
-pub fn without(basis: &[DVector<f64>], mut column: DVector<f64>) -> DVector<f64> {
-    for b in basis {
-        column.axpy(-b.dot(&column), b, 1.0);
+impl engine::Noise for Coloured {
+    fn whiten(&self, column: &[f64]) -> Vec<f64> {
+        self.white(column)
     }
-    column
+
+    fn spread(&self) -> &[f64] {
+        &self.spread
+    }
+
+    fn rows(&self) -> f64 {
+        self.worth
+    }
+
+    fn describe(&self) -> String {
+        match self.correlation() {
+            r if r > CORRELATED => format!("correlated (neighbours {r:.2})"),
+            _ => "white".into(),
+        }
+    }
 }

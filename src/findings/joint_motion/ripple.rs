@@ -3,9 +3,9 @@
 //! An encoder closes on itself: its errors repeat with whole turns of its own shaft, and are as large
 //! in slow as in fast motion. Meshing teeth make orders of their own, whose size changes with speed.
 
-use super::channels::{Channels, largest};
-use super::columns::{Atom, Kind, periodic, range};
-use super::unseen::amplitudes;
+use super::channels::{Channels, largest, range};
+use super::projection::left;
+use crate::ground::stats::rms;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
@@ -28,21 +28,65 @@ const STEADY: f64 = 1.2;
 /// Ratio of fast to slow speeds that allows the comparison.
 const CONTRAST: f64 = 2.5;
 
-/// The periodic candidates that a residual suggests.
-pub fn ripples(data: &Channels, residual: &[f64], ratio: Option<f64>) -> Vec<Atom> {
+/// Share of the twist's rms beside torque below which a ripple is none to speak of, and below which one of teeth is that
+/// all gears have.
+const SMALL: f64 = 0.02;
+const SMALL_OF_TEETH: f64 = 0.3;
+/// Share of what is left beside delay, friction and gap that a ripple must be: an encoder's own by its order, and
+/// one that is an encoder's only because it is steady, as that of some teeth is (two fifths of the variance).
+const OF_REST: f64 = 0.3;
+const OF_REST_IF_STEADY: f64 = 0.65;
+
+/// A period that a residual suggests.
+#[derive(Debug, Clone)]
+pub struct Wave {
+    /// Periods per radian of its angle.
+    pub order: f64,
+    /// Whether it can be an encoder's own.
+    pub of_encoder: bool,
+    /// Whether it is too small to count beside what the torque leaves of the twist.
+    pub is_small: bool,
+    /// Sine and cosine.
+    pub columns: Vec<Vec<f64>>,
+}
+
+/// How many periods of an angle are tried.
+pub const TRIED: f64 = (BINS / 8) as f64;
+
+/// The periods of either angle that a residual suggests, the strongest of each first.
+pub fn waves(data: &Channels, residual: &[f64], ratio: Option<f64>) -> Vec<Wave> {
     let rows = moving(data);
-    let mut found: Vec<Atom> = Vec::new();
-    for (angle, per_turn) in [(&data.link, None), (&data.motor, ratio)] {
+    let base = [vec![1.0; data.rows()], data.torque.clone()];
+    let (twist, rest) = (rms(&left(&base, &data.twist)), rms(residual));
+    let mut found: Vec<Wave> = Vec::new();
+    for angle in [&data.link, &data.motor] {
         for order in peaks(angle, residual, &rows) {
-            if taken(&found, order, angle) {
+            let near = |w: &Wave| (w.order - order).abs() < resolution(angle);
+            if found.iter().any(near) {
                 continue;
             }
             let order = refined(angle, residual, &rows, order);
-            let own = whose(data, residual, angle, order, &rows, per_turn.or(ratio));
-            found.push(periodic(own, angle, order, BINS / 8));
+            let whose = whose(data, residual, angle, order, &rows, ratio);
+            found.push(Wave {
+                of_encoder: whose != Whose::Teeth,
+                is_small: size(&wave(angle, order), residual) < whose.least(twist, rest),
+                columns: wave(angle, order),
+                order,
+            });
         }
     }
     found
+}
+
+/// Rms of what a wave takes of a residual.
+fn size(wave: &[Vec<f64>], residual: &[f64]) -> f64 {
+    let less = rms(&left(wave, residual)).powi(2);
+    (rms(residual).powi(2) - less).max(0.0).sqrt()
+}
+
+fn wave(angle: &[f64], order: f64) -> Vec<Vec<f64>> {
+    let one = |f: fn(f64) -> f64| angle.iter().map(|q| f(order * q)).collect();
+    vec![one(f64::sin), one(f64::cos)]
 }
 
 fn moving(data: &Channels) -> Vec<usize> {
@@ -55,12 +99,6 @@ fn moving(data: &Channels) -> Vec<usize> {
 fn resolution(angle: &[f64]) -> f64 {
     let (low, high) = range(angle);
     TAU / (high - low).max(f64::MIN_POSITIVE)
-}
-
-fn taken(found: &[Atom], order: f64, angle: &[f64]) -> bool {
-    found
-        .iter()
-        .any(|a| (a.shape - order).abs() < resolution(angle))
 }
 
 /// Highest order that is sought: one sample per period at top speed. Speeds vary, so that orders beyond
@@ -100,13 +138,9 @@ fn peaks(angle: &[f64], residual: &[f64], rows: &[usize]) -> Vec<f64> {
 
 /// The order near a peak that fits the rows best: rows dwell unevenly over the angle, and shift peaks.
 fn refined(angle: &[f64], residual: &[f64], rows: &[usize], order: f64) -> f64 {
-    let misfit = |order: f64| {
-        let wave = periodic(Kind::Ripple, angle, order, 1).columns;
-        let columns: Vec<&[f64]> = wave.iter().map(Vec::as_slice).collect();
-        let a = amplitudes(&columns, residual, rows);
-        let left = |i: &usize| (residual[*i] - a[0] * wave[0][*i] - a[1] * wave[1][*i]).powi(2);
-        rows.iter().map(left).sum::<f64>()
-    };
+    let taken = |values: &[f64]| rows.iter().map(|i| values[*i]).collect::<Vec<f64>>();
+    let (angles, reading) = (taken(angle), taken(residual));
+    let misfit = |order: f64| rms(&left(&wave(&angles, order), &reading));
     let mut best = order;
     for width in [0.1, 0.02] {
         let step = width * resolution(angle);
@@ -130,6 +164,28 @@ fn spectrum(angle: &[f64], residual: &[f64], rows: &[usize], low: f64, width: f6
     bins.iter().map(|z| z.norm_sqr()).collect()
 }
 
+/// Who makes a ripple.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Whose {
+    /// An encoder, by its order.
+    Encoder,
+    /// An encoder, because it is as large in slow as in fast motion.
+    Steady,
+    /// Meshing teeth.
+    Teeth,
+}
+
+impl Whose {
+    /// How large it must be to count.
+    fn least(self, twist: f64, rest: f64) -> f64 {
+        match self {
+            Self::Encoder => (SMALL * twist).max(OF_REST * rest),
+            Self::Steady => (SMALL * twist).max(OF_REST_IF_STEADY * rest),
+            Self::Teeth => SMALL_OF_TEETH * twist,
+        }
+    }
+}
+
 /// Whether an order is an encoder's own, or only in step with the joint.
 fn whose(
     data: &Channels,
@@ -138,7 +194,7 @@ fn whose(
     order: f64,
     rows: &[usize],
     ratio: Option<f64>,
-) -> Kind {
+) -> Whose {
     let near = 0.5 * resolution(angle);
     let of_motor = ratio.is_some_and(|r| {
         let turns = (order / r).round();
@@ -149,13 +205,11 @@ fn whose(
     let even = slow < STEADY * fast && fast < STEADY * slow;
     // slow and fast motion must both have been seen, unless the order speaks for itself
     let seen = contrast > CONTRAST;
-    let steady = match seen {
-        true => even,
-        false => of_motor,
-    };
-    match few || steady {
-        true => Kind::Ripple,
-        false => Kind::Mesh,
+    match (few, of_motor, seen) {
+        (true, ..) | (_, true, false) => Whose::Encoder,
+        (_, true, true) if even => Whose::Encoder,
+        (_, false, true) if even => Whose::Steady,
+        _ => Whose::Teeth,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Diagnosed, Source};
 use crate::findings::Answer;
-use crate::findings::joint_motion::{JointFinding, MotionDiagnosis, diagnose};
+use crate::findings::joint_motion::{JointFinding, MotionDiagnosis, diagnose, judgement};
 use crate::fit::joint_motion_store::{SCHEMA, StoredCause, StoredMotion, StoredValue};
 use crate::ground::problem::Outcome;
 use crate::measurement::joint_motion::JointMotion;
@@ -74,6 +74,7 @@ impl Diagnosed for Motion {
         let mut map = Map::new();
         map.insert("parameters".into(), json!(self.found.parameters));
         map.insert("remarks".into(), json!(self.found.remarks));
+        map.insert("judgement".into(), json!(judgement()));
         map
     }
 }

@@ -108,7 +108,9 @@ pub type Diagnose = fn(&Path) -> Outcome<Box<dyn Diagnosed>>;
 /// Every kind: its name in the front matter, how it is diagnosed, and the effects of its own.
 pub const KINDS: &[(&str, Diagnose, Table)] = &[
     ("load-cycle", load_cycle::diagnosed, of_all),
-    ("joint-motion", joint_motion::diagnosed, of_all),
+    ("joint-motion", joint_motion::diagnosed, |k| {
+        of(k, findings::joint_motion::EFFECTS)
+    }),
     ("workspace", workspace::diagnosed, of_all),
     ("hammer", hammer::diagnosed, of_all),
     ("cubes", cubes::diagnosed, |k| {

@@ -1,23 +1,24 @@
 //! What a motion says of the parameters of each joint, and the sentences about them.
 
-use super::joint::JointFinding;
-use super::next::FOR_STIFFNESS;
+use super::finding::JointFinding;
 use crate::fit::parameter::{Identified, Status};
 use crate::sheet::number::{engineering, with_interval};
+
+/// What would fix the stiffness of a joint.
+pub const FOR_STIFFNESS: &str = "hold the joint at rest in poses of different gravity load, coming to each slowly from both sides, and read both encoders there; or press on the arm with a known force with the brakes on";
 
 /// Delay and stiffness of a joint; a number only where the data fix one.
 pub fn parameters(joint: &JointFinding) -> Vec<Identified> {
     let mut all = Vec::new();
-    let skewed = joint.named.causes.iter().any(|c| c.effect == "time_skew");
-    if let Some(delay) = joint.delay.filter(|_| skewed) {
-        let whole = delay.value + joint.declared.unwrap_or(0.0);
+    if let Some(delay) = joint.delay {
         let meaning = "how much later than the motor encoder the link encoder is read";
+        let (value, std) = (delay.value, delay.std);
         all.push(Identified::new(
             "delay",
             &joint.site,
-            whole,
+            value,
             "s",
-            delay.std,
+            std,
             meaning,
         ));
     }
@@ -105,10 +106,6 @@ fn stiffnesses(joints: &[JointFinding]) -> Vec<String> {
 }
 
 fn leftover(joint: &JointFinding) -> Option<String> {
-    let seen = joint.description.as_ref()?;
-    let size = match joint.is_left {
-        true => "Seen",
-        false => "Too small to count, but seen",
-    };
-    Some(format!("{size} at {} and not named: {seen}.", joint.site))
+    let seen = joint.seen.as_ref()?;
+    Some(format!("Seen at {} and not named: {seen}.", joint.site))
 }

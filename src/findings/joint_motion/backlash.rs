@@ -1,0 +1,53 @@
+//! A free gap in the gear: the twist jumps where the torque changes sign.
+
+use super::balanced;
+use super::channels::largest;
+use super::joint::Joint;
+use crate::findings::engine::Member;
+use crate::findings::table::{Effect, Place};
+
+/// Shares of the largest torque over which a gap closes.
+const WIDTHS: [f64; 4] = [0.01, 0.025, 0.06, 0.15];
+/// Shares of the largest torque that hold a link where it is while it is loose.
+const HELD: [f64; 3] = [0.02, 0.05, 0.1];
+/// Share of the largest torque that must be passed to either side.
+const BOTH_WAYS: f64 = 0.05;
+
+/// As the engine takes it: one amount is half the gap, rad.
+pub(super) const EFFECT: Effect<Joint> = Effect {
+    name: "backlash",
+    summary: "A free gap in the gear: the link is loose while the torque changes sign.",
+    mechanism: "contact",
+    places: |joint| {
+        let transmitted = joint.friction.transmitted(&joint.data);
+        let scale = largest(&joint.data.torque);
+        let torques = [&joint.data.torque, &transmitted];
+        let both = torques
+            .into_iter()
+            .filter(|t| balanced(t, BOTH_WAYS * scale));
+        let columns = both.flat_map(|t| {
+            let held = HELD.map(|h| step(&played(t, h * scale), WIDTHS[0]));
+            WIDTHS.map(|w| step(t, w)).into_iter().chain(held)
+        });
+        let members = columns.map(|c| Member::free(c).positive());
+        vec![Place::new(&joint.site, members.collect())]
+    },
+    parameters: |_, blamed| vec![("gap", 2.0 * blamed.amounts[0], "rad")],
+    would_tell: "let the torque pass zero slowly, once with and once without reversing the motion: a gap follows the sign of the torque, friction that of the speed",
+};
+
+/// The torque less what a play of this width on either side takes.
+fn played(torque: &[f64], held: f64) -> Vec<f64> {
+    let mut at = 0.0_f64;
+    let follow = |t: &f64| {
+        at = at.clamp(t - held, t + held);
+        at
+    };
+    torque.iter().map(follow).collect()
+}
+
+/// Twist by a gap that closes over this share of the largest torque.
+pub(super) fn step(torque: &[f64], width: f64) -> Vec<f64> {
+    let closes = (width * largest(torque)).max(f64::MIN_POSITIVE);
+    torque.iter().map(|t| -(t / closes).tanh()).collect()
+}

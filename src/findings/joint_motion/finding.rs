@@ -1,0 +1,150 @@
+//! The diagnosis of one joint: what the engine found in it, its scales, and its figures.
+
+use super::channels::Channels;
+use super::delay::{Delay, delay};
+use super::experiment::judgement;
+use super::joint::{Joint, Nominal};
+use super::patterns::{BENT, MESHING};
+use super::projection;
+use super::stiffness::{Compliance, compliance};
+use crate::findings::answer::{Answer, Cause, Verdict};
+use crate::findings::engine::{Experiment, Found, diagnose};
+use crate::ground::stats::{mean, rms};
+use crate::measurement::joint_motion::JointRecord;
+use crate::sheet::number::significant;
+
+/// A diagnosed joint.
+pub struct JointFinding {
+    /// Its site.
+    pub site: String,
+    /// Its channels.
+    pub data: Channels,
+    /// Twist that the present simulation predicts, rad.
+    pub simulated: Vec<f64>,
+    /// Twist that the extended model predicts, rad.
+    pub explained: Vec<f64>,
+    /// Its answer.
+    pub answer: Answer,
+    /// The delay, where one is named.
+    pub delay: Option<Delay>,
+    /// The compliance, or why there is none.
+    pub compliance: Result<Compliance, &'static str>,
+    /// What is seen and not named, in words.
+    pub seen: Option<String>,
+}
+
+impl JointFinding {
+    /// What the named causes leave of the twist, rad.
+    pub fn residual(&self) -> Vec<f64> {
+        difference(&self.data.twist, &self.explained)
+    }
+}
+
+fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
+}
+
+/// Diagnoses one joint.
+pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
+    let joint = Joint::new(record, nominal);
+    let Found {
+        mut answer,
+        blamed,
+        left,
+        ..
+    } = diagnose(&joint, &judgement());
+    let others = |effect: &str| -> Vec<Vec<f64>> {
+        let others = blamed.iter().filter(|b| b.effect != effect);
+        others.map(|b| b.part.clone()).collect()
+    };
+    let has = |effect: &str| answer.causes.iter().any(|c| c.effect == effect);
+    let compliance = match answer.unexplained.description == BENT {
+        true => Err("the twist bends with the torque, so that there is no one stiffness"),
+        false => compliance(&joint, &others("")),
+    };
+    let delay = has("time_skew").then(|| delay(&joint, &others("time_skew")));
+    let is_loop = blamed.iter().any(|b| b.effect == "hysteresis"); // it has no one stiffness
+    let found = compliance.ok();
+    answer.causes.iter_mut().for_each(|c| tell(c, found, delay));
+    let spring = found.filter(|_| !is_loop);
+    let scales = [
+        spring.and_then(|c| joint.other_stiffness(c, &others(""))),
+        joint.zero(answer.discrepancy.noise_rms),
+    ];
+    scales
+        .into_iter()
+        .flatten()
+        .for_each(|s| add(&mut answer, s));
+    let simulated = joint.simulated();
+    let missed = difference(&joint.data.twist, &simulated);
+    answer.discrepancy.rms = rms(&missed);
+    answer.discrepancy.place = joint.place(&missed);
+    JointFinding {
+        site: joint.site.clone(),
+        seen: joint.seen(&answer),
+        explained: difference(&joint.data.twist, &left),
+        simulated,
+        answer,
+        delay,
+        compliance,
+        data: joint.data,
+    }
+}
+
+/// Names a cause beside what the engine found.
+fn add(answer: &mut Answer, cause: Cause) {
+    answer.causes.push(cause);
+    answer.verdict = match answer.verdict {
+        Verdict::Sufficient | Verdict::CannotTell => Verdict::Explained,
+        Verdict::UnknownCause => Verdict::PartlyExplained,
+        other => other,
+    };
+}
+
+/// A delay as all accounts of the rest have it, and what is known as twist as the torque that it is.
+fn tell(cause: &mut Cause, compliance: Option<Compliance>, delay: Option<Delay>) {
+    for (name, value, unit) in &mut cause.parameters {
+        let told = match (*name, compliance, delay) {
+            ("delay", _, Some(delay)) => ("delay", delay.value, "s"),
+            ("twist_per_speed", Some(c), _) => ("coefficient", *value / c.value, "N·m·s/rad"),
+            ("twist", Some(c), _) => ("torque", *value / c.value, "N·m"),
+            _ => continue,
+        };
+        (*name, *value, *unit) = told;
+    }
+}
+
+impl Joint {
+    /// The nominal spring under the motor's torque, its zero free; without one the best spring.
+    fn simulated(&self) -> Vec<f64> {
+        let (torque, twist) = (&self.data.torque, &self.data.twist);
+        let slope = match self.nominal.stiffness {
+            Some(k) => -1.0 / k,
+            None => projection::partial(&[vec![1.0; self.data.rows()]], torque, twist).slope,
+        };
+        let middle = mean(torque);
+        torque.iter().map(|t| slope * (t - middle)).collect()
+    }
+
+    /// The pattern that is seen and not named; of meshing teeth with their orders.
+    fn seen(&self, answer: &Answer) -> Option<String> {
+        let open = matches!(
+            answer.verdict,
+            Verdict::UnknownCause | Verdict::PartlyExplained
+        );
+        let seen = open.then(|| answer.unexplained.description.clone())?;
+        if seen != MESHING {
+            return Some(seen);
+        }
+        let strange = self.waves.iter().filter(|w| !w.of_encoder);
+        let order = |order: f64| match self.ratio {
+            Some(r) => format!(
+                "{order:.0} per turn of the link, {} of the motor",
+                significant(order / r, 3)
+            ),
+            None => format!("{order:.0} per turn of the link"),
+        };
+        let orders: Vec<String> = strange.map(|w| order(w.order)).collect();
+        Some(format!("{seen} ({})", orders.join("; ")))
+    }
+}

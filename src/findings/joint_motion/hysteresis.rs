@@ -1,0 +1,54 @@
+//! Elastic hysteresis: what contacts in the gear hold of the torque until they slip, one or many (Iwan 1966).
+
+use super::channels::range;
+use super::joint::Joint;
+use crate::findings::engine::Member;
+use crate::findings::table::{Effect, Place};
+
+/// Shares of the torque's range over which a contact sticks.
+const WIDTHS: [f64; 9] = [0.015, 0.03, 0.05, 0.08, 0.12, 0.18, 0.27, 0.4, 0.6];
+/// Neighbouring contacts that act together.
+const TOGETHER: [usize; 4] = [1, 2, 3, 5];
+
+/// What contacts hold before the record: nothing, or all they can.
+const BEGINS: [f64; 3] = [0.0, -1.0, 1.0];
+
+/// As the engine takes it: one amount is half the width of the loop, rad.
+pub(super) const EFFECT: Effect<Joint> = Effect {
+    name: "hysteresis",
+    summary: "The gear gives and takes back on different curves.",
+    mechanism: "dry friction",
+    places: |joint| vec![Place::new(&joint.site, loops(joint))],
+    parameters: |_, blamed| vec![("width", 2.0 * blamed.amounts[0], "rad")],
+    would_tell: "change the load at rest, slowly and in both directions: hysteresis follows the direction of the load, friction of the drive that of the motion",
+};
+
+fn loops(joint: &Joint) -> Vec<Member> {
+    let torque = &joint.data.torque;
+    let (low, high) = range(torque);
+    if high <= low {
+        return Vec::new();
+    }
+    let from = |begin: f64| {
+        let single = WIDTHS.map(|w| held(torque, w * (high - low), begin));
+        let together = |of: &[Vec<f64>]| {
+            let at = |i: usize| of.iter().map(|c| c[i]).sum::<f64>() / of.len() as f64;
+            Member::free(joint.column(at)).positive()
+        };
+        let each = TOGETHER.iter().flat_map(|many| single.windows(*many));
+        each.map(together).collect::<Vec<Member>>()
+    };
+    BEGINS.into_iter().flat_map(from).collect()
+}
+
+/// What a contact holds that slips at this torque, −1 to 1.
+fn held(torque: &[f64], slips: f64, begin: f64) -> Vec<f64> {
+    let mut held = begin;
+    let mut before = torque[0];
+    let of = |t: &f64| {
+        held = (held + (t - before) / slips.max(f64::MIN_POSITIVE)).clamp(-1.0, 1.0);
+        before = *t;
+        held
+    };
+    torque.iter().map(of).collect()
+}

@@ -1,0 +1,70 @@
+//! What no cause of the library makes. These compete with the causes and are never named: where one of them is
+//! at work, this is what is seen.
+
+use super::channels::range;
+use super::encoder_ripple::members;
+use super::joint::Joint;
+use super::projection::{orthonormal, without};
+use crate::findings::engine::Member;
+use crate::findings::table::{Pattern, flexible, unit_range, waves};
+use nalgebra::DVector;
+
+/// What is seen of meshing teeth.
+pub(super) const MESHING: &str = "a ripple in step with the joint that is no encoder's own order or not steady over the speed, as meshing teeth make it";
+
+/// What is seen of a spring that is not straight.
+pub(super) const BENT: &str = "a twist that bends with the torque";
+
+/// All of them; the first of a set is told.
+pub(super) const PATTERNS: &[Pattern<Joint>] = &[
+    Pattern {
+        name: "load",
+        summary: BENT,
+        members: |joint| bends(&joint.data.torque),
+    },
+    Pattern {
+        name: "meshing",
+        summary: MESHING,
+        members: |joint| members(joint, false),
+    },
+    Pattern {
+        name: "angle",
+        summary: "a slow change over the joint angle",
+        members: |joint| over(&joint.data.motor, 4),
+    },
+    Pattern {
+        name: "drift",
+        summary: "a slow change with time",
+        members: |joint| over(&joint.data.time, 3),
+    },
+    Pattern {
+        name: "speed",
+        summary: "a twist that bends with the speed",
+        members: |joint| bends(&joint.data.speed),
+    },
+];
+
+/// Waves of a curve over torque or speed.
+const WAVES: usize = 5;
+
+/// Any smooth function of a channel that moves, as slow as these waves.
+fn over(channel: &[f64], count: usize) -> Vec<Member> {
+    match range(channel) {
+        (low, high) if high > low => flexible(waves(&unit_range(channel), count)),
+        _ => Vec::new(),
+    }
+}
+
+/// The same without a straight line, which is a spring, or a delay.
+fn bends(channel: &[f64]) -> Vec<Member> {
+    let straight = orthonormal(&[vec![1.0; channel.len()], channel.to_vec()]);
+    let bent = |wave: &Vec<f64>| {
+        let left = without(&straight, DVector::from_column_slice(wave));
+        left.as_slice().to_vec()
+    };
+    let mut members = over(channel, WAVES);
+    for member in &mut members {
+        member.columns = member.columns.iter().map(bent).collect();
+    }
+    members
+}

@@ -1,0 +1,96 @@
+//! What no column of a joint tells: a stiffness that is not the simulation's, and a constant zero.
+
+use super::joint::Joint;
+use super::sensor_offset;
+use super::stiffness::Compliance;
+use crate::findings::answer::Cause;
+use crate::findings::engine::bank::Bank;
+use crate::findings::engine::unseen::gains;
+use crate::findings::engine::{Member, Nuisance, Statement};
+use crate::findings::gain::Gain;
+use crate::findings::table::{Effect, Parameters};
+use crate::ground::stats::{Z95, mean};
+
+/// Told from the record as a whole, so that it has no place among the columns.
+pub(super) const STIFFNESS: Effect<Joint> = Effect {
+    name: "stiffness",
+    summary: "The stiffness that the simulation uses is not the joint's.",
+    mechanism: "spring",
+    places: |_| Vec::new(),
+    parameters: |_, _| Vec::new(),
+    would_tell: super::remarks::FOR_STIFFNESS,
+};
+
+/// Highest probability that is stated.
+const CERTAIN: f64 = 0.985;
+
+impl Joint {
+    fn scale(&self, effect: &Effect<Joint>, parameters: Parameters, gain: Gain) -> Option<Cause> {
+        let cause = Cause {
+            effect: effect.name,
+            site: self.site.clone(),
+            probability: gain.probability().min(CERTAIN),
+            summary: effect.summary,
+            alternatives: Vec::new(),
+            parameters,
+            gain,
+        };
+        gain.is_real().then_some(cause)
+    }
+
+    /// The stiffness, where the data fix it and it is not the one the simulation uses.
+    pub(super) fn other_stiffness(&self, found: Compliance, parts: &[Vec<f64>]) -> Option<Cause> {
+        let nominal = self.nominal.stiffness?;
+        let log = (found.value * nominal).ln().abs();
+        if log < Z95 * (found.std / found.value).hypot(self.nominal.rel_std) {
+            return None;
+        }
+        let gain = self.gain_of_spring(nominal, parts)?;
+        let parameters = vec![("stiffness", 1.0 / found.value, "N·m/rad")];
+        self.scale(&STIFFNESS, parameters, gain)
+    }
+
+    /// What another spring gains on pieces of time that were not fitted, beside all parts.
+    fn gain_of_spring(&self, nominal: f64, parts: &[Vec<f64>]) -> Option<Gain> {
+        let torque = &self.data.torque;
+        let read = |i: usize| self.data.twist[i] + torque[i] / nominal;
+        let free = |column: &Vec<f64>| Nuisance {
+            column: column.clone(),
+            spread: f64::INFINITY,
+        };
+        let mut spring = self.suspects().into_iter().next()?;
+        spring.members = vec![Member::free(torque.clone())];
+        let statement = Statement {
+            reading: self.column(read),
+            noise: Box::new(self.noise.clone()),
+            nuisances: [&self.beside_torque(), parts]
+                .concat()
+                .iter()
+                .map(free)
+                .collect(),
+            suspects: vec![spring],
+            span: Vec::new(),
+            splits: self.splits(),
+        };
+        let bank = Bank::new(&statement);
+        let fit = bank.fit(&[0])?;
+        gains(&statement, &bank, &fit).first().copied()
+    }
+
+    /// A constant difference of the encoders, where the file says how well their zeros agree.
+    pub(super) fn zero(&self, noise: f64) -> Option<Cause> {
+        let std = self.zero_std?;
+        let torque = mean(&self.data.torque);
+        let sag = self.nominal.stiffness.map_or(0.0, |k| -torque / k);
+        let offset = self.data.zero - sag;
+        if offset.abs() < 3.0 * std.hypot(0.3 * sag) {
+            return None;
+        }
+        let gain = Gain::of(offset.hypot(noise), std.hypot(noise), std / offset.abs());
+        self.scale(
+            &sensor_offset::EFFECT,
+            vec![("offset", offset, "rad")],
+            gain,
+        )
+    }
+}
