@@ -7,23 +7,24 @@
 use crate::judge;
 
 use crate::judge::algebra::V3;
-use crate::judge::{Floors, conclude, gains, judged_from, number};
+use crate::judge::{Floors, conclude, gains, judged, number};
 use std::path::Path;
 use std::process::Command;
 
-/// Two seeds of 80 cases: clean 34 of 34, single 45 of 63, pair 15 of 26, outside 3 of 7, untrue names in 3 of 123. Some
-/// five seconds of one processor a case, nearly all of it the program's: the small version is four cases, none of
-/// them a pair or from outside: of these it asserts nothing.
+/// Seeds 51 and 52, 80 cases at which nobody had looked: clean 15 of 15, single 29 of 32, pair 11 of 13, outside 4 of 4,
+/// untrue names in 1 of 60 (before what seeds 1, 2 and 31 taught: 15, 28, 10, 1 and none). Some five seconds
+/// of one processor a case, nearly all of it the program's: the small version is six cases, three single causes and two
+/// from outside; of the other classes it asserts nothing.
 #[test]
 fn parts_by_strangers_are_judged_rightly() {
-    let all = judged_from(judge::part::draw, 20, 4);
+    let all = judged(judge::part::draw, 6);
     let rates = conclude("milled-part", &all);
     gains(&all, judge::part::worth).conclude("milled-part");
     let floors = Floors {
         clean: 0.9,
         single: 0.5,
         pair: 0.0,
-        outside: 0.0,
+        outside: 0.5,
         wrong: 0.2,
     };
     floors.hold(&rates);
