@@ -13,11 +13,11 @@ use crate::judge::{Floors, conclude, judged};
 fn joints_by_strangers_are_judged_rightly() {
     let rates = conclude("joint-motion", &judged(draw, 24));
     let floors = Floors {
-        clean: 0.5,
+        clean: 0.8,
         single: 0.4,
         pair: 0.0,
-        outside: 0.0,
-        wrong: 0.3,
+        outside: 0.3,
+        wrong: 0.1,
     };
     floors.hold(&rates);
 }

@@ -34,12 +34,7 @@ pub fn fit_beside(model: &Composite, data: &mut Observation) -> (Solution, Vec<&
             break;
         };
         taken.push(effect);
-        let again = fit(&better.model, data);
-        best = if again.rms < better.rms {
-            again
-        } else {
-            better
-        };
+        best = better;
     }
     let names: Vec<&'static str> = taken.iter().map(|e| e.card().name).collect();
     match names.is_empty() {

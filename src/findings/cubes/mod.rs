@@ -14,11 +14,11 @@ mod softer;
 use super::physics::{self, OnRobot};
 use super::table::Effect;
 use crate::causes::Cause;
+use crate::causes::places::number_in;
 use crate::experiments::cubes::Setup;
 use crate::ground::problem::Outcome;
 use crate::measurement::cubes::CubeTest;
 use crate::robot::Robot;
-use crate::robot::model::ElasticAxis;
 use about::About;
 pub use rows::Row;
 
@@ -64,7 +64,8 @@ pub struct Case {
 /// Noise where none is stated: m and rad (source 002's laser sensors).
 const NOISE: [f64; 2] = [2e-6, 1e-5];
 
-/// How often a link bends where its robot file does not say so, against where it does: a choice.
+/// How often a link bends where its robot file does not say so, against where it does: a choice,
+/// small enough that a stated axis which is softer is told alone (`Judgement::ambiguous`), as nothing tells the two apart.
 const BENDS_ELSEWHERE: f64 = 0.01;
 
 /// Readings that a stated noise is worth.
@@ -150,9 +151,9 @@ impl OnRobot for Case {
 
     /// A link that the robot file bends at axes of its own is blamed through these first.
     fn readiness(&self, cause: &'static dyn Cause, site: &str) -> f64 {
-        let own = |axis: &&ElasticAxis| format!("link{}", axis.after) == site;
-        let stated = self.robot.elastic.iter().find(own);
-        cause.readiness(&self.robot, site) * stated.map_or(1.0, |_| BENDS_ELSEWHERE)
+        let link = number_in(site, "link");
+        let is_bent = self.robot.elastic.iter().any(|a| Some(a.after) == link);
+        cause.readiness(&self.robot, site) * if is_bent { BENDS_ELSEWHERE } else { 1.0 }
     }
 
     fn with_cause(&self, cause: &'static dyn Cause, site: &str, amounts: &[f64]) -> Robot {

@@ -1,5 +1,6 @@
 //! What no column of a joint tells: a stiffness that is not the simulation's, and a constant zero.
 
+use super::experiment::judgement;
 use super::joint::Joint;
 use super::sensor_offset;
 use super::stiffness::Compliance;
@@ -21,15 +22,12 @@ pub(super) const STIFFNESS: Effect<Joint> = Effect {
     would_tell: super::remarks::FOR_STIFFNESS,
 };
 
-/// Highest probability that is stated.
-const CERTAIN: f64 = 0.985;
-
 impl Joint {
     fn scale(&self, effect: &Effect<Joint>, parameters: Parameters, gain: Gain) -> Option<Cause> {
         let cause = Cause {
             effect: effect.name,
             site: self.site.clone(),
-            probability: gain.probability().min(CERTAIN),
+            probability: gain.probability().min(judgement().certain),
             summary: effect.summary,
             alternatives: Vec::new(),
             parameters,
