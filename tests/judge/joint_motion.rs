@@ -10,6 +10,7 @@ use super::{Case, Truth, chance, pick, twin};
 use causes::{EFFECTS, OUTSIDE, Shown, rivals, shown};
 use ident::ground::random::Random;
 use programme::Programme;
+use std::f64::consts::TAU;
 
 /// One joint as it is, and what its instruments are worth.
 struct Joint {
@@ -38,7 +39,7 @@ impl Joint {
     fn draw(random: &mut Random, number: usize, seconds: f64, cycle: f64) -> Self {
         let programme = Programme::draw(random, seconds, cycle);
         let neighbour = Programme::draw(random, seconds, cycle);
-        let (inertia, lever) = (random.uniform(60.0, 450.0), random.uniform(0.0, 6.28));
+        let (inertia, lever) = (random.uniform(60.0, 450.0), random.uniform(0.0, TAU));
         let weight = random.log_uniform(400.0, 6000.0);
         let pull = weight * random.uniform(0.0, 0.3);
         let shake = inertia * random.uniform(0.0, 0.4);
@@ -150,7 +151,7 @@ fn columns(joint: &Joint, all: &[Shown], random: &mut Random) -> [Vec<f64>; 4] {
             .for_each(|(p, t)| *p += t);
         link.iter_mut().zip(&shown.link).for_each(|(l, s)| *l += s);
     }
-    let (width, mut slow, phase) = (span(&paid), 0.0, random.uniform(0.0, 6.28));
+    let (width, mut slow, phase) = (span(&paid), 0.0, random.uniform(0.0, TAU));
     for i in 0..rows {
         slow = 0.995 * slow + 0.1 * joint.slow * random.normal();
         let mains = joint.hum * (314.159_265 * joint.programme.time[i] + phase).sin();

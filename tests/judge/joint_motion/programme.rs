@@ -108,7 +108,7 @@ fn strokes(random: &mut Random, rows: usize, cycle: f64) -> Vec<f64> {
     let corner = |k: usize| {
         (
             k as f64 * leg,
-            middle + if k % 2 == 0 { half } else { -half },
+            middle + if k.is_multiple_of(2) { half } else { -half },
         )
     };
     let corners: Vec<_> = (0..(rows as f64 * cycle / leg) as usize + 3)
