@@ -66,6 +66,7 @@ mod inputs;
 mod inspect;
 mod instruments_cli;
 mod job_files;
+mod judge_hammer;
 mod judge_instruments;
 mod judge_joint_motion;
 mod judge_load_cycle;

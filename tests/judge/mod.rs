@@ -9,6 +9,7 @@ mod chosen;
 pub mod cubes;
 mod cut;
 pub mod force_sensor;
+pub mod hammer;
 pub mod intervals;
 pub mod joint_motion;
 pub mod load_cycle;
