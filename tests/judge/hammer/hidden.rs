@@ -168,8 +168,8 @@ fn carried(more: &Body, size: f64, spread: &Spread, told: &Robot) -> f64 {
         sum += (m * x / ((whole + m) * spread.com)).powi(2);
     }
     let square = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
-    for i in 0..3 {
-        let turned = m * whole / (whole + m) * (square - r[i] * r[i]) + size * more.inertia[i];
+    for (i, x) in r.iter().enumerate() {
+        let turned = m * whole / (whole + m) * (square - x * x) + size * more.inertia[i];
         sum += (turned / (own.inertia[i] * spread.inertia)).powi(2);
     }
     sum.sqrt()

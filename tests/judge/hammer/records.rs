@@ -264,10 +264,9 @@ pub fn facts(habit: &Habit, spread: &Spread, told: [bool; 3], window: Option<f64
 pub fn rows(records: &[Record], habit: &Habit, decay: f64, random: &mut Random) -> String {
     let names = ["x", "y", "z"];
     let mut text = String::from("direction,hit,time_s,force_N");
-    for r in 0..3 {
-        if habit.responses.contains(&r) {
-            text += &format!(",a{}_m_s2", names[r]);
-        }
+    let read_ones = names.iter().enumerate();
+    for (_, name) in read_ones.filter(|(r, _)| habit.responses.contains(r)) {
+        text += &format!(",a{name}_m_s2");
     }
     text.push('\n');
     let hammer = Noise {

@@ -41,8 +41,11 @@ pub fn blamed(kind: &str, site: &str) -> (&'static str, Option<String>) {
     }
 }
 
+/// Hinges that may turn out to give: effect, site, members.
+pub type Candidate = (&'static str, Option<String>, Vec<usize>);
+
 /// Rigid hinges where something may turn out to give.
-pub fn with_candidates(robot: &Robot) -> (Robot, Vec<(&'static str, Option<String>, Vec<usize>)>) {
+pub fn with_candidates(robot: &Robot) -> (Robot, Vec<Candidate>) {
     let mut own = robot.clone();
     let mut all = Vec::new();
     let mut add = |own: &mut Robot, effect, site: Option<String>, link, rank, axes: &[V3], p| {
@@ -179,7 +182,7 @@ impl Sight {
         eyes: &World,
         plant: &Plant,
         springs: &[(&'static str, String, Vec<usize>)],
-        candidates: &[(&'static str, Option<String>, Vec<usize>)],
+        candidates: &[Candidate],
         all: &[Line],
         known: f64,
     ) {
