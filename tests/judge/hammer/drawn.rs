@@ -6,8 +6,7 @@ use super::super::{chance, pick};
 use super::dynamics::{World, lines};
 use super::habit::Habit;
 use super::hidden::{EFFECTS, Hidden, Kind};
-use super::rival::{along, span};
-use super::robot::{Body, Hinge, Robot};
+use super::robot::{Body, Hinge, Robot, along, span};
 use ident::ground::random::Random;
 use std::f64::consts::TAU;
 

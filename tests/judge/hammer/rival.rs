@@ -1,10 +1,10 @@
 //! Causes that may be blamed in place of another.
 
-use super::super::algebra::{V3, norm};
+use super::super::algebra::V3;
 use super::super::rigid::{across, between, postured};
 use super::dynamics::{C, Pairs, Plant, World, lines, reach};
 use super::line::{Line, whole};
-use super::robot::{Hinge, Robot};
+use super::robot::{Hinge, Robot, along, span};
 use super::sight::Sight;
 use nalgebra::DMatrix;
 
@@ -107,24 +107,6 @@ pub fn with_candidates(robot: &Robot) -> (Robot, Vec<Candidate>) {
         );
     }
     (own, all)
-}
-
-/// Both ends of a link that may bend.
-pub fn span(robot: &Robot, link: usize) -> (V3, V3) {
-    let p = &robot.frame.points;
-    match norm(std::array::from_fn(|i| p[link][i] - p[link - 1][i])) > 0.05 {
-        true => (p[link - 1], p[link]),
-        false => (p[link - 1], p[(link + 1).min(5)]),
-    }
-}
-
-/// Unit vector from one place to another; up where they are one.
-pub fn along(from: V3, to: V3) -> V3 {
-    let way: V3 = std::array::from_fn(|i| to[i] - from[i]);
-    match norm(way) > 1e-6 {
-        true => way.map(|x| x / norm(way)),
-        false => [0.0, 0.0, 1.0],
-    }
 }
 
 impl Sight {

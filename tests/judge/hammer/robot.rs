@@ -226,3 +226,21 @@ pub fn bounded(random: &mut Random) -> f64 {
 pub fn swing(a: V3, p: V3, x: V3) -> V3 {
     cross(a, minus(x, p))
 }
+
+/// Both ends of a link that may bend.
+pub fn span(robot: &Robot, link: usize) -> (V3, V3) {
+    let p = &robot.frame.points;
+    match norm(std::array::from_fn(|i| p[link][i] - p[link - 1][i])) > 0.05 {
+        true => (p[link - 1], p[link]),
+        false => (p[link - 1], p[(link + 1).min(5)]),
+    }
+}
+
+/// Unit vector from one place to another; up where they are one.
+pub fn along(from: V3, to: V3) -> V3 {
+    let way: V3 = std::array::from_fn(|i| to[i] - from[i]);
+    match norm(way) > 1e-6 {
+        true => way.map(|x| x / norm(way)),
+        false => [0.0, 0.0, 1.0],
+    }
+}

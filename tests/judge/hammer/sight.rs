@@ -1,5 +1,6 @@
 //! How well the best test sees what is hidden: change of the transfer functions over their noise, beyond what the
-//! stated spreads of springs, oil, bodies and calibration may do, and beyond each rival.
+//! stated spreads of springs, oil, bodies and calibration may do, and beyond each rival. Spreads act to first order:
+//! where several of them together go far, less is seen than is said here.
 
 use super::super::algebra::{basis, dot, without};
 use super::dynamics::{C, Pairs, Plant, World, lines, weight};
