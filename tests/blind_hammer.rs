@@ -27,7 +27,7 @@ const FLOORS: Floors = Floors {
 
 #[test]
 fn hidden_causes_are_found() {
-    let kinds = kinds(&HAMMER_EFFECTS, &HAMMER_OUTSIDE, per_kind(2));
+    let kinds = kinds(&HAMMER_EFFECTS, &HAMMER_OUTSIDE, per_kind(1));
     let all = judged(&kinds, hammer_case);
     conclude("hammer", &all, &FLOORS);
 }

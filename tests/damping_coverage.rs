@@ -14,10 +14,10 @@ use ident::robot::load;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// How many campaigns: 8, or as many as `IDENT_COVERAGE_CAMPAIGNS` says.
+/// How many campaigns: 4, or as many as `IDENT_COVERAGE_CAMPAIGNS` says.
 fn campaigns() -> u64 {
     let asked = std::env::var("IDENT_COVERAGE_CAMPAIGNS").ok();
-    asked.and_then(|n| n.parse().ok()).unwrap_or(8)
+    asked.and_then(|n| n.parse().ok()).unwrap_or(4)
 }
 
 /// The hammer test of the example with other dampings, pose and noise.

@@ -13,7 +13,7 @@ use crate::judge::{Floors, conclude, judged};
 /// Seed 121, 100 cases, as a cause is weighed where it acts: 24 of 24, 35 of 37, 27 of 29, 10 of 10, none of 90.
 #[test]
 fn screws_by_strangers_are_judged_rightly() {
-    let rates = conclude("screw", &judged(judge::screw::draw, 40));
+    let rates = conclude("screw", &judged(judge::screw::draw, 24));
     let floors = Floors {
         clean: 0.8,
         single: 0.6,
@@ -28,7 +28,7 @@ fn screws_by_strangers_are_judged_rightly() {
 /// Seed 121, 100 cases, as a cause is weighed where it acts: 16 of 16, 58 of 60, 11 of 16, 5 of 5, 2 of 92.
 #[test]
 fn force_sensors_by_strangers_are_judged_rightly() {
-    let rates = conclude("force-sensor", &judged(judge::force_sensor::draw, 30));
+    let rates = conclude("force-sensor", &judged(judge::force_sensor::draw, 18));
     let floors = Floors {
         clean: 0.5,
         single: 0.6,
@@ -58,7 +58,7 @@ fn cutting_forces_by_strangers_are_judged_rightly() {
 /// of 16, untrue names in 4 of 216. A third of the files state `stiffness_rel_std`.
 #[test]
 fn cubes_by_strangers_are_judged_rightly() {
-    let rates = conclude("cubes", &judged(judge::cubes::draw, 30));
+    let rates = conclude("cubes", &judged(judge::cubes::draw, 16));
     let floors = Floors {
         clean: 0.4,
         single: 0.4,

@@ -117,6 +117,25 @@ impl Setup {
         })
     }
 
+    /// The same job with the cut resolved `times` more coarsely: for runs of which only the difference is asked.
+    ///
+    /// # Errors
+    /// As [`Setup::of`].
+    pub fn coarser(&self, job: &Job, times: f64) -> Outcome<Self> {
+        let Fineness { spacing_m, steps } = self.fineness;
+        let per_tooth = (steps / self.tool.teeth) as f64 / times;
+        let fineness = Fineness {
+            spacing_m: times * spacing_m,
+            steps: per_tooth.ceil() as usize * self.tool.teeth,
+        };
+        let stock = stock(job, fineness.spacing_m).map_err(|p| p.in_file(&job.path))?;
+        Ok(Self {
+            stock,
+            fineness,
+            ..self.clone()
+        })
+    }
+
     /// The tool beside its stock.
     pub fn cutter(&self) -> Cutter {
         let axis = self.way.rows()[0].axis;

@@ -49,6 +49,8 @@ pub struct Case {
     pub planned: Planned,
     /// The job, ready to be milled.
     pub setup: Setup,
+    /// The same, cut more coarsely, for runs of which only the change is asked.
+    trial: Setup,
     /// Where it was probed, in the order of the file; places that are not cut are left out.
     pub stations: Vec<Station>,
     /// Its rows, one for each direction across the feed that was measured.
@@ -77,6 +79,8 @@ struct Stated {
     uncertain: Vec<(Known, Nuisance)>,
 }
 
+/// How much more coarsely the cut is resolved where only a change is asked.
+const COARSER: f64 = 2.0;
 /// Noise of a probe that states none, m.
 const PROBE: f64 = 5e-6;
 
@@ -97,7 +101,8 @@ impl Case {
         let own = rows.iter().zip(&simulated);
         let missed = own.map(|(row, s)| row.measured - s).collect();
         let probe = test.facts.probe_noise.unwrap_or(PROBE);
-        let tried = tried(&setup, &stations)?;
+        let trial = setup.coarser(&planned.job, COARSER)?;
+        let tried = tried(&trial, &stations)?;
         let coefficients = tried.coefficients.iter();
         Ok(Self {
             still: seen(&rows, &tried.still),
@@ -111,6 +116,7 @@ impl Case {
             rows,
             stations,
             setup,
+            trial,
             planned,
             test,
         })
@@ -126,7 +132,7 @@ impl Case {
     /// How much more than in first order these causes and uncertain numbers change the rows, m: the cut is milled
     /// again with them, and the force gives way.
     fn beyond_first_order(&self, about: &[Blamed], uncertain: &[f64]) -> Vec<f64> {
-        let mut setup = self.setup.clone();
+        let mut setup = self.trial.clone();
         let known = self.stated().uncertain.iter().zip(uncertain);
         let known: Vec<(&Nuisance, f64)> = known
             .filter(|((known, _), amount)| uncertain::put(known, **amount, &mut setup))
