@@ -137,5 +137,5 @@ fn intervals_of_dampings_hold_on_robots_of_others() {
 
 #[test]
 fn dampings_are_told_though_nobody_knows_bodies_exactly() {
-    holds(&all("uncertain", 6, uncertain_case));
+    holds(&all("uncertain", 8, uncertain_case));
 }

@@ -3,10 +3,11 @@
 
 use super::frf_data::Measured;
 pub use super::frf_parameter::Kind;
+pub use super::frf_responses::{Responses, along};
 use crate::ground::spatial::V3;
 use crate::motion::Linear;
 use crate::motion::frf::{C64, Response};
-use crate::motion::receptance::{accelerance, coordinates};
+use crate::motion::receptance::{accelerance, coordinates, under_moments};
 use crate::motion::uncertain::bodies;
 use crate::motion::uncertain::instrument::{self, Reading, SHARED};
 use crate::motion::uncertain::slopes::{Entry, of_entries, of_masses, whole};
@@ -32,6 +33,8 @@ pub struct Uncertain {
     pub bodies: DMatrix<f64>,
     /// How well hammer and sensor are known.
     pub instrument: instrument::Spread,
+    /// Turn of the tool per coordinate, rad/rad, base axes: a hit beside its point is a moment too.
+    pub turn: Vec<V3>,
     /// Which pose this is, counted from 0: each has its own parameters of kind instrument.
     pub pose: usize,
 }
@@ -57,42 +60,6 @@ pub struct Pose {
     pub uncertain: Option<Uncertain>,
     /// What was measured here.
     pub measured: Vec<Measured>,
-}
-
-/// The model solved on some lines: one solution serves every pair measured on them.
-pub struct Responses {
-    linear: Linear,
-    s: Vec<C64>,
-    /// `Z⁻¹Jᵀ`, line by line.
-    answers: Vec<[C64; 3]>,
-    /// The accelerance itself, and what the instruments make of it.
-    bare: Vec<Response>,
-    reading: Reading,
-}
-
-impl Responses {
-    /// The accelerance along the directions of `pair`, as it is read.
-    pub fn of(&self, pair: &Measured) -> Vec<Complex64> {
-        let lines = self.bare.iter().zip(&self.s);
-        lines
-            .map(|(a, s)| self.reading.read(*s, a)[pair.output][pair.input])
-            .collect()
-    }
-
-    fn at(&self, line: usize) -> &[[C64; 3]] {
-        &self.answers[line * self.linear.n..(line + 1) * self.linear.n]
-    }
-
-    /// The same lines with something else in place of the accelerance, as read.
-    fn read(&self, lines: impl Iterator<Item = Response>) -> Vec<Response> {
-        let lines = lines.zip(&self.s);
-        lines.map(|(a, s)| self.reading.read(*s, &a)).collect()
-    }
-}
-
-/// The entries of `pair` in responses.
-pub fn along(pair: &Measured, lines: &[Response]) -> Vec<Complex64> {
-    lines.iter().map(|a| a[pair.output][pair.input]).collect()
 }
 
 impl Pose {
@@ -126,10 +93,11 @@ impl Pose {
         let s: Vec<C64> = (0..pair.frequency_hz.len()).map(|k| pair.s(k)).collect();
         let answers = coordinates(&linear, &s);
         let line = |(k, s): (usize, &C64)| {
-            accelerance(&linear, &answers[k * linear.n..(k + 1) * linear.n], *s)
+            let own = &answers[k * linear.n..(k + 1) * linear.n];
+            [accelerance, under_moments].map(|of| of(&linear, own, *s))
         };
-        let bare: Vec<Response> = s.iter().enumerate().map(line).collect();
-        let finite = |a: &Response| {
+        let bare: Vec<[Response; 2]> = s.iter().enumerate().map(line).collect();
+        let finite = |[a, _]: &[Response; 2]| {
             a.iter()
                 .flatten()
                 .all(|x| x.re.is_finite() && x.im.is_finite())
@@ -207,7 +175,10 @@ impl Pose {
         let own = own.and_then(|(known, number)| Some((known, known.own(number)?)));
         match own {
             Some((known, number)) => lines()
-                .map(|(a, s)| responses.reading.slope(number, &known.instrument, *s, a))
+                .map(|([a, b], s)| {
+                    let reading = &responses.reading;
+                    reading.slope(number, &known.instrument, *s, [a, b])
+                })
                 .collect(),
             None => vec![Response::default(); responses.s.len()],
         }
@@ -275,6 +246,10 @@ impl Pose {
                 .column_iter()
                 .map(|c| -> V3 { [c[0], c[1], c[2]] })
                 .collect(),
+            turn: self
+                .uncertain
+                .as_ref()
+                .map_or(Vec::new(), |u| u.turn.clone()),
         }
     }
 }

@@ -143,6 +143,7 @@ pub fn pose(
                 Ok(Uncertain {
                     bodies: bodies::directions(robot, &straight, &known.bodies)?,
                     instrument: known.instrument,
+                    turn: linear.turn.clone(),
                     pose: 0,
                 })
             })

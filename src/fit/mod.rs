@@ -29,6 +29,7 @@ pub mod frf_nuisance;
 pub mod frf_parameter;
 mod frf_profile;
 pub mod frf_residuals;
+mod frf_responses;
 mod frf_rivals;
 pub mod frf_robot;
 mod frf_scatter;

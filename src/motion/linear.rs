@@ -24,6 +24,8 @@ pub struct Linear {
     pub stiffness: Vec<f64>,
     /// Translation of the tool per coordinate, m/rad, base axes.
     pub tool: Vec<V3>,
+    /// Turn of the tool per coordinate, rad/rad, base axes.
+    pub turn: Vec<V3>,
 }
 
 /// Linearises at the angles `q` (n of the chain, rad) without preload: K is the diagonal of the
@@ -55,6 +57,7 @@ pub fn linearise(chain: &Chain, work: &mut Work, q: &[f64]) -> Outcome<Linear> {
         damping: diagonal(springs(chain).map(|(_, spring)| spring.damping), n),
         stiffness: diagonal(springs(chain).map(|(_, spring)| spring.stiffness), n),
         tool: hinges.iter().map(|i| column(work, *i, at).0).collect(),
+        turn: hinges.iter().map(|i| column(work, *i, at).1).collect(),
     })
 }
 

@@ -39,6 +39,20 @@ pub fn accelerance(linear: &Linear, answers: &[[C64; 3]], s: C64) -> [[C64; 3]; 
     sum.map(|row| row.map(|entry| entry * s * s))
 }
 
+/// Acceleration of the tool under a moment on it, from [`coordinates`] of one line: s² Yᵀ Jᵣᵀ, output by axis of
+/// the moment, (m/s²)/(N·m). By reciprocity: what a force turns, a moment moves.
+pub fn under_moments(linear: &Linear, answers: &[[C64; 3]], s: C64) -> [[C64; 3]; 3] {
+    let mut sum = [[C64::default(); 3]; 3];
+    for (turn, answer) in linear.turn.iter().zip(answers) {
+        for (row, y) in sum.iter_mut().zip(answer) {
+            for (entry, lever) in row.iter_mut().zip(turn) {
+                *entry += y * *lever;
+            }
+        }
+    }
+    sum.map(|row| row.map(|entry| entry * s * s))
+}
+
 impl Lanes {
     fn at(&self, l: usize) -> C64 {
         C64::new(self.re[l], self.im[l])

@@ -12,6 +12,11 @@ pub const AXES: [&str; 3] = ["x", "y", "z"];
 /// in the band: calibration, the point and the angle of the hits, bodies that are not quite rigid.
 const MODEL_ERROR: [f64; 2] = [0.0045, 0.002];
 
+/// Frequencies of the mains: what stands on them is no structure.
+const MAINS_HZ: [f64; 2] = [50.0, 60.0];
+/// How far they reach, leaking: lines, and Hz.
+const MAINS_REACH: [f64; 2] = [1.6, 1.25];
+
 /// Which band, and how dense.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grid {
@@ -132,10 +137,17 @@ fn every_line(frf: &HammerFrf, grid: Grid) -> Vec<usize> {
     (1..frf.frequency_hz.len()).filter(inside).collect()
 }
 
-/// Places in [`every_line`] at the step of the grid.
+/// Places in [`every_line`] at the step of the grid, without those of the mains.
 fn lines(frf: &HammerFrf, grid: Grid) -> Vec<usize> {
     let stride = (grid.step_hz * frf.length_s).round().max(1.0) as usize;
-    (0..every_line(frf, grid).len()).step_by(stride).collect()
+    let reach = (MAINS_REACH[0] / frf.length_s).max(MAINS_REACH[1]);
+    let all = every_line(frf, grid);
+    let humming = |k: &usize| {
+        let hz = frf.frequency_hz[all[*k]];
+        MAINS_HZ.iter().any(|mains| (hz - mains).abs() < reach)
+    };
+    let lines = (0..all.len()).step_by(stride);
+    lines.filter(|k| !humming(k)).collect()
 }
 
 /// How many of the lines carry the information of one.

@@ -8,7 +8,7 @@ use crate::causes::contract::Accelerance;
 use crate::ground::problem::Outcome;
 use crate::motion::Linear;
 use crate::motion::frf::C64;
-use crate::motion::receptance::{accelerance, coordinates};
+use crate::motion::receptance::{accelerance, coordinates, under_moments};
 use crate::motion::uncertain::instrument::NUMBERS as INSTRUMENT;
 use crate::motion::uncertain::slopes::whole;
 use crate::robot::Robot;
@@ -144,11 +144,16 @@ impl Machine<'_> {
         let answers = coordinates(&linear, &s);
         if let Some(joint) = self.sensor {
             linear.tool = structure.sensor(&point.robot(self.robot), joint);
+            // what moments on the tool move there is not told by forces on the tool: hits are where they are aimed at
+            linear.turn.fill([0.0; 3]);
         }
         let bare = bare(point, &linear, &answers, &s);
+        let turned = turned(&linear, &answers, &s);
         let reading = nuisance.reading(&point.theta);
-        let lines = bare.iter().zip(&s);
-        Ok(lines.map(|(a, s)| reading.read(*s, a)).collect())
+        let lines = bare.iter().zip(&turned).zip(&s);
+        Ok(lines
+            .map(|((a, b), s)| reading.read_all(*s, [a, b]))
+            .collect())
     }
 
     /// Prediction and slopes.
@@ -157,14 +162,17 @@ impl Machine<'_> {
         let s = shifted(point, data);
         let answers = coordinates(&linear, &s);
         let bare = bare(point, &linear, &answers, &s);
+        let turned = turned(&linear, &answers, &s);
         let reading = nuisance.reading(&point.theta);
-        let lines = || bare.iter().zip(&s);
-        let values: Vec<Accelerance> = lines().map(|(a, s)| reading.read(*s, a)).collect();
+        let lines = || bare.iter().zip(&turned).zip(&s);
+        let values: Vec<Accelerance> = lines()
+            .map(|((a, b), s)| reading.read_all(*s, [a, b]))
+            .collect();
         let mut columns =
             Vec::with_capacity(data.rows() * (point.theta.len() + point.amounts.len()));
         let spread = &self.known.laboratory.instrument;
         for number in 0..INSTRUMENT {
-            let slope = lines().map(|(a, s)| reading.slope(number, spread, *s, a));
+            let slope = lines().map(|((a, b), s)| reading.slope(number, spread, *s, [a, b]));
             stack(data, &slope.collect::<Vec<_>>(), &mut columns);
         }
         let each = point.each();
@@ -229,6 +237,15 @@ fn bare(point: &Point, linear: &Linear, answers: &[[C64; 3]], s: &[C64]) -> Vec<
         a
     };
     s.iter().enumerate().map(line).collect()
+}
+
+/// What moments on the tool would show.
+fn turned(linear: &Linear, answers: &[[C64; 3]], s: &[C64]) -> Vec<Accelerance> {
+    let own = |k: usize| &answers[k * linear.n..(k + 1) * linear.n];
+    let lines = s.iter().enumerate();
+    lines
+        .map(|(k, s)| under_moments(linear, own(k), *s))
+        .collect()
 }
 
 /// Appends the rows of `data`: per pair, real and imaginary part of every line.

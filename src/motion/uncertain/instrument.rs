@@ -1,6 +1,7 @@
-//! Hammer and accelerometer: calibration of both, the mounting of the sensor, the angle of the hits, the
-//! delay between the channels. A reading is `S·A·F·(1 − sτ)`: S gains and mounting of the sensor, A the
-//! accelerance, F the directions of the hits with the gain of the hammer.
+//! Hammer and accelerometer: calibration of both, the mounting of the sensor, the angle and the place of the hits,
+//! the delay between the channels. A reading is `S·(A·F + B·P)·(1 − sτ)`: S gains and mounting of the sensor, A the
+//! accelerance, F the directions of the hits with the gain of the hammer, B the acceleration under moments
+//! ([`crate::motion::receptance::under_moments`]), P the moments of hits beside the tool's point.
 
 use crate::motion::frf::{C64, Response};
 
@@ -8,8 +9,10 @@ use crate::motion::frf::{C64, Response};
 /// of the hammer, the delay.
 pub const SHARED: usize = 5;
 /// All numbers of one test: those, then three angles of the sensor, then two angles of the hits along each
-/// direction.
-pub const NUMBERS: usize = SHARED + 9;
+/// direction, then the two places of these hits across it.
+pub const NUMBERS: usize = PLACES + 6;
+/// Where the places of the hits begin.
+const PLACES: usize = SHARED + 9;
 
 /// How well instruments are known: one standard deviation each.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,6 +25,8 @@ pub struct Spread {
     pub mounting_rad: f64,
     /// Angle of the hits, rad.
     pub hit_rad: f64,
+    /// Place of the hits across their direction, m.
+    pub place_m: f64,
     /// Delay of the acceleration against the force, s.
     pub delay_s: f64,
 }
@@ -36,6 +41,7 @@ const ONE: Matrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 pub struct Reading {
     sensor: Matrix,
     force: Matrix,
+    moment: Matrix,
     delay_s: f64,
 }
 
@@ -43,19 +49,21 @@ pub struct Reading {
 enum Part {
     Sensor(Matrix),
     Force(Matrix),
+    Moment(Matrix),
     Delay(f64),
 }
 
 impl Spread {
     /// A spread with the calibration of hammer and sensor at `gain` (relative): a stud on a casting and a
-    /// hand with a hammer are right to half a degree, clocks of one recorder to a fiftieth of a
-    /// millisecond.
+    /// hand with a hammer are right to half a degree, the hand to five millimetres, clocks of one recorder to a
+    /// fiftieth of a millisecond.
     pub fn calibrated(gain: f64) -> Self {
         Self {
             sensor: gain,
             hammer: gain,
             mounting_rad: 0.008,
             hit_rad: 0.006,
+            place_m: 0.005,
             delay_s: 2e-5,
         }
     }
@@ -77,11 +85,17 @@ impl Spread {
                 (matrix[i][j], matrix[j][i]) = (self.mounting_rad, -self.mounting_rad);
                 Part::Sensor(matrix)
             }
-            _ => {
-                let input = (number - 8) / 2;
-                let other = (input + 1 + (number - 8) % 2) % 3;
+            8..PLACES => {
+                let (input, other) = across(number - 8);
                 matrix[other][input] = self.hit_rad;
                 Part::Force(matrix)
+            }
+            _ => {
+                // e_other × e_input is the third axis, either way
+                let (input, other) = across(number - PLACES);
+                let sign = if (other + 1) % 3 == input { 1.0 } else { -1.0 };
+                matrix[3 - input - other][input] = sign * self.place_m;
+                Part::Moment(matrix)
             }
         }
     }
@@ -93,34 +107,64 @@ impl Reading {
         let mut all = Self {
             sensor: ONE,
             force: ONE,
+            moment: Matrix::default(),
             delay_s: 0.0,
         };
         for (number, amount) in amounts.enumerate() {
             match spread.part(number) {
                 Part::Sensor(part) => add(&mut all.sensor, &part, amount),
                 Part::Force(part) => add(&mut all.force, &part, amount),
+                Part::Moment(part) => add(&mut all.moment, &part, amount),
                 Part::Delay(part) => all.delay_s += amount * part,
             }
         }
         all
     }
 
-    /// What is read of the accelerance `a` (or of a change of it) at `s`.
+    /// What is read of a change of the accelerance `a` at `s`, the hits where they are aimed at.
     pub fn read(&self, s: C64, a: &Response) -> Response {
         let late = C64::new(1.0, 0.0) - s * self.delay_s;
         through(&self.sensor, a, &self.force).map(|row| row.map(|x| x * late))
     }
 
-    /// Change of what is read of `a` with one of the numbers, per standard deviation.
-    pub fn slope(&self, number: usize, spread: &Spread, s: C64, a: &Response) -> Response {
+    /// What is read at `s` of the accelerance `a`, with the acceleration `b` under moments.
+    pub fn read_all(&self, s: C64, [a, b]: [&Response; 2]) -> Response {
+        self.seen(&self.sensor, s, [a, b])
+    }
+
+    fn seen(&self, sensor: &Matrix, s: C64, [a, b]: [&Response; 2]) -> Response {
+        let late = C64::new(1.0, 0.0) - s * self.delay_s;
+        let (forces, moments) = (
+            through(sensor, a, &self.force),
+            through(sensor, b, &self.moment),
+        );
+        let entry = |i: usize, j: usize| (forces[i][j] + moments[i][j]) * late;
+        [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j)))
+    }
+
+    /// Change of what is read of `a` and `b` with one of the numbers, per standard deviation.
+    pub fn slope(
+        &self,
+        number: usize,
+        spread: &Spread,
+        s: C64,
+        [a, b]: [&Response; 2],
+    ) -> Response {
         let late = C64::new(1.0, 0.0) - s * self.delay_s;
         let (out, factor) = match spread.part(number) {
-            Part::Sensor(part) => (through(&part, a, &self.force), late),
+            Part::Sensor(part) => return self.seen(&part, s, [a, b]),
             Part::Force(part) => (through(&self.sensor, a, &part), late),
-            Part::Delay(part) => (through(&self.sensor, a, &self.force), -s * part),
+            Part::Moment(part) => (through(&self.sensor, b, &part), late),
+            Part::Delay(part) => (self.seen(&self.sensor, s, [a, b]), -s * part / late),
         };
         out.map(|row| row.map(|x| x * factor))
     }
+}
+
+/// The direction of the hits, and one across it, of a number that counts two for each direction.
+fn across(number: usize) -> (usize, usize) {
+    let input = number / 2;
+    (input, (input + 1 + number % 2) % 3)
 }
 
 fn add(sum: &mut Matrix, part: &Matrix, amount: f64) {

@@ -35,7 +35,7 @@ impl Known {
 mod tests {
     use super::*;
     use crate::motion::frf::{C64, Response};
-    use crate::motion::receptance::{accelerance, coordinates};
+    use crate::motion::receptance::{accelerance, coordinates, under_moments};
     use crate::motion::{Linear, Work, elastic, linearise};
     use instrument::Reading;
     use slopes::{of_entries, of_masses, whole};
@@ -109,7 +109,8 @@ mod tests {
         let chain = elastic(&robot);
         let linear = linearise(&chain, &mut Work::new(&chain), &angles).unwrap();
         let s = C64::new(1.2, 70.0);
-        let (_, a) = response(&linear, s);
+        let (answers, a) = response(&linear, s);
+        let b = under_moments(&linear, &answers, s);
         let (spread, size) = (laboratory().instrument, a[0][0].norm());
         let at = |number: usize, by: f64| {
             let amounts = (0..instrument::NUMBERS).map(move |i| {
@@ -119,8 +120,10 @@ mod tests {
             Reading::of(amounts, &spread)
         };
         for number in 0..instrument::NUMBERS {
-            let slope = at(number, 0.0).slope(number, &spread, s, &a);
-            let (up, down) = (at(number, 1e-3).read(s, &a), at(number, -1e-3).read(s, &a));
+            let both = [&a, &b];
+            let slope = at(number, 0.0).slope(number, &spread, s, both);
+            let read = |by: f64| at(number, by).read_all(s, both);
+            let (up, down) = (read(1e-3), read(-1e-3));
             near(&slope, &up, &down, 2e-3, size);
         }
     }
