@@ -175,8 +175,11 @@ fn a_cut_as_stated_is_sufficient() {
 
 #[test]
 fn what_no_effect_makes_is_flagged() {
+    // every second of them, unless more is asked for
+    let apart = 1 + usize::from(std::env::var_os("IDENT_BLIND_CASES").is_none());
     let cases: Vec<(u64, Vec<&'static str>)> = seeds(6000, STRANGERS.len() * times())
         .enumerate()
+        .step_by(apart)
         .map(|(k, s)| (s, vec![STRANGERS[k % STRANGERS.len()]]))
         .collect();
     let rates = judged("strangers", &cases);

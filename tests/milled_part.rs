@@ -2,7 +2,7 @@
 //!
 //! The plant is milled with the cause in it, feedback and all, where the diagnosis takes columns of first
 //! order; datum, tool, growth and corners are by formulas of this file. `IDENT_BLIND_SEED` draws others,
-//! `IDENT_DEBUG=1` prints every case, `IDENT_PART_CASES=1` takes all of them instead of every second:
+//! `IDENT_DEBUG=1` prints every case, `IDENT_PART_CASES=1` takes all of them instead of every third:
 //! `cargo test --test suite milled_part:: -- --nocapture`.
 
 use crate::part_bench::{job, ready};
@@ -230,7 +230,7 @@ fn single_causes_are_named_and_sound_parts_are_left_alone() {
     let whole = std::env::var_os("IDENT_PART_CASES").is_some();
     let mut hidden = singles(&setup, &planned, folder.path(), z);
     if !whole {
-        hidden = hidden.into_iter().step_by(2).collect();
+        hidden = hidden.into_iter().step_by(3).collect();
     }
     let all = hidden.len();
     let cleans = if whole { 3 } else { 1 };
