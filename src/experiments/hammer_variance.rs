@@ -7,10 +7,6 @@ use std::ops::Range;
 
 /// Half width, lines, over which variances are fitted: few hits give rough ones.
 const SMOOTHING: usize = 10;
-/// Half width at the very ends of the band, growing inwards.
-const NARROW: usize = 3;
-/// Times the variance seen from one side above which that of the narrow range counts: noise rises there.
-const RISING: f64 = 2.0;
 /// Passes of that fit, each weighing the lines by the last.
 const PASSES: usize = 3;
 /// Times the fitted variance above which the scatter of a line counts alone.
@@ -55,14 +51,9 @@ pub fn variance(input: &InputFrf, output: usize, lines: &[usize]) -> Vec<f64> {
 fn smoothed(scatter: &[f64], size: &[f64]) -> Vec<f64> {
     let mut model = vec![1.0; scatter.len()];
     for _ in 0..PASSES {
-        let of = |i: usize, range: Range<usize>| {
-            let [a, b] = share(scatter, size, &model, range);
-            a + b * size[i]
-        };
         let at = |i: usize| {
-            let wide = of(i, around(i, scatter.len()));
-            let near = of(i, about(i, scatter.len()));
-            if near > RISING * wide { near } else { wide }
+            let [a, b] = share(scatter, size, &model, around(i, scatter.len()));
+            a + b * size[i]
         };
         model = (0..scatter.len()).map(at).collect();
     }
@@ -73,12 +64,6 @@ fn smoothed(scatter: &[f64], size: &[f64]) -> Vec<f64> {
 /// The places around `i` of `count`.
 fn around(i: usize, count: usize) -> Range<usize> {
     i.saturating_sub(SMOOTHING)..(i + SMOOTHING + 1).min(count)
-}
-
-/// As many places on either side of `i` as there are towards the nearer end, and a few more.
-fn about(i: usize, count: usize) -> Range<usize> {
-    let half = SMOOTHING.min(NARROW + i.min(count.saturating_sub(i + 1)));
-    i.saturating_sub(half)..(i + half + 1).min(count)
 }
 
 fn mean(values: &[f64]) -> f64 {

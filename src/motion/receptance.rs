@@ -3,6 +3,7 @@
 
 use super::frf::{C64, LANES, Lanes, real};
 use super::linear::Linear;
+use crate::ground::spatial::V3;
 
 /// Per line the answers of all coordinates, `[line * n + coordinate][direction of the force]`, rad/N.
 pub fn coordinates(linear: &Linear, s: &[C64]) -> Vec<[C64; 3]> {
@@ -28,24 +29,22 @@ pub fn coordinates(linear: &Linear, s: &[C64]) -> Vec<[C64; 3]> {
 
 /// Accelerance of the tool from [`coordinates`] of one line: s² J Y, output by input.
 pub fn accelerance(linear: &Linear, answers: &[[C64; 3]], s: C64) -> [[C64; 3]; 3] {
-    let mut sum = [[C64::default(); 3]; 3];
-    for (column, answer) in linear.tool.iter().zip(answers) {
-        for (row, lever) in sum.iter_mut().zip(column) {
-            for (entry, y) in row.iter_mut().zip(answer) {
-                *entry += y * *lever;
-            }
-        }
-    }
-    sum.map(|row| row.map(|entry| entry * s * s))
+    moved(&linear.tool, answers, s)
 }
 
 /// Acceleration of the tool under a moment on it, from [`coordinates`] of one line: s² Yᵀ Jᵣᵀ, output by axis of
 /// the moment, (m/s²)/(N·m). By reciprocity: what a force turns, a moment moves.
 pub fn under_moments(linear: &Linear, answers: &[[C64; 3]], s: C64) -> [[C64; 3]; 3] {
+    let turned = moved(&linear.turn, answers, s);
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| turned[j][i]))
+}
+
+/// s² Σ lever ⊗ answer over all coordinates.
+fn moved(levers: &[V3], answers: &[[C64; 3]], s: C64) -> [[C64; 3]; 3] {
     let mut sum = [[C64::default(); 3]; 3];
-    for (turn, answer) in linear.turn.iter().zip(answers) {
-        for (row, y) in sum.iter_mut().zip(answer) {
-            for (entry, lever) in row.iter_mut().zip(turn) {
+    for (column, answer) in levers.iter().zip(answers) {
+        for (row, lever) in sum.iter_mut().zip(column) {
+            for (entry, y) in row.iter_mut().zip(answer) {
                 *entry += y * *lever;
             }
         }

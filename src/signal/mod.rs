@@ -16,6 +16,7 @@ pub mod local_rational;
 pub mod low_pass;
 pub mod lscf;
 pub mod mac;
+pub mod mains;
 pub mod modal_fit;
 pub mod modal_grid;
 pub mod modal_intervals;

@@ -148,7 +148,7 @@ impl Machine<'_> {
             linear.turn.fill([0.0; 3]);
         }
         let bare = bare(point, &linear, &answers, &s);
-        let turned = turned(&linear, &answers, &s);
+        let turned = turned(point, &linear, &answers, &s);
         let reading = nuisance.reading(&point.theta);
         let lines = bare.iter().zip(&turned).zip(&s);
         Ok(lines
@@ -162,7 +162,7 @@ impl Machine<'_> {
         let s = shifted(point, data);
         let answers = coordinates(&linear, &s);
         let bare = bare(point, &linear, &answers, &s);
-        let turned = turned(&linear, &answers, &s);
+        let turned = turned(point, &linear, &answers, &s);
         let reading = nuisance.reading(&point.theta);
         let lines = || bare.iter().zip(&turned).zip(&s);
         let values: Vec<Accelerance> = lines()
@@ -229,23 +229,30 @@ fn shifted(point: &Point, data: &Data) -> Vec<C64> {
 
 /// What a sensor would read that is calibrated and mounted as it should be.
 fn bare(point: &Point, linear: &Linear, answers: &[[C64; 3]], s: &[C64]) -> Vec<Accelerance> {
+    as_seen(accelerance, point, linear, answers, s)
+}
+
+/// What it would read of moments on the tool.
+fn turned(point: &Point, linear: &Linear, answers: &[[C64; 3]], s: &[C64]) -> Vec<Accelerance> {
+    as_seen(under_moments, point, linear, answers, s)
+}
+
+/// `of` every line, through the causes that an instrument may have.
+fn as_seen(
+    of: impl Fn(&Linear, &[[C64; 3]], C64) -> Accelerance,
+    point: &Point,
+    linear: &Linear,
+    answers: &[[C64; 3]],
+    s: &[C64],
+) -> Vec<Accelerance> {
     let each = point.each();
     let line = |(k, s): (usize, &C64)| {
-        let mut a = accelerance(linear, &answers[k * linear.n..(k + 1) * linear.n], *s);
+        let mut a = of(linear, &answers[k * linear.n..(k + 1) * linear.n], *s);
         each.iter()
             .for_each(|(c, amounts)| c.cause.read_accelerance(&c.site, amounts, *s, &mut a));
         a
     };
     s.iter().enumerate().map(line).collect()
-}
-
-/// What moments on the tool would show.
-fn turned(linear: &Linear, answers: &[[C64; 3]], s: &[C64]) -> Vec<Accelerance> {
-    let own = |k: usize| &answers[k * linear.n..(k + 1) * linear.n];
-    let lines = s.iter().enumerate();
-    lines
-        .map(|(k, s)| under_moments(linear, own(k), *s))
-        .collect()
 }
 
 /// Appends the rows of `data`: per pair, real and imaginary part of every line.

@@ -4,6 +4,7 @@ use super::Case;
 use crate::findings::engine::Member;
 use crate::findings::table::{self, Pattern};
 use crate::inference::gaussian::Size;
+use crate::signal::mains::MAINS_HZ;
 use std::f64::consts::TAU;
 
 /// All of them.
@@ -27,8 +28,8 @@ pub(super) const PATTERNS: &[Pattern<Case>] = &[
 
 /// Pieces of the record whose force may be more or less than simulated.
 const PIECES: usize = 24;
-/// Frequencies of mains and what rectifiers make of them, Hz.
-const MAINS: [f64; 6] = [50.0, 60.0, 100.0, 120.0, 150.0, 180.0];
+/// Harmonics of the mains that are tried: rectifiers make them.
+const HARMONICS: [f64; 3] = [1.0, 2.0, 3.0];
 /// Nats from which a hum is worth a comparison.
 const HUM: f64 = 12.0;
 
@@ -62,8 +63,9 @@ fn hums(case: &Case) -> Vec<Member> {
         phases.map(one).collect()
     };
     let best = |axis: usize| {
-        let tried = MAINS.map(|hz| wave(axis, hz));
-        let gains = tried.into_iter().map(|w| (case.aim().gain_of(&w), w));
+        let tried = HARMONICS.iter().flat_map(|n| MAINS_HZ.map(|hz| n * hz));
+        let waves = tried.map(|hz| wave(axis, hz));
+        let gains = waves.map(|w| (case.aim().gain_of(&w), w));
         gains.reduce(|a, b| if b.0 > a.0 { b } else { a })
     };
     let waves = (0..3).filter_map(best);

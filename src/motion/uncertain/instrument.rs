@@ -128,18 +128,17 @@ impl Reading {
     }
 
     /// What is read at `s` of the accelerance `a`, with the acceleration `b` under moments.
-    pub fn read_all(&self, s: C64, [a, b]: [&Response; 2]) -> Response {
-        self.seen(&self.sensor, s, [a, b])
+    pub fn read_all(&self, s: C64, both: [&Response; 2]) -> Response {
+        let late = C64::new(1.0, 0.0) - s * self.delay_s;
+        self.in_time(&self.sensor, both)
+            .map(|row| row.map(|x| x * late))
     }
 
-    fn seen(&self, sensor: &Matrix, s: C64, [a, b]: [&Response; 2]) -> Response {
-        let late = C64::new(1.0, 0.0) - s * self.delay_s;
-        let (forces, moments) = (
-            through(sensor, a, &self.force),
-            through(sensor, b, &self.moment),
-        );
-        let entry = |i: usize, j: usize| (forces[i][j] + moments[i][j]) * late;
-        [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j)))
+    /// The same without the delay.
+    fn in_time(&self, sensor: &Matrix, [a, b]: [&Response; 2]) -> Response {
+        let forces = through(sensor, a, &self.force);
+        let moments = through(sensor, b, &self.moment);
+        [0, 1, 2].map(|i| [0, 1, 2].map(|j| forces[i][j] + moments[i][j]))
     }
 
     /// Change of what is read of `a` and `b` with one of the numbers, per standard deviation.
@@ -152,10 +151,10 @@ impl Reading {
     ) -> Response {
         let late = C64::new(1.0, 0.0) - s * self.delay_s;
         let (out, factor) = match spread.part(number) {
-            Part::Sensor(part) => return self.seen(&part, s, [a, b]),
+            Part::Sensor(part) => (self.in_time(&part, [a, b]), late),
             Part::Force(part) => (through(&self.sensor, a, &part), late),
             Part::Moment(part) => (through(&self.sensor, b, &part), late),
-            Part::Delay(part) => (self.seen(&self.sensor, s, [a, b]), -s * part / late),
+            Part::Delay(part) => (self.in_time(&self.sensor, [a, b]), -s * part),
         };
         out.map(|row| row.map(|x| x * factor))
     }

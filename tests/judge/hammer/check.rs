@@ -1,8 +1,8 @@
 //! The judge's own dynamics against the program's, and its records against its dynamics.
 
+use super::bench::{Bench, less, seen};
 use super::dynamics::{C, Pairs, World};
 use super::records::{estimated, records};
-use super::{Bench, less, seen};
 use ident::ground::random::Random;
 
 /// Compares transfer functions of the sound robot with those of `ident simulate frf`, and with those of noise-free
