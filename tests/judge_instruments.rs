@@ -39,8 +39,10 @@ fn force_sensors_by_strangers_are_judged_rightly() {
     floors.hold(&rates);
 }
 
-/// Seeds 401 to 405, 100 cases looked at once: clean 19 of 20, single 40 of 43, pair 16 of 30, outside 7 of 7, untrue
-/// names in 7 of 93.
+/// Seeds 411 to 416, 120 cases at which nobody had looked, before all that is uncertain rang with the sensor, a stated
+/// runout was turned where it fits, what was found was kept as it was found and laws had errors of their own, and after:
+/// clean 23 / 23 of 23, single 60 / 61 of 63, pair 16 / 20 of 31, outside 2 / 2 of 3, untrue names in 8 / 5 of 117. On
+/// seeds 401 to 405, which set the errors: pair 16 / 24 of 30.
 #[test]
 fn cutting_forces_by_strangers_are_judged_rightly() {
     let rates = conclude("milling-force", &judged(judge::milling_force::draw, 4));

@@ -1,5 +1,7 @@
-//! A dynamometer's second-order low pass on waves that repeat with every revolution of the spindle.
+//! What a dynamometer makes of waves that repeat with every revolution of the spindle: its second-order low pass, and
+//! its ringing.
 
+use super::bell::Rung;
 use crate::ground::spatial::V3;
 use crate::signal::low_pass::{butterworth2, butterworth2_slope};
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
@@ -12,19 +14,23 @@ thread_local! {
     static PLANNER: RefCell<RealFftPlanner<f64>> = RefCell::new(RealFftPlanner::new());
 }
 
-/// The low pass for revolutions of some samples.
-pub(super) struct LowPass {
+/// A dynamometer for revolutions of some samples.
+pub(super) struct Passage {
     forward: Arc<dyn RealToComplex<f64>>,
     back: Arc<dyn ComplexToReal<f64>>,
-    /// What every line of the spindle is multiplied with.
-    plain: Vec<Complex64>,
+    /// What every line of the spindle is multiplied with, by axis.
+    plain: Factors,
     spindle_hz: f64,
-    corner_hz: f64,
+    corner_hz: Option<f64>,
+    rung: Option<Rung>,
 }
 
-impl LowPass {
+/// A factor of every line, by axis.
+type Factors = [Vec<Complex64>; 3];
+
+impl Passage {
     /// For this many samples of a revolution.
-    pub fn new(grid: usize, spindle_hz: f64, corner_hz: f64) -> Self {
+    pub fn new(grid: usize, spindle_hz: f64, corner_hz: Option<f64>, rung: Option<Rung>) -> Self {
         let (forward, back) = PLANNER.with_borrow_mut(|planner| {
             (
                 planner.plan_fft_forward(grid),
@@ -34,28 +40,52 @@ impl LowPass {
         let mut pass = Self {
             forward,
             back,
-            plain: Vec::new(),
+            plain: Factors::default(),
             spindle_hz,
             corner_hz,
+            rung,
         };
-        pass.plain = pass.factors(|hz, _| butterworth2(hz, corner_hz));
+        pass.plain = pass.factors(|hz, _, axis| pass.at(hz, axis));
         pass
     }
 
-    /// A function of frequency (Hz) and order, for all lines.
-    fn factors(&self, of: impl Fn(f64, f64) -> Complex64) -> Vec<Complex64> {
-        let grid = self.forward.len();
-        let line = |order: usize| {
-            let order = order as f64;
-            // entries and exits are spread over a sample: undone here
-            of(order * self.spindle_hz, order) / sinc(order / grid as f64) / grid as f64
-        };
-        let mut all: Vec<Complex64> = (0..grid / 2).map(line).collect();
-        all.push(Complex64::new(0.0, 0.0));
-        all
+    /// What it makes of a line.
+    fn at(&self, hz: f64, axis: usize) -> Complex64 {
+        let low = self
+            .corner_hz
+            .map_or(1.0.into(), |corner| butterworth2(hz, corner));
+        self.rung.map_or(low, |rung| rung.through(low, hz, axis))
     }
 
-    /// A wave behind the low pass.
+    /// Its derivative over the logarithm of the corner.
+    fn slower(&self, hz: f64, axis: usize) -> Complex64 {
+        let low = self
+            .corner_hz
+            .map_or(0.0.into(), |corner| butterworth2_slope(hz, corner));
+        self.rung.map_or(low, |rung| rung.slope(low, hz, axis))
+    }
+
+    /// A function of frequency (Hz), order and axis, for all lines.
+    fn factors(&self, of: impl Fn(f64, f64, usize) -> Complex64) -> Factors {
+        let grid = self.forward.len();
+        let line = |order: usize, axis: usize| {
+            let order = order as f64;
+            // entries and exits are spread over a sample: undone here
+            of(order * self.spindle_hz, order, axis) / sinc(order / grid as f64) / grid as f64
+        };
+        let all = |axis: usize| {
+            let mut all: Vec<Complex64> = (0..grid / 2).map(|order| line(order, axis)).collect();
+            all.push(Complex64::new(0.0, 0.0));
+            all
+        };
+        if self.rung.is_none_or(|rung| rung.axis.is_none()) {
+            let alike = all(0);
+            return [alike.clone(), alike.clone(), alike];
+        }
+        [0, 1, 2].map(all)
+    }
+
+    /// A wave as it is read.
     pub fn plain(&self, wave: &[V3]) -> Vec<V3> {
         let [passed] = self.turned(wave, [&self.plain]);
         passed
@@ -63,14 +93,13 @@ impl LowPass {
 
     /// The same, with its slopes over the logarithm of the corner and over the angle.
     pub fn with_slopes(&self, wave: &[V3]) -> [Vec<V3>; 3] {
-        let slower = self.factors(|hz, _| butterworth2_slope(hz, self.corner_hz));
-        let turned =
-            self.factors(|hz, order| Complex64::new(0.0, order) * butterworth2(hz, self.corner_hz));
+        let slower = self.factors(|hz, _, axis| self.slower(hz, axis));
+        let turned = self.factors(|hz, order, axis| Complex64::new(0.0, order) * self.at(hz, axis));
         self.turned(wave, [&self.plain, &slower, &turned])
     }
 
     /// The waves whose lines are those of a wave times factors.
-    fn turned<const N: usize>(&self, wave: &[V3], factors: [&Vec<Complex64>; N]) -> [Vec<V3>; N] {
+    fn turned<const N: usize>(&self, wave: &[V3], factors: [&Factors; N]) -> [Vec<V3>; N] {
         let mut all = [(); N].map(|()| vec![[0.0; 3]; wave.len()]);
         let mut lines = self.forward.make_output_vec();
         for k in 0..3 {
@@ -78,7 +107,7 @@ impl LowPass {
             // lengths are those of the plans
             let _ = self.forward.process(&mut own, &mut lines);
             for (to, factors) in all.iter_mut().zip(factors) {
-                let each = lines.iter().zip(factors);
+                let each = lines.iter().zip(&factors[k]);
                 let mut passed: Vec<Complex64> = each.map(|(l, f)| l * f).collect();
                 passed[0].im = 0.0;
                 let _ = self.back.process(&mut passed, &mut own);

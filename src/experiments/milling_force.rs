@@ -3,7 +3,8 @@
 
 mod place;
 
-use super::around::LowPass;
+use super::around::Passage;
+use super::bell::Rung;
 use crate::cutting::tool::Tool;
 use crate::cutting::wave::{Basis, Cut, Side, Wave, force};
 use crate::ground::dual::{Dual, Scalar};
@@ -48,6 +49,8 @@ pub struct CutScene {
     pub time: Vec<f64>,
     /// Whether a low pass stands between the force and the file.
     pub low_pass: bool,
+    /// Whether the sensor rings.
+    pub rung: Option<Rung>,
     /// By how much each tooth is shorter than the others along its whole edge, m; empty: none is.
     pub shorter: Vec<f64>,
     /// The same from the tip up to [`CutScene::chipped_to_m`] alone.
@@ -90,10 +93,15 @@ type D = Dual<5>;
 impl CutScene {
     /// Forces and slopes at `p`, in the order of [`UNKNOWNS`].
     pub fn predict(&self, p: &[f64; UNKNOWNS]) -> Predicted {
-        match self.low_pass {
-            true => self.filtered(p),
-            false => self.ideal(p),
+        match self.is_direct() {
+            true => self.ideal(p),
+            false => self.filtered(p),
         }
+    }
+
+    /// Whether the file holds the force itself.
+    fn is_direct(&self) -> bool {
+        !self.low_pass && self.rung.is_none()
     }
 
     /// Forces at `p` without their slopes, N: a fraction of the work.
@@ -101,7 +109,7 @@ impl CutScene {
         let wave = self.wave(p, |value, _| value);
         let at = |angle: f64, blur: f64| force(&wave.basis(angle, blur), &p[..6]);
         let angles = self.angles(p).into_iter();
-        if !self.low_pass {
+        if self.is_direct() {
             return angles.map(|angle| at(angle, 0.0)).collect();
         }
         let (grid, pass) = self.grid(p);
@@ -145,11 +153,13 @@ impl CutScene {
         predicted
     }
 
-    /// Samples of a revolution, and the low pass for them.
-    fn grid(&self, p: &[f64; UNKNOWNS]) -> (usize, LowPass) {
-        let (hertz, corner) = (self.cut.spindle_rad_s / TAU, p[BANDWIDTH].exp());
-        let grid = samples_around(hertz, corner);
-        (grid, LowPass::new(grid, hertz, corner))
+    /// Samples of a revolution, and the instrument for them.
+    fn grid(&self, p: &[f64; UNKNOWNS]) -> (usize, Passage) {
+        let hertz = self.cut.spindle_rad_s / TAU;
+        let corner = self.low_pass.then(|| p[BANDWIDTH].exp());
+        let own = self.rung.map_or(0.0, |rung| rung.bell.at[0]);
+        let grid = samples_around(hertz, corner.unwrap_or(0.0).max(own));
+        (grid, Passage::new(grid, hertz, corner, self.rung))
     }
 
     fn filtered(&self, p: &[f64; UNKNOWNS]) -> Predicted {
@@ -205,8 +215,8 @@ impl Predicted {
         }
     }
 
-    /// One revolution behind a low pass.
-    fn passed(around: &Self, pass: &LowPass) -> Self {
+    /// One revolution behind an instrument.
+    fn passed(around: &Self, pass: &Passage) -> Self {
         let mut passed = Self::zeros(around.force.len());
         let [plain, slower, turned] = pass.with_slopes(&around.force);
         passed.force = plain;
@@ -239,6 +249,7 @@ mod tests {
             cut,
             time: (0..400).map(|i| 5.3e-5 * f64::from(i)).collect(),
             low_pass,
+            rung: None,
             shorter: Vec::new(),
             chipped: Vec::new(),
             chipped_to_m: 0.0,

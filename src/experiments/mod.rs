@@ -1,6 +1,7 @@
 //! Floor 5: one file per kind of experiment: what a model says it should have shown, and the charts.
 
 mod around;
+pub mod bell;
 pub mod cubes;
 pub mod drive_law;
 pub mod finite_turns;

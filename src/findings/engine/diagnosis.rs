@@ -40,7 +40,7 @@ pub struct Found {
 const ROUNDS: usize = 6;
 /// Change of what every cause adds, as a share of it, at which a round has arrived.
 const ARRIVED: f64 = 0.03;
-/// A round that leaves so much more than the one before went astray.
+/// A round that leaves so much more than the best before went astray.
 const WORSE: f64 = 1.15;
 /// Diagnoses.
 pub fn diagnose(experiment: &dyn Experiment, judgement: &Judgement) -> Found {
@@ -49,15 +49,18 @@ pub fn diagnose(experiment: &dyn Experiment, judgement: &Judgement) -> Found {
     if experiment.is_linear() || found.lead.is_empty() {
         return found;
     }
+    let mut least = rms(&found.left);
     for _ in 0..ROUNDS {
         let statement = stated(experiment, &found.lead, &found.uncertain);
         if experiment.is_settled(&last, &statement) {
             break;
         }
         let next = about(experiment, &statement, judgement);
-        if rms(&next.left) > WORSE * rms(&found.left) {
+        let left = rms(&next.left);
+        if left > WORSE * least {
             break;
         }
+        least = least.min(left);
         let arrived = is_same(&found.lead, &next.lead);
         let missed = std::mem::take(&mut found.missed);
         let discrepancy = found.answer.discrepancy;

@@ -17,6 +17,9 @@ const DRAWN: usize = 4;
 /// Times by which what is left may scatter beyond the noise, stated and estimated from neighbours (who do not see slow
 /// noise). Set on seeds 201 to 204 of `tests/judge`.
 const NOISE_BEYOND: [f64; 2] = [1.7, 2.5];
+/// Share of all that is named below which a cause is none, whatever the laws of the others miss
+/// (`findings/milling_force`, `ROUGH`): a zero of the sensor is plain beside a speed that shifts every wave.
+const LEAST_SHARE: f64 = 0.005;
 /// Points over time that are drawn.
 const POINTS: usize = 600;
 
@@ -55,6 +58,7 @@ impl Measured for Case {
         Judgement {
             peak: usual.peak / self.revolutions().max(1.0).sqrt(),
             peak_above: 0.995,
+            share: LEAST_SHARE,
             noise_beyond: NOISE_BEYOND[usize::from(self.file().facts.sensor_noise_n.is_none())],
             ..usual
         }

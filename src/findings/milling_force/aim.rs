@@ -6,6 +6,7 @@ use super::Case;
 use super::setting::Places;
 use crate::ground::products::gram;
 use crate::ground::spatial::{M3, V3, add, rotate, scale};
+use crate::ground::stats::rms;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// A direction of the vector that is uncertain although nothing is wrong.
@@ -25,6 +26,8 @@ pub struct Aim {
     reading: DVector<f64>,
     spread: Vec<f64>,
 }
+
+type M2 = [[f64; 2]; 2];
 
 /// Rounds in which a secant is improved.
 const ROUNDS: usize = 5;
@@ -72,6 +75,20 @@ impl Aim {
             Some(root) => root.solve(&seen),
             None => DVector::zeros(seen.len()),
         }
+    }
+
+    /// Amounts of the two nuisances from one on, with their covariance.
+    pub fn last_two(&self, first: usize) -> Option<([f64; 2], M2)> {
+        let all = self.seen(&self.reading);
+        let root = self.root.as_ref()?;
+        let unit = |k: usize| {
+            let mut unit = DVector::zeros(self.loose.len());
+            unit[first + k] = 1.0;
+            root.solve(&unit)
+        };
+        let columns = [0, 1].map(unit);
+        let covariance = [0, 1].map(|i| [0, 1].map(|j| columns[j][first + i]));
+        Some(([all[first], all[first + 1]], covariance))
     }
 
     /// What the nuisances leave of a whitened column.
@@ -128,6 +145,7 @@ impl Aim {
         if best.1.iter().all(|x| *x == 0.0) {
             return best.1;
         }
+        let slope = best.1.clone();
         let (mut column, mut before) = (best.1.clone(), 0.0);
         for _ in 0..ROUNDS {
             let amount = self.amounts(std::slice::from_ref(&column))[0].clamp(-most, most);
@@ -136,6 +154,9 @@ impl Aim {
             }
             before = amount;
             column = self.reached(case, direction, amount, &column);
+            if is_wild(&column, &slope) {
+                break;
+            }
             best = better(best, (self.worth(&column, amount), column.clone()));
         }
         best.1
@@ -203,7 +224,13 @@ impl Aim {
         whole: impl Fn(&[f64]) -> Vec<f64>,
     ) -> Vec<f64> {
         let left = &self.reading - white(column, &self.spread) * amount;
-        let uncertain = self.seen(&left);
+        let (to, alone) = self.placed(case, &self.seen(&left));
+        let each = whole(&to).into_iter().zip(&alone);
+        each.map(|(s, a)| s - a).collect()
+    }
+
+    /// Nuisances, no farther than they may go: as a vector of all places, and what they add by their slopes.
+    fn placed(&self, case: &Case, uncertain: &DVector<f64>) -> (Vec<f64>, Vec<f64>) {
         let mut to = vec![0.0; case.places().len()];
         let mut alone = DVector::zeros(self.loose.len());
         for (k, loose) in self.loose.iter().enumerate() {
@@ -215,8 +242,8 @@ impl Aim {
             loose.add_to(&mut to, alone[k]);
         }
         let alone = &self.nuisances * alone;
-        let each = whole(&to).into_iter().zip(alone.iter()).zip(&self.spread);
-        each.map(|((s, a), spread)| s - a * spread).collect()
+        let each = alone.iter().zip(&self.spread);
+        (to, each.map(|(a, spread)| a * spread).collect())
     }
 
     /// What is uncertain beside an amount of a column, as a vector of all places.
@@ -259,6 +286,15 @@ impl Loose {
         let each = self.along.iter();
         each.for_each(|(place, factor)| to[*place] += factor * amount);
     }
+}
+
+/// Times the size of a slope above which a way is not the cause's own: what is uncertain went far beside a small
+/// amount, and is not linear itself.
+const WILD: f64 = 3.0;
+
+/// Whether a way is much larger than the slope at its start.
+pub fn is_wild(way: &[f64], slope: &[f64]) -> bool {
+    rms(way) > WILD * rms(slope)
 }
 
 fn white(column: &[f64], spread: &[f64]) -> DVector<f64> {

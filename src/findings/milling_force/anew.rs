@@ -1,12 +1,13 @@
 //! The statement about causes that were found: every effect is looked at with all others in place, so that
 //! what is not linear, and what a sensor makes of it, comes out right.
 
+use super::direction::Direction;
 use super::experiment::ROUGH;
 use super::patterns::PATTERNS;
 use super::setting::PROCESS;
-use super::{Case, EFFECTS, coefficients, cross_talk, force_gain, runout};
+use super::{Case, EFFECTS, coefficients, cross_talk, force_gain, runout, sensor_resonance};
 use crate::experiments::milling_force::RUNOUT;
-use crate::findings::engine::{Blamed, Statement, Suspect};
+use crate::findings::engine::{Blamed, Member, Statement, Suspect};
 use crate::findings::table::{self, Effect};
 use crate::ground::spatial::{M3, add};
 
@@ -19,27 +20,29 @@ struct Anew {
     all: Case,
     /// Effects that were found, with the case that lacks only them.
     without: Vec<(&'static str, Case)>,
-    /// What the causes add that are neither of the process nor a map of forces.
+    /// Causes that are in place.
+    found: Vec<Blamed>,
+    /// What the causes add that are neither of the process nor done to forces.
     beside: Vec<f64>,
 }
 
 /// The statement about some causes.
 pub(super) fn about(case: &Case, blamed: &[Blamed]) -> Statement {
     let anew = Anew::of(case, blamed);
-    let mut reading = anew.all.reading();
-    add_to(&mut reading, &anew.beside, 1.0);
+    let mut statement = anew.all.statement();
+    let reading = &mut statement.reading;
+    add_to(reading, &anew.beside, 1.0);
     let forces = anew.all.forces();
     for (_, without) in &anew.without {
-        add_to(&mut reading, &forces, 1.0);
-        add_to(&mut reading, &without.forces(), -1.0);
+        add_to(reading, &forces, 1.0);
+        add_to(reading, &without.forces(), -1.0);
     }
     let mut suspects: Vec<Suspect> = EFFECTS.iter().flat_map(|e| anew.suspects(e)).collect();
     suspects = table::rough(suspects, &ROUGH);
     suspects.extend(table::patterns(PATTERNS, &anew.all));
     Statement {
-        reading,
         suspects,
-        ..anew.all.statement()
+        ..statement
     }
 }
 
@@ -54,21 +57,32 @@ fn map(blamed: &Blamed) -> Option<M3> {
         .find_map(|of| of(blamed))
 }
 
+/// Whether a cause is of the process, or all that it does is done to forces.
+fn is_in_place(blamed: &Blamed) -> bool {
+    blamed.shape[0] == PROCESS || map(blamed).is_some() || sensor_resonance::rung(blamed).is_some()
+}
+
 impl Anew {
     fn of(case: &Case, blamed: &[Blamed]) -> Self {
         let mut turned = vec![0.0; case.places().len()];
+        for (c, angle) in blamed
+            .iter()
+            .flat_map(|b| sensor_resonance::angles(b).iter().enumerate())
+        {
+            turned[case.places().phase(c)] = *angle;
+        }
         let mut all = combined(case, &turned, blamed, "");
         for _ in 0..ROUNDS {
             let nothing = vec![0.0; case.column(|_, _, _| 0.0).len()];
             let uncertain = all.aim().uncertain(&all, 0.0, &nothing);
             let places = case.places();
             (0..places.cuts).for_each(|c| turned[places.phase(c)] += uncertain[places.phase(c)]);
-            turn_runout(case, blamed, &uncertain, &mut turned);
+            turn_runout(case, blamed, &mut turned);
             all = combined(case, &turned, blamed, "");
         }
         let mut names: Vec<&'static str> = blamed
             .iter()
-            .filter(|b| b.shape[0] == PROCESS || map(b).is_some())
+            .filter(|b| is_in_place(b))
             .map(|b| b.effect)
             .collect();
         names.sort_unstable();
@@ -79,23 +93,30 @@ impl Anew {
             .collect();
         Self {
             beside: beside(case, blamed, ""),
+            found: blamed.iter().filter(|b| is_in_place(b)).cloned().collect(),
             all,
             without,
         }
     }
 }
 
-/// Turns a runout that is stated by its size alone to where what is uncertain takes it.
-fn turn_runout(case: &Case, blamed: &[Blamed], uncertain: &[f64], turned: &mut [f64]) {
-    let found = blamed.iter().any(|b| b.effect == runout::EFFECT.name);
-    let Some(size) = case.file().facts.runout_m.filter(|_| !found) else {
+/// Turns a runout that is stated by its size alone to where it fits best, beside all that were found but a
+/// runout itself.
+fn turn_runout(case: &Case, blamed: &[Blamed], turned: &mut [f64]) {
+    let Some(size) = case
+        .file()
+        .facts
+        .runout_m
+        .filter(|_| case.places().teeth > 1)
+    else {
         return;
     };
-    let before = case.runout();
-    let [x, y] = [0, 1].map(|k| before[k] + turned[RUNOUT + k] + uncertain[RUNOUT + k]);
-    let long = x.hypot(y).max(f64::MIN_POSITIVE);
-    turned[RUNOUT] = x / long * size - before[0];
-    turned[RUNOUT + 1] = y / long * size - before[1];
+    let beside = combined(case, turned, blamed, runout::EFFECT.name);
+    if let Some(direction) = Direction::seen(&beside) {
+        let before = case.runout();
+        let now = direction.of_size(size);
+        (0..2).for_each(|k| turned[RUNOUT + k] = now[k] - before[k]);
+    }
 }
 
 impl Anew {
@@ -104,7 +125,13 @@ impl Anew {
     fn suspects(&self, effect: &Effect<Case>) -> Vec<Suspect> {
         let of = |case: &Case| table::suspects(std::slice::from_ref(effect), case);
         if let Some((_, own)) = self.without.iter().find(|w| w.0 == effect.name) {
-            return of(own);
+            let mut suspects = of(own);
+            for suspect in &mut suspects {
+                suspect
+                    .members
+                    .extend(self.kept(&suspect.site, own, effect));
+            }
+            return suspects;
         }
         let mut all = of(&self.all);
         let is_kin = |name: &str| {
@@ -120,31 +147,67 @@ impl Anew {
     }
 }
 
+impl Anew {
+    /// A cause just as it was found: the way from the case without it, so that what fitted once is not lost.
+    fn kept(&self, site: &str, without: &Case, effect: &Effect<Case>) -> Option<Member> {
+        let mut own = self.found.iter().filter(|b| b.effect == effect.name);
+        let (Some(found), None) = (own.next().filter(|b| b.site == site), own.next()) else {
+            return None;
+        };
+        let size = found.amounts.iter().map(|a| a * a).sum::<f64>().sqrt();
+        let mut way = self.all.forces();
+        add_to(&mut way, &without.forces(), -1.0);
+        let mut member = match found.amounts[..] {
+            [amount] if amount != 0.0 => Member::free(over(way, amount)).shaped(&found.shape),
+            [a, b] if size > 0.0 && found.effect == runout::EFFECT.name => {
+                let (first, second) = found.shape[1..].split_at(self.all.places().len());
+                let turned = |a: f64, b: f64| -> Vec<f64> {
+                    let each = first.iter().zip(second);
+                    each.map(|(x, y)| (a * x + b * y) / size).collect()
+                };
+                let (along, across) = (turned(a, b), turned(-b, a));
+                let mut member = Member::free(over(way, size));
+                member.columns.push(self.all.along(&across));
+                member.shaped(&[vec![PROCESS], along, across].concat())
+            }
+            _ => return None,
+        };
+        if sensor_resonance::rung(found).is_some() {
+            member = member.positive();
+        }
+        Some(member)
+    }
+}
+
+fn over(mut column: Vec<f64>, amount: f64) -> Vec<f64> {
+    column.iter_mut().for_each(|x| *x /= amount);
+    column
+}
+
 /// The case with all causes in place but those of an effect.
 fn combined(case: &Case, turned: &[f64], blamed: &[Blamed], but: &str) -> Case {
     let mut by = turned.to_vec();
-    let mut seen = case.seen();
+    let mut sensor = case.sensor();
     for cause in blamed.iter().filter(|b| b.effect != but) {
         if cause.shape[0] == PROCESS {
             add_to(&mut by, &coefficients::moved(case, cause), 1.0);
         }
         if let Some(map) = map(cause) {
-            (0..3).for_each(|k| seen[k] = add(seen[k], map[k]));
+            (0..3).for_each(|k| sensor.map[k] = add(sensor.map[k], map[k]));
         }
+        sensor.rung = sensor.rung.or(sensor_resonance::rung(cause));
     }
     // the speeds of the records are in the scenes already
     let places = case.places();
     (0..places.cuts).for_each(|c| by[places.speed(c)] = 0.0);
-    case.moved(&by, seen, beside(case, blamed, but))
+    case.moved(&by, sensor, beside(case, blamed, but))
 }
 
-/// What causes add that are neither of the process nor a map of forces.
+/// What causes add that are neither of the process nor done to forces.
 fn beside(case: &Case, blamed: &[Blamed], but: &str) -> Vec<f64> {
     let mut sum = case.column(|_, _, _| 0.0);
-    for cause in blamed.iter().filter(|b| b.effect != but) {
-        if cause.shape[0] != PROCESS && map(cause).is_none() {
-            add_to(&mut sum, &cause.part, 1.0);
-        }
+    for cause in blamed.iter().filter(|b| b.effect != but && !is_in_place(b)) {
+        add_to(&mut sum, &cause.part, 1.0);
     }
     sum
 }

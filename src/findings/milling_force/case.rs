@@ -4,10 +4,11 @@ mod samples;
 
 use super::aim::Aim;
 use super::lines::{Line, lines};
-use super::setting::{Places, Present, Slopes};
+use super::sensor::{SOUND, Sensor};
+use super::setting::{Places, Present, Setting, Slopes};
 use super::start::fitted;
 use crate::experiments::milling_force::RUNOUT;
-use crate::ground::spatial::{M3, V3, rotate};
+use crate::ground::spatial::{V3, rotate};
 use crate::measurement::milling_force::MillingForce;
 use rayon::prelude::*;
 use samples::{noise, nominal, samples};
@@ -16,9 +17,6 @@ use std::sync::{Arc, OnceLock};
 
 /// Readings that a stated noise is worth, and an estimated one.
 const WORTH: [f64; 2] = [60.0, 30.0];
-
-/// A sensor that shows what there is.
-const IDENTITY: M3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// The samples of a cut that are compared.
 #[derive(Debug, Clone)]
@@ -50,7 +48,7 @@ pub struct Case {
     /// By how much the simulation differs from what is stated; see [`Places`].
     pub(super) offset: Vec<f64>,
     /// What the sensor makes of a force.
-    seen: M3,
+    sensor: Sensor,
     /// What causes that are known add to the readings, N; none: nothing.
     explained: Vec<f64>,
     slopes: Vec<Slopes>,
@@ -81,14 +79,14 @@ impl Case {
             stated,
             nominal,
         };
-        Self::at(Arc::new(data), offset, IDENTITY, Vec::new())
+        Self::at(Arc::new(data), offset, SOUND, Vec::new())
     }
 
-    fn at(data: Arc<Data>, offset: Vec<f64>, seen: M3, explained: Vec<f64>) -> Self {
+    fn at(data: Arc<Data>, offset: Vec<f64>, sensor: Sensor, explained: Vec<f64>) -> Self {
         let mut case = Self {
             data,
             offset,
-            seen,
+            sensor,
             explained,
             slopes: Vec::new(),
             aim: OnceLock::new(),
@@ -97,22 +95,32 @@ impl Case {
         case
     }
 
-    /// The same file where the process differs by `by` more, the sensor makes `seen` of a force, and
-    /// `explained` is known beside it.
-    pub(super) fn moved(&self, by: &[f64], seen: M3, explained: Vec<f64>) -> Self {
+    /// The same file where the process differs by `by` more, the sensor is this one, and `explained` is known
+    /// beside it.
+    pub(super) fn moved(&self, by: &[f64], sensor: Sensor, explained: Vec<f64>) -> Self {
         let each = self.offset.iter().zip(by);
         let offset = each.map(|(o, b)| o + b).collect();
-        Self::at(self.data.clone(), offset, seen, explained)
+        Self::at(self.data.clone(), offset, sensor, explained)
     }
 
     /// What the sensor makes of a force.
-    pub(super) fn seen(&self) -> M3 {
-        self.seen
+    pub(super) fn sensor(&self) -> Sensor {
+        self.sensor
+    }
+
+    /// A cut where the vector is `offset`.
+    pub(super) fn setting<'a>(&self, cut: usize, offset: &'a [f64]) -> Setting<'a> {
+        Setting {
+            places: self.places(),
+            cut,
+            offset,
+            rung: self.sensor.rung,
+        }
     }
 
     /// Force as the sensor shows it.
     fn shown(&self, force: &V3) -> V3 {
-        rotate(&self.seen, *force)
+        rotate(&self.sensor.map, *force)
     }
 
     /// Every row of the simulation, N.
@@ -121,13 +129,13 @@ impl Case {
     }
 
     fn simulate(&mut self) {
-        let (places, cuts) = (self.places(), self.cuts());
-        let one = |i: usize| cuts[i].present.slopes(places, i, &self.offset);
+        let cuts = self.cuts();
+        let one = |i: usize| cuts[i].present.slopes(self.setting(i, &self.offset));
         let mut all: Vec<Slopes> = (0..cuts.len()).into_par_iter().map(one).collect();
-        if self.seen != IDENTITY {
+        if self.sensor.map != SOUND.map {
             for own in &mut all {
                 let each = own.slopes.iter_mut().flatten().chain(&mut own.force);
-                each.for_each(|f| *f = rotate(&self.seen, *f));
+                each.for_each(|f| *f = rotate(&self.sensor.map, *f));
             }
         }
         self.slopes = all;
@@ -233,7 +241,7 @@ impl Case {
         let acts = |c: usize| places.of_cut(c).any(|place| to[place] != 0.0);
         let one = |c: usize| {
             acts(c).then(|| {
-                let (scene, p) = cuts[c].present.moved(places, c, &there);
+                let (scene, p) = cuts[c].present.moved(self.setting(c, &there));
                 let force = scene.force(&p);
                 force.iter().map(|f| self.shown(f)).collect()
             })

@@ -94,9 +94,24 @@ impl Experiment for Case {
     }
 }
 
-/// Shares by which laws miss nature: a tremor has no single direction or frequency, and what carries a sensor
-/// more than one mode.
-pub(super) const ROUGH: [(&str, f64); 2] = [("chatter", 0.04), ("sensor_resonance", 0.04)];
+/// Shares of its own size by which the law of a cause misses nature, and so what a companion must stand out of: a tremor
+/// has no single direction or frequency, what carries a sensor more than one mode, a drift no formula, a broken tooth
+/// no straight edge; a depth and a coefficient nearly are each other. A speed shifts waves without changing them, and
+/// what an instrument does to a reading is a number. Set on seeds 401 to 405 of `tests/judge`.
+pub(super) const ROUGH: [(&str, f64); 12] = [
+    ("chatter", 0.09),
+    ("sensor_resonance", 0.09),
+    ("chipped_tooth", 0.09),
+    ("depth_of_cut", 0.06),
+    ("thermal_drift", 0.05),
+    ("width_of_cut", 0.03),
+    ("cutting_coefficients", 0.03),
+    ("edge_coefficients", 0.03),
+    ("runout", 0.03),
+    ("force_gain", 0.02),
+    ("cross_talk", 0.02),
+    ("spindle_speed", 0.002),
+];
 
 impl Case {
     /// The statement without anybody to blame.

@@ -1,7 +1,8 @@
 //! The simulated force of a cut over one revolution as lines at the harmonics of the spindle, and what a
 //! sensor that rings makes of them.
 
-use super::setting::{Places, Present};
+use super::setting::{Present, Setting};
+use crate::experiments::bell::Bell;
 use crate::experiments::milling_force::{BANDWIDTH, PHASE};
 use crate::ground::spatial::V3;
 use crate::signal::low_pass::butterworth2;
@@ -11,15 +12,6 @@ use std::f64::consts::TAU;
 
 /// Places of a revolution.
 const GRID: usize = 720;
-
-/// A resonance of the sensor.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bell {
-    /// Frequency, Hz, and damping ratio.
-    pub at: [f64; 2],
-    /// Whether it stands in the place of the low pass that is stated, not beside it.
-    pub instead: bool,
-}
 
 /// One cut over a revolution.
 pub struct Revolution {
@@ -34,8 +26,8 @@ pub struct Revolution {
 
 impl Revolution {
     /// Of a cut at an offset from what is stated.
-    pub fn new(present: &Present, places: Places, cut: usize, offset: &[f64]) -> Self {
-        let (scene, p) = present.moved(places, cut, offset);
+    pub fn new(present: &Present, setting: Setting) -> Self {
+        let (scene, p) = present.moved(setting);
         let angles = scene.angles(&p);
         let (mut around, mut level) = (scene, p);
         let spindle = around.cut.spindle_rad_s;
@@ -43,6 +35,8 @@ impl Revolution {
         around.time = (0..GRID).map(|i| i as f64 * step).collect();
         level[PHASE] = 0.0;
         let force = around.force(&level);
+        let replaced = around.rung.is_some_and(|rung| rung.bell.instead);
+        let passes = around.low_pass && !replaced;
         let plan = FftPlanner::new().plan_fft_forward(GRID);
         let lines = std::array::from_fn(|k| {
             let mut own: Vec<Complex64> = force.iter().map(|f| Complex64::new(f[k], 0.0)).collect();
@@ -52,7 +46,7 @@ impl Revolution {
         Self {
             lines,
             spindle_hz: spindle / TAU,
-            corner_hz: around.low_pass.then(|| level[BANDWIDTH].exp()),
+            corner_hz: passes.then(|| level[BANDWIDTH].exp()),
             angles,
         }
     }
@@ -88,7 +82,7 @@ impl Revolution {
         let line_hz = order * self.spindle_hz;
         let instead = self.corner_hz.filter(|_| bell.instead);
         let passed = instead.map_or(Complex64::new(1.0, 0.0), |hz| butterworth2(line_hz, hz));
-        magnified(line_hz, bell.at) / passed
+        bell.magnified(line_hz) / passed
     }
 
     fn added(&self, i: usize, bell: Bell) -> Complex64 {
@@ -101,12 +95,6 @@ impl Revolution {
         }
         self.rings(order, bell) - 1.0
     }
-}
-
-/// What a resonance (Hz, damping ratio) makes of a line: 1/(1 - u² + 2jDu).
-fn magnified(line_hz: f64, [hz, damping]: [f64; 2]) -> Complex64 {
-    let u = line_hz / hz;
-    Complex64::new(1.0 - u * u, 2.0 * damping * u).inv()
 }
 
 /// Between the places of a revolution.

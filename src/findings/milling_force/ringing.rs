@@ -2,7 +2,8 @@
 //! so that the angle of the tooth is sought along, over a whole pitch.
 
 use super::Case;
-use super::revolution::{Bell, Revolution};
+use super::revolution::Revolution;
+use crate::experiments::bell::Bell;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
 
@@ -168,13 +169,15 @@ fn cut<'a>(case: &Case, number: usize, revolution: &'a Revolution, teeth: usize)
     let mean = |k: usize| samples.measured.iter().map(|f| f[k]).sum::<f64>() / count;
     let means = [mean(0), mean(1), mean(2)];
     let highest = HIGHEST * sampling_hz(case) / revolution.spindle_hz();
+    let map = case.sensor().map;
     let line = |order: usize| {
         let mut sums = [Complex64::new(0.0, 0.0); 3];
         for (angle, force) in angles.iter().zip(&samples.measured) {
             let back = Complex64::from_polar(2.0 / count, -(order as f64) * angle);
             (0..3).for_each(|k| sums[k] += back * (force[k] - means[k]));
         }
-        let simulated = [0, 1, 2].map(|k| revolution.line(order, k));
+        let lines = [0, 1, 2].map(|k| revolution.line(order, k));
+        let simulated = map.map(|row| (0..3).map(|k| lines[k] * row[k]).sum());
         (order, sums, simulated)
     };
     let orders = (1..=LINES).map(|m| m * teeth);

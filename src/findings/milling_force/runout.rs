@@ -1,6 +1,7 @@
 //! The tool runs out of centre.
 
 use super::Case;
+use super::aim::is_wild;
 use super::coefficients::moved;
 use super::setting::PROCESS;
 use crate::experiments::milling_force::RUNOUT;
@@ -63,10 +64,16 @@ fn whole(case: &Case) -> Member {
             .map(|(a, b)| a * turn.cos() + b * turn.sin())
             .collect();
         angle += turn;
+        let slope = case.along(&towards(angle));
+        let way = case.aim().reached(case, &towards(angle), size, &known);
+        let is_wild = is_wild(&way, &slope);
         columns = vec![
-            case.aim().reached(case, &towards(angle), size, &known),
+            if is_wild { slope } else { way },
             case.along(&towards(angle + quarter)),
         ];
+        if is_wild {
+            break;
+        }
     }
     let directions = [towards(angle), towards(angle + quarter)];
     Member {

@@ -2,11 +2,13 @@
 //! the lines of the tooth passing, then brought closer while what is uncertain moves along.
 
 use super::Case;
-use super::revolution::{Bell, Revolution};
+use super::revolution::Revolution;
 use super::ringing::{Lines, MOST_DAMPING, Ringing};
 use super::setting::SENSOR;
-use crate::findings::engine::Member;
+use crate::experiments::bell::{Bell, Rung};
+use crate::findings::engine::{Blamed, Member};
 use crate::findings::table::{Effect, Place};
+use crate::ground::spatial::{V3, rotate};
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "sensor_resonance",
@@ -64,7 +66,7 @@ fn members(case: &Case) -> Vec<Member> {
 
 fn revolutions(case: &Case, to: &[f64]) -> Vec<Revolution> {
     let there: Vec<f64> = case.offset.iter().zip(to).map(|(o, d)| o + d).collect();
-    let one = |c: usize| Revolution::new(&case.cuts()[c].present, case.places(), c, &there);
+    let one = |c: usize| Revolution::new(&case.cuts()[c].present, case.setting(c, &there));
     (0..case.cuts().len()).map(one).collect()
 }
 
@@ -76,46 +78,63 @@ fn member(case: &Case, lines: &Lines, axis: usize, ringing: &Ringing) -> Member 
     }
     let mut bell = ringing.bell;
     let highest = lines.highest_hz();
-    let mut column = less(&whole(case, axis, bell, &to), &case.along(&to));
+    let beyond = |to: &[f64]| less(&case.step(to), &case.along(to));
+    let ringing = added(case, axis, bell, &revolutions(case, &to));
+    let mut column = sum(&ringing, &beyond(&to));
     for _ in 0..ROUNDS {
         let amount = aim.amounts(std::slice::from_ref(&column))[0].clamp(0.2, 1.5);
         to = aim.uncertain(case, amount, &column);
-        let (own, here) = (
-            revolutions(case, &to),
-            less(&case.step(&to), &case.along(&to)),
-        );
+        let (own, here) = (revolutions(case, &to), beyond(&to));
         let before = bell;
         bell = closer(case, axis, bell, &own, &here);
         bell.at[0] = bell.at[0].min(highest);
-        column = sum(&rung(case, axis, bell, &own), &here);
+        column = sum(&added(case, axis, bell, &own), &here);
         if bell == before {
             break;
         }
     }
-    Member::free(column)
-        .positive()
-        .shaped(&[SENSOR, axis as f64, bell.at[0], bell.at[1]])
+    let mut shape = vec![SENSOR, axis as f64, bell.at[0], bell.at[1]];
+    shape.push(f64::from(u8::from(bell.instead)));
+    shape.extend((0..places.cuts).map(|c| case.offset[places.phase(c)] + to[places.phase(c)]));
+    Member::free(column).positive().shaped(&shape)
 }
 
-/// What a step of what is uncertain and the ringing there add together.
-fn whole(case: &Case, axis: usize, bell: Bell, to: &[f64]) -> Vec<f64> {
-    sum(
-        &rung(case, axis, bell, &revolutions(case, to)),
-        &case.step(to),
-    )
-}
-
-fn rung(case: &Case, axis: usize, bell: Bell, revolutions: &[Revolution]) -> Vec<f64> {
-    let rung: Vec<_> = revolutions.iter().map(|r| r.rung(bell)).collect();
-    case.column(|c, i, k| match axis == ALL || axis == k {
-        true => rung[c][i][k],
-        false => 0.0,
+/// How the sensor rings.
+pub(super) fn rung(blamed: &Blamed) -> Option<Rung> {
+    let [_, axis, hz, damping, instead, ..] = blamed.shape[..] else {
+        return None;
+    };
+    (blamed.effect == EFFECT.name).then(|| Rung {
+        bell: Bell {
+            at: [hz, damping],
+            instead: instead > 0.0,
+        },
+        axis: Some(axis as usize).filter(|a| *a < ALL),
+        share: blamed.amounts[0],
     })
+}
+
+/// Angles of tooth 1 that go with it, rad from what is stated, by cut.
+pub(super) fn angles(blamed: &Blamed) -> &[f64] {
+    match rung(blamed) {
+        Some(_) => &blamed.shape[5..],
+        None => &[],
+    }
+}
+
+/// What the ringing adds.
+fn added(case: &Case, axis: usize, bell: Bell, revolutions: &[Revolution]) -> Vec<f64> {
+    let map = case.sensor().map;
+    let own = |k: usize| axis == ALL || axis == k;
+    let shown = |f: V3| rotate(&map, [0, 1, 2].map(|k| if own(k) { f[k] } else { 0.0 }));
+    let of = |r: &Revolution| r.rung(bell).into_iter().map(shown).collect();
+    let rung: Vec<Vec<V3>> = revolutions.iter().map(of).collect();
+    case.column(|c, i, k| rung[c][i][k])
 }
 
 /// A resonance a little better than this one.
 fn closer(case: &Case, axis: usize, bell: Bell, own: &[Revolution], here: &[f64]) -> Bell {
-    let fitness = |bell: Bell| case.aim().gain(&sum(&rung(case, axis, bell, own), here));
+    let fitness = |bell: Bell| case.aim().gain(&sum(&added(case, axis, bell, own), here));
     let mut best = (bell, fitness(bell));
     for width in CLOSER {
         let [hz, damping] = best.0.at;

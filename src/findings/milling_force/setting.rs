@@ -4,6 +4,7 @@
 //! its depth (m), its relative spindle speed and the angle of tooth 1 at its first sample (rad).
 
 use crate::cutting::wave::Side;
+use crate::experiments::bell::Rung;
 use crate::experiments::milling_force::{CutScene, PHASE, RUNOUT, SPEED, UNKNOWNS, WIDTH};
 use crate::ground::spatial::V3;
 
@@ -81,6 +82,19 @@ impl Places {
     }
 }
 
+/// How one cut differs from what is stated.
+#[derive(Debug, Clone, Copy)]
+pub struct Setting<'a> {
+    /// Places of the vector.
+    pub places: Places,
+    /// Number of the cut.
+    pub cut: usize,
+    /// The vector.
+    pub offset: &'a [f64],
+    /// How the sensor rings.
+    pub rung: Option<Rung>,
+}
+
 /// One cut at a setting: its forces and their slopes over the vector.
 pub struct Slopes {
     /// Forces at the samples, N.
@@ -101,9 +115,16 @@ pub struct Present {
 }
 
 impl Present {
-    /// The scene where the vector differs by `offset` from what is stated.
-    pub fn moved(&self, places: Places, cut: usize, offset: &[f64]) -> (CutScene, [f64; UNKNOWNS]) {
+    /// The scene at a setting.
+    pub fn moved(&self, setting: Setting) -> (CutScene, [f64; UNKNOWNS]) {
+        let Setting {
+            places,
+            cut,
+            offset,
+            rung,
+        } = setting;
         let (mut scene, mut p) = (self.scene.clone(), self.p);
+        scene.rung = rung;
         (0..RUNOUT + 2).for_each(|i| p[i] += offset[i]);
         p[PHASE] += offset[places.phase(cut)];
         p[SPEED] += (offset[places.speed(cut)] - self.speed) / (1.0 + self.speed);
@@ -120,13 +141,17 @@ impl Present {
     }
 
     /// Forces there, with their slopes.
-    pub fn slopes(&self, places: Places, cut: usize, offset: &[f64]) -> Slopes {
-        let (scene, p) = self.moved(places, cut, offset);
+    pub fn slopes(&self, setting: Setting) -> Slopes {
+        let Setting { places, cut, .. } = setting;
+        let (scene, p) = self.moved(setting);
         let at = scene.predict(&p);
         let stepped = |place: usize, step: f64| {
-            let mut offset = offset.to_vec();
+            let mut offset = setting.offset.to_vec();
             offset[place] += step;
-            let (scene, p) = self.moved(places, cut, &offset);
+            let (scene, p) = self.moved(Setting {
+                offset: &offset,
+                ..setting
+            });
             difference(&scene.force(&p), &at.force, step)
         };
         let mut slopes: Vec<Vec<V3>> = at.slopes[..8].to_vec();

@@ -30,7 +30,7 @@ impl Tremor {
     /// Of a cut as it is simulated.
     pub fn new(case: &Case, cut: usize) -> Self {
         let present = &case.cuts()[cut].present;
-        let (scene, p) = present.moved(case.places(), cut, &case.offset);
+        let (scene, p) = present.moved(case.setting(cut, &case.offset));
         let runout = [p[RUNOUT], p[RUNOUT + 1]];
         let wave = Wave::new(&scene.tool, &scene.cut, runout, p[WIDTH])
             .shorter(&scene.shorter, f64::INFINITY)

@@ -41,6 +41,8 @@ pub struct Account {
     pub rms: V3,
     /// Noise stated, N.
     pub stated_noise: Option<f64>,
+    /// Covariance of the parts of the runout, m²; nothing for a single tooth.
+    pub runout_covariance: Option<[[f64; 2]; 2]>,
     /// Samples used.
     pub rows: usize,
     /// Relative standard deviation of the force that the coefficients predict at the mean chip; `None`
@@ -84,6 +86,7 @@ pub fn identify(files: &[MillingForce]) -> Account {
         averaged,
         rms,
         stated_noise,
+        runout_covariance: runout_covariance(&layout, (&fitted.p, &p), &covariance),
         rows: cuts.iter().map(|c| c.force.len()).sum(),
         cuts: Vec::new(),
         remarks: Vec::new(),
@@ -170,6 +173,25 @@ fn name_teeth(cuts: &[CutData], layout: &Layout, mut p: Vec<f64>) -> Vec<f64> {
         (p[a], p[b]) = (p[a] * cos + p[b] * sin, p[b] * cos - p[a] * sin);
     }
     p
+}
+
+/// Covariance of the runout where teeth were called otherwise: `before` and after.
+fn runout_covariance(
+    layout: &Layout,
+    (before, after): (&[f64], &[f64]),
+    covariance: &DMatrix<f64>,
+) -> Option<[[f64; 2]; 2]> {
+    let own = layout.of_cut.first()?;
+    let places = [own[RUNOUT]?, own[RUNOUT + 1]?];
+    let angle = |p: &[f64]| p[places[1]].atan2(p[places[0]]);
+    let (sin, cos) = (angle(after) - angle(before)).sin_cos();
+    let turn = [[cos, -sin], [sin, cos]];
+    let sum = |i: usize, j: usize| {
+        let each = (0..2).flat_map(|a| (0..2).map(move |b| (a, b)));
+        each.map(|(a, b)| turn[i][a] * covariance[(places[a], places[b])] * turn[j][b])
+            .sum()
+    };
+    Some([0, 1].map(|i| [0, 1].map(|j| sum(i, j))))
 }
 
 struct Answer<'a> {

@@ -3,6 +3,7 @@
 use super::CutSamples;
 use crate::cutting::LINEAR_EDGE;
 use crate::experiments::milling_force::{BANDWIDTH, PHASE, RUNOUT, SPEED, WIDTH};
+use crate::findings::milling_force::direction::Direction;
 use crate::findings::milling_force::setting::Present;
 use crate::fit::cut_force::{Account, CutFit};
 use crate::ground::spatial::V3;
@@ -45,6 +46,15 @@ pub(super) fn samples(
     let share = (MOST_SAMPLES / account.cuts.len().max(1)).max(64);
     let depths = file.facts.cuts.iter().map(|c| c.depth_m);
     let deepest = depths.fold(0.0, f64::max);
+    let fitted = [0, 1].map(|k| account.cuts[0].p[RUNOUT + k]);
+    let runout = match (file.facts.runout_m, account.runout_covariance) {
+        (Some(size), Some(covariance)) => Direction {
+            at: fitted,
+            covariance,
+        }
+        .of_size(size),
+        _ => [0.0; 2],
+    };
     let mut first = 0;
     let mut one = |(i, fit): (usize, &CutFit)| {
         let data = &fit.data;
@@ -57,12 +67,7 @@ pub(super) fn samples(
         let mut p = fit.p;
         p[..6].copy_from_slice(nominal);
         p[SPEED] = 0.0;
-        let size = fit.p[RUNOUT]
-            .hypot(fit.p[RUNOUT + 1])
-            .max(f64::MIN_POSITIVE);
-        for k in 0..2 {
-            p[RUNOUT + k] *= file.facts.runout_m.unwrap_or(0.0) / size;
-        }
+        p[RUNOUT..RUNOUT + 2].copy_from_slice(&runout);
         p[WIDTH] = scene.cut.width_m;
         if let Some(hz) = data.bandwidth_hz {
             p[BANDWIDTH] = hz.ln();
