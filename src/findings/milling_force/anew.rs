@@ -145,9 +145,7 @@ impl Anew {
         }
         all
     }
-}
 
-impl Anew {
     /// A cause just as it was found: the way from the case without it, so that what fitted once is not lost.
     fn kept(&self, site: &str, without: &Case, effect: &Effect<Case>) -> Option<Member> {
         let mut own = self.found.iter().filter(|b| b.effect == effect.name);

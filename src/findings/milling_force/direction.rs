@@ -48,3 +48,21 @@ impl Direction {
         nearest.unwrap_or(self.at)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_fit_sees_stays_and_the_rest_makes_up_the_size() {
+        let seen = Direction {
+            at: [3e-6, 1e-6],
+            covariance: [[1e-16, 0.0], [0.0, 1e-9]],
+        };
+        let [x, y] = seen.of_size(5e-6);
+        assert!(
+            (x - 3e-6).abs() < 5e-8 && (y - 4e-6).abs() < 5e-8,
+            "{x} {y}"
+        );
+    }
+}

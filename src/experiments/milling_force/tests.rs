@@ -1,0 +1,100 @@
+use super::*;
+use crate::experiments::bell::Bell;
+
+fn scene(low_pass: bool) -> (CutScene, [f64; UNKNOWNS]) {
+    let cut = Cut {
+        spindle_rad_s: 600.0,
+        feed_m_s: 0.03,
+        depth_m: 2.5e-3,
+        width_m: 5e-3,
+        side: Side::Down,
+    };
+    let scene = CutScene {
+        tool: Tool::square(8e-3, 3, 0.5),
+        cut,
+        time: (0..400).map(|i| 5.3e-5 * f64::from(i)).collect(),
+        low_pass,
+        rung: None,
+        shorter: Vec::new(),
+        chipped: Vec::new(),
+        chipped_to_m: 0.0,
+    };
+    let k = [800e6, 300e6, 100e6, 20e3, 25e3, 3e3];
+    let mut p = [0.0; UNKNOWNS];
+    p[..6].copy_from_slice(&k);
+    p[RUNOUT..].copy_from_slice(&[6e-6, -4e-6, 900.0_f64.ln(), 0.4, 1e-4, 5e-3, 0.5]);
+    (scene, p)
+}
+
+fn rung(axis: Option<usize>, instead: bool) -> Rung {
+    Rung {
+        bell: Bell {
+            at: [700.0, 0.05],
+            instead,
+        },
+        axis,
+        share: 0.9,
+    }
+}
+
+#[test]
+fn slopes_are_those_of_differences() {
+    let sensors = [
+        (true, None),
+        (false, None),
+        (true, Some(rung(Some(1), false))),
+        (true, Some(rung(None, true))),
+        (false, Some(rung(None, false))),
+    ];
+    for (low_pass, rung) in sensors {
+        let (mut scene, p) = scene(low_pass);
+        scene.rung = rung;
+        let at = scene.predict(&p);
+        let steps = [
+            1e6, 1e6, 1e6, 1e2, 1e2, 1e2, 1e-8, 1e-8, 1e-4, 1e-5, 1e-7, 1e-7, 1e-2,
+        ];
+        for j in 0..UNKNOWNS {
+            let moved = |s: f64| {
+                let mut p = p;
+                p[j] += s * steps[j];
+                scene.predict(&p).force
+            };
+            let (up, down) = (moved(1.0), moved(-1.0));
+            let size = at.slopes[j].iter().flatten().map(|v| v * v).sum::<f64>();
+            let mut off = 0.0;
+            for i in 0..at.force.len() {
+                for k in 0..3 {
+                    let d = (up[i][k] - down[i][k]) / (2.0 * steps[j]);
+                    off += (d - at.slopes[j][i][k]).powi(2);
+                }
+            }
+            assert!(
+                size == 0.0 && off == 0.0 || off.sqrt() < 0.05 * size.sqrt(),
+                "{j} {low_pass} {rung:?}: {off} {size}"
+            );
+        }
+    }
+}
+
+#[test]
+fn forces_alone_are_the_same() {
+    for low_pass in [true, false] {
+        let (mut scene, p) = scene(low_pass);
+        scene.rung = low_pass.then(|| rung(Some(0), false));
+        let (alone, with) = (scene.force(&p), scene.predict(&p).force);
+        let pairs = alone.iter().flatten().zip(with.iter().flatten());
+        assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-9));
+    }
+}
+
+#[test]
+fn a_wide_low_pass_changes_nothing_and_keeps_the_mean() {
+    let (mut scene, mut p) = scene(true);
+    p[BANDWIDTH] = 2e5_f64.ln();
+    let wide = scene.predict(&p);
+    scene.low_pass = false;
+    let ideal = scene.predict(&p);
+    let rms = |f: &dyn Fn(usize) -> f64| (0..400).map(|i| f(i).powi(2)).sum::<f64>().sqrt();
+    let off = rms(&|i| wide.force[i][1] - ideal.force[i][1]);
+    assert!(off < 0.02 * rms(&|i| ideal.force[i][1]), "{off}");
+}
