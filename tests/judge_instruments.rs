@@ -39,19 +39,20 @@ fn force_sensors_by_strangers_are_judged_rightly() {
     floors.hold(&rates);
 }
 
-/// Seeds 411 to 416, 120 cases at which nobody had looked, before all that is uncertain rang with the sensor, a stated
+/// Seeds 411 to 416, 120 cases (misses of 411 to 413 were seen meanwhile, nothing was set on them), before all that is uncertain rang with the sensor, a stated
 /// runout was turned where it fits, what was found was kept as it was found and laws had errors of their own, and after:
 /// clean 23 / 23 of 23, single 60 / 61 of 63, pair 16 / 20 of 31, outside 2 / 2 of 3, untrue names in 8 / 5 of 117. On
-/// seeds 401 to 405, which set the errors: pair 16 / 24 of 30.
+/// seeds 401 to 405, which set the errors: pair 16 / 24 of 30. Seeds 417 to 420, at which nobody had looked, after: 13 of 14,
+/// 37 of 39, 12 of 19, 6 of 8, 4 of 72.
 #[test]
 fn cutting_forces_by_strangers_are_judged_rightly() {
     let rates = conclude("milling-force", &judged(judge::milling_force::draw, 4));
     let floors = Floors {
         clean: 0.5,
-        single: 0.0,
-        pair: 0.0,
+        single: 0.6,
+        pair: 0.5,
         outside: 0.0,
-        wrong: 0.4,
+        wrong: 0.3,
     };
     floors.hold(&rates);
 }

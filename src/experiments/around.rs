@@ -1,7 +1,7 @@
 //! What a dynamometer makes of waves that repeat with every revolution of the spindle: its second-order low pass, and
 //! its ringing.
 
-use super::bell::Rung;
+use super::resonance::Resonant;
 use crate::ground::spatial::V3;
 use crate::signal::low_pass::{butterworth2, butterworth2_slope};
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
@@ -22,7 +22,7 @@ pub(super) struct Passage {
     plain: Factors,
     spindle_hz: f64,
     corner_hz: Option<f64>,
-    rung: Option<Rung>,
+    resonant: Option<Resonant>,
 }
 
 /// A factor of every line, by axis.
@@ -30,7 +30,12 @@ type Factors = [Vec<Complex64>; 3];
 
 impl Passage {
     /// For this many samples of a revolution.
-    pub fn new(grid: usize, spindle_hz: f64, corner_hz: Option<f64>, rung: Option<Rung>) -> Self {
+    pub fn new(
+        grid: usize,
+        spindle_hz: f64,
+        corner_hz: Option<f64>,
+        resonant: Option<Resonant>,
+    ) -> Self {
         let (forward, back) = PLANNER.with_borrow_mut(|planner| {
             (
                 planner.plan_fft_forward(grid),
@@ -43,7 +48,7 @@ impl Passage {
             plain: Factors::default(),
             spindle_hz,
             corner_hz,
-            rung,
+            resonant,
         };
         pass.plain = pass.factors(|hz, _, axis| pass.at(hz, axis));
         pass
@@ -54,7 +59,8 @@ impl Passage {
         let low = self
             .corner_hz
             .map_or(1.0.into(), |corner| butterworth2(hz, corner));
-        self.rung.map_or(low, |rung| rung.through(low, hz, axis))
+        self.resonant
+            .map_or(low, |resonant| resonant.through(low, hz, axis))
     }
 
     /// Its derivative over the logarithm of the corner.
@@ -62,7 +68,8 @@ impl Passage {
         let low = self
             .corner_hz
             .map_or(0.0.into(), |corner| butterworth2_slope(hz, corner));
-        self.rung.map_or(low, |rung| rung.slope(low, hz, axis))
+        self.resonant
+            .map_or(low, |resonant| resonant.slope(low, hz, axis))
     }
 
     /// A function of frequency (Hz), order and axis, for all lines.
@@ -78,7 +85,7 @@ impl Passage {
             all.push(Complex64::new(0.0, 0.0));
             all
         };
-        if self.rung.is_none_or(|rung| rung.axis.is_none()) {
+        if self.resonant.is_none_or(|resonant| resonant.axis.is_none()) {
             let alike = all(0);
             return [alike.clone(), alike.clone(), alike];
         }

@@ -4,7 +4,7 @@
 mod place;
 
 use super::around::Passage;
-use super::bell::Rung;
+use super::resonance::Resonant;
 use crate::cutting::tool::Tool;
 use crate::cutting::wave::{Basis, Cut, Side, Wave, force};
 use crate::ground::dual::{Dual, Scalar};
@@ -50,7 +50,7 @@ pub struct CutScene {
     /// Whether a low pass stands between the force and the file.
     pub low_pass: bool,
     /// Whether the sensor rings.
-    pub rung: Option<Rung>,
+    pub resonant: Option<Resonant>,
     /// By how much each tooth is shorter than the others along its whole edge, m; empty: none is.
     pub shorter: Vec<f64>,
     /// The same from the tip up to [`CutScene::chipped_to_m`] alone.
@@ -101,7 +101,7 @@ impl CutScene {
 
     /// Whether the file holds the force itself.
     fn is_direct(&self) -> bool {
-        !self.low_pass && self.rung.is_none()
+        !self.low_pass && self.resonant.is_none()
     }
 
     /// Forces at `p` without their slopes, N: a fraction of the work.
@@ -157,9 +157,11 @@ impl CutScene {
     fn grid(&self, p: &[f64; UNKNOWNS]) -> (usize, Passage) {
         let hertz = self.cut.spindle_rad_s / TAU;
         let corner = self.low_pass.then(|| p[BANDWIDTH].exp());
-        let own = self.rung.map_or(0.0, |rung| rung.bell.at[0]);
+        let own = self
+            .resonant
+            .map_or(0.0, |resonant| resonant.resonance.at[0]);
         let grid = samples_around(hertz, corner.unwrap_or(0.0).max(own));
-        (grid, Passage::new(grid, hertz, corner, self.rung))
+        (grid, Passage::new(grid, hertz, corner, self.resonant))
     }
 
     fn filtered(&self, p: &[f64; UNKNOWNS]) -> Predicted {

@@ -1,7 +1,6 @@
 //! Floor 5: one file per kind of experiment: what a model says it should have shown, and the charts.
 
 mod around;
-pub mod bell;
 pub mod cubes;
 pub mod drive_law;
 pub mod finite_turns;
@@ -15,6 +14,7 @@ pub mod hammer_screen;
 pub mod hammer_variance;
 pub mod load_cycle;
 pub mod milling_force;
+pub mod resonance;
 pub mod robot_picture;
 pub mod schedule;
 pub mod stiffness_map;

@@ -1,11 +1,16 @@
-//! The low pass of an instrument: second-order Butterworth (Butterworth 1930).
+//! What an instrument of one mode passes: in general, and as the second-order low pass of Butterworth (1930).
 
 use rustfft::num_complex::Complex64;
 
+/// Response at `frequency` of one mode at `natural` (same unit) with a damping ratio: 1 / (1 + 2Ds + s²), s = jf/f₀.
+pub fn second_order(frequency: f64, natural: f64, damping: f64) -> Complex64 {
+    let x = frequency / natural;
+    Complex64::new(1.0 - x * x, 2.0 * damping * x).inv()
+}
+
 /// Response at `frequency` to a corner at `corner` (same unit): 1 / (1 + √2 s + s²), s = jf/f₀.
 pub fn butterworth2(frequency: f64, corner: f64) -> Complex64 {
-    let x = frequency / corner;
-    Complex64::new(1.0 - x * x, std::f64::consts::SQRT_2 * x).inv()
+    second_order(frequency, corner, std::f64::consts::FRAC_1_SQRT_2)
 }
 
 /// Derivative of [`butterworth2`] over the logarithm of the corner.

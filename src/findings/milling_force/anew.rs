@@ -59,7 +59,9 @@ fn map(blamed: &Blamed) -> Option<M3> {
 
 /// Whether a cause is of the process, or all that it does is done to forces.
 fn is_in_place(blamed: &Blamed) -> bool {
-    blamed.shape[0] == PROCESS || map(blamed).is_some() || sensor_resonance::rung(blamed).is_some()
+    blamed.shape[0] == PROCESS
+        || map(blamed).is_some()
+        || sensor_resonance::resonant(blamed).is_some()
 }
 
 impl Anew {
@@ -146,7 +148,8 @@ impl Anew {
         all
     }
 
-    /// A cause just as it was found: the way from the case without it, so that what fitted once is not lost.
+    /// A cause just as it was found: the way from the case without it, so that what fitted once is not lost. Of one amount,
+    /// or the two of a runout; what has more is linear.
     fn kept(&self, site: &str, without: &Case, effect: &Effect<Case>) -> Option<Member> {
         let mut own = self.found.iter().filter(|b| b.effect == effect.name);
         let (Some(found), None) = (own.next().filter(|b| b.site == site), own.next()) else {
@@ -170,7 +173,7 @@ impl Anew {
             }
             _ => return None,
         };
-        if sensor_resonance::rung(found).is_some() {
+        if sensor_resonance::resonant(found).is_some() {
             member = member.positive();
         }
         Some(member)
@@ -193,7 +196,7 @@ fn combined(case: &Case, turned: &[f64], blamed: &[Blamed], but: &str) -> Case {
         if let Some(map) = map(cause) {
             (0..3).for_each(|k| sensor.map[k] = add(sensor.map[k], map[k]));
         }
-        sensor.rung = sensor.rung.or(sensor_resonance::rung(cause));
+        sensor.resonant = sensor.resonant.or(sensor_resonance::resonant(cause));
     }
     // the speeds of the records are in the scenes already
     let places = case.places();

@@ -114,7 +114,7 @@ impl Case {
             places: self.places(),
             cut,
             offset,
-            rung: self.sensor.rung,
+            resonant: self.sensor.resonant,
         }
     }
 

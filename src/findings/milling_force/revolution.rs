@@ -2,8 +2,8 @@
 //! sensor that rings makes of them.
 
 use super::setting::{Present, Setting};
-use crate::experiments::bell::Bell;
 use crate::experiments::milling_force::{BANDWIDTH, PHASE};
+use crate::experiments::resonance::Resonance;
 use crate::ground::spatial::V3;
 use crate::signal::low_pass::butterworth2;
 use rustfft::FftPlanner;
@@ -35,7 +35,9 @@ impl Revolution {
         around.time = (0..GRID).map(|i| i as f64 * step).collect();
         level[PHASE] = 0.0;
         let force = around.force(&level);
-        let replaced = around.rung.is_some_and(|rung| rung.bell.instead);
+        let replaced = around
+            .resonant
+            .is_some_and(|resonant| resonant.resonance.instead);
         let passes = around.low_pass && !replaced;
         let plan = FftPlanner::new().plan_fft_forward(GRID);
         let lines = std::array::from_fn(|k| {
@@ -52,11 +54,11 @@ impl Revolution {
     }
 
     /// What a sensor that rings adds at every sample.
-    pub fn rung(&self, bell: Bell) -> Vec<V3> {
+    pub fn ringing(&self, resonance: Resonance) -> Vec<V3> {
         let plan = FftPlanner::new().plan_fft_inverse(GRID);
         let around: [Vec<f64>; 3] = std::array::from_fn(|k| {
             let mut own: Vec<Complex64> = (0..GRID)
-                .map(|i| self.lines[k][i] * self.added(i, bell))
+                .map(|i| self.lines[k][i] * self.added(i, resonance))
                 .collect();
             plan.process(&mut own);
             own.iter().map(|c| c.re / GRID as f64).collect()
@@ -78,14 +80,14 @@ impl Revolution {
     }
 
     /// What it makes of a line of the spindle.
-    pub fn rings(&self, order: f64, bell: Bell) -> Complex64 {
+    pub fn rings(&self, order: f64, resonance: Resonance) -> Complex64 {
         let line_hz = order * self.spindle_hz;
-        let instead = self.corner_hz.filter(|_| bell.instead);
+        let instead = self.corner_hz.filter(|_| resonance.instead);
         let passed = instead.map_or(Complex64::new(1.0, 0.0), |hz| butterworth2(line_hz, hz));
-        bell.magnified(line_hz) / passed
+        resonance.magnified(line_hz) / passed
     }
 
-    fn added(&self, i: usize, bell: Bell) -> Complex64 {
+    fn added(&self, i: usize, resonance: Resonance) -> Complex64 {
         let order = match i < GRID / 2 {
             true => i as f64,
             false => i as f64 - GRID as f64,
@@ -93,7 +95,7 @@ impl Revolution {
         if i == GRID / 2 {
             return Complex64::new(0.0, 0.0);
         }
-        self.rings(order, bell) - 1.0
+        self.rings(order, resonance) - 1.0
     }
 }
 

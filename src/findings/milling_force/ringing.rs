@@ -3,7 +3,7 @@
 
 use super::Case;
 use super::revolution::Revolution;
-use crate::experiments::bell::Bell;
+use crate::experiments::resonance::Resonance;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
 
@@ -23,7 +23,7 @@ const WIDTHS: [f64; 6] = [0.05, 0.03, 0.015, 0.008, 0.004, 0.002];
 #[derive(Debug, Clone)]
 pub struct Ringing {
     /// The resonance.
-    pub bell: Bell,
+    pub resonance: Resonance,
     /// Angle of tooth 1 of every cut, from where it is now, rad.
     pub turns: Vec<f64>,
     /// What it leaves of the lines, squared noise deviations.
@@ -72,7 +72,7 @@ impl<'a> Lines<'a> {
         let [low, high] = self.range;
         let hz = |i: usize| low * (high / low).powf(i as f64 / (STEPS - 1) as f64);
         let grid = (0..STEPS).flat_map(|i| DAMPING.map(|d| [hz(i), d]));
-        let fitted = |at: [f64; 2]| self.fitted(axis, Bell { at, instead });
+        let fitted = |at: [f64; 2]| self.fitted(axis, Resonance { at, instead });
         let all = grid.map(fitted);
         let least = |a: Ringing, b: Ringing| if b.misfit < a.misfit { b } else { a };
         let mut best = all
@@ -80,7 +80,7 @@ impl<'a> Lines<'a> {
             .unwrap_or_else(|| fitted([low, DAMPING[0]]));
         for width in WIDTHS {
             for _ in 0..3 {
-                let [hz, damping] = best.bell.at;
+                let [hz, damping] = best.resonance.at;
                 let about = [-1.0, 0.0, 1.0].map(|f| {
                     [-1.0, 0.0, 1.0].map(|d| {
                         let damping = damping * (1.0 + 8.0 * width * d).max(0.3);
@@ -96,21 +96,21 @@ impl<'a> Lines<'a> {
 
     /// What nothing that rings leaves of the lines, squared noise deviations.
     pub fn silent(&self) -> f64 {
-        let bell = Bell {
+        let resonance = Resonance {
             at: [f64::INFINITY, 0.0],
             instead: false,
         };
-        self.fitted(0, bell).misfit
+        self.fitted(0, resonance).misfit
     }
 
-    fn fitted(&self, axis: usize, bell: Bell) -> Ringing {
+    fn fitted(&self, axis: usize, resonance: Resonance) -> Ringing {
         let mut found = Ringing {
-            bell,
+            resonance,
             turns: Vec::new(),
             misfit: 0.0,
         };
         for cut in &self.cuts {
-            let (turn, misfit) = self.turn(cut, axis, bell);
+            let (turn, misfit) = self.turn(cut, axis, resonance);
             found.turns.push(turn);
             // a line's parts scatter by twice the noise over the root of its samples
             found.misfit += 0.25 * cut.samples * misfit;
@@ -119,12 +119,12 @@ impl<'a> Lines<'a> {
     }
 
     /// Angle that suits a cut best, and what it leaves.
-    fn turn(&self, cut: &Cut, axis: usize, bell: Bell) -> (f64, f64) {
+    fn turn(&self, cut: &Cut, axis: usize, resonance: Resonance) -> (f64, f64) {
         let parts: Vec<(f64, f64, Complex64)> = cut
             .lines
             .iter()
             .map(|(order, measured, simulated)| {
-                let rings = cut.revolution.rings(*order as f64, bell);
+                let rings = cut.revolution.rings(*order as f64, resonance);
                 let mut square = 0.0;
                 let mut cross = Complex64::new(0.0, 0.0);
                 for k in 0..3 {

@@ -1,6 +1,6 @@
 //! What a dynamometer makes of forces.
 
-use crate::experiments::bell::Rung;
+use crate::experiments::resonance::Resonant;
 use crate::ground::spatial::M3;
 
 /// A sensor: how forces ring in it, and then what each of its axes shows of them.
@@ -9,11 +9,11 @@ pub struct Sensor {
     /// The readings over the forces.
     pub map: M3,
     /// How it rings.
-    pub rung: Option<Rung>,
+    pub resonant: Option<Resonant>,
 }
 
 /// One that shows what there is.
 pub(super) const SOUND: Sensor = Sensor {
     map: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-    rung: None,
+    resonant: None,
 };

@@ -5,7 +5,7 @@ use super::Case;
 use super::revolution::Revolution;
 use super::ringing::{Lines, MOST_DAMPING, Ringing};
 use super::setting::SENSOR;
-use crate::experiments::bell::{Bell, Rung};
+use crate::experiments::resonance::{Resonance, Resonant};
 use crate::findings::engine::{Blamed, Member};
 use crate::findings::table::{Effect, Place};
 use crate::ground::spatial::{V3, rotate};
@@ -76,36 +76,36 @@ fn member(case: &Case, lines: &Lines, axis: usize, ringing: &Ringing) -> Member 
     for (c, turn) in ringing.turns.iter().enumerate() {
         to[places.phase(c)] = *turn;
     }
-    let mut bell = ringing.bell;
+    let mut resonance = ringing.resonance;
     let highest = lines.highest_hz();
     let beyond = |to: &[f64]| less(&case.step(to), &case.along(to));
-    let ringing = added(case, axis, bell, &revolutions(case, &to));
+    let ringing = added(case, axis, resonance, &revolutions(case, &to));
     let mut column = sum(&ringing, &beyond(&to));
     for _ in 0..ROUNDS {
         let amount = aim.amounts(std::slice::from_ref(&column))[0].clamp(0.2, 1.5);
         to = aim.uncertain(case, amount, &column);
         let (own, here) = (revolutions(case, &to), beyond(&to));
-        let before = bell;
-        bell = closer(case, axis, bell, &own, &here);
-        bell.at[0] = bell.at[0].min(highest);
-        column = sum(&added(case, axis, bell, &own), &here);
-        if bell == before {
+        let before = resonance;
+        resonance = closer(case, axis, resonance, &own, &here);
+        resonance.at[0] = resonance.at[0].min(highest);
+        column = sum(&added(case, axis, resonance, &own), &here);
+        if resonance == before {
             break;
         }
     }
-    let mut shape = vec![SENSOR, axis as f64, bell.at[0], bell.at[1]];
-    shape.push(f64::from(u8::from(bell.instead)));
+    let mut shape = vec![SENSOR, axis as f64, resonance.at[0], resonance.at[1]];
+    shape.push(f64::from(u8::from(resonance.instead)));
     shape.extend((0..places.cuts).map(|c| case.offset[places.phase(c)] + to[places.phase(c)]));
     Member::free(column).positive().shaped(&shape)
 }
 
 /// How the sensor rings.
-pub(super) fn rung(blamed: &Blamed) -> Option<Rung> {
+pub(super) fn resonant(blamed: &Blamed) -> Option<Resonant> {
     let [_, axis, hz, damping, instead, ..] = blamed.shape[..] else {
         return None;
     };
-    (blamed.effect == EFFECT.name).then(|| Rung {
-        bell: Bell {
+    (blamed.effect == EFFECT.name).then(|| Resonant {
+        resonance: Resonance {
             at: [hz, damping],
             instead: instead > 0.0,
         },
@@ -116,34 +116,43 @@ pub(super) fn rung(blamed: &Blamed) -> Option<Rung> {
 
 /// Angles of tooth 1 that go with it, rad from what is stated, by cut.
 pub(super) fn angles(blamed: &Blamed) -> &[f64] {
-    match rung(blamed) {
+    match resonant(blamed) {
         Some(_) => &blamed.shape[5..],
         None => &[],
     }
 }
 
 /// What the ringing adds.
-fn added(case: &Case, axis: usize, bell: Bell, revolutions: &[Revolution]) -> Vec<f64> {
+fn added(case: &Case, axis: usize, resonance: Resonance, revolutions: &[Revolution]) -> Vec<f64> {
     let map = case.sensor().map;
     let own = |k: usize| axis == ALL || axis == k;
     let shown = |f: V3| rotate(&map, [0, 1, 2].map(|k| if own(k) { f[k] } else { 0.0 }));
-    let of = |r: &Revolution| r.rung(bell).into_iter().map(shown).collect();
-    let rung: Vec<Vec<V3>> = revolutions.iter().map(of).collect();
-    case.column(|c, i, k| rung[c][i][k])
+    let of = |r: &Revolution| r.ringing(resonance).into_iter().map(shown).collect();
+    let resonant: Vec<Vec<V3>> = revolutions.iter().map(of).collect();
+    case.column(|c, i, k| resonant[c][i][k])
 }
 
 /// A resonance a little better than this one.
-fn closer(case: &Case, axis: usize, bell: Bell, own: &[Revolution], here: &[f64]) -> Bell {
-    let fitness = |bell: Bell| case.aim().gain(&sum(&added(case, axis, bell, own), here));
-    let mut best = (bell, fitness(bell));
+fn closer(
+    case: &Case,
+    axis: usize,
+    resonance: Resonance,
+    own: &[Revolution],
+    here: &[f64],
+) -> Resonance {
+    let fitness = |resonance: Resonance| {
+        case.aim()
+            .gain(&sum(&added(case, axis, resonance, own), here))
+    };
+    let mut best = (resonance, fitness(resonance));
     for width in CLOSER {
         let [hz, damping] = best.0.at;
         for f in STEPS_ABOUT {
             for d in SOFTER.iter().filter(|d| f != 0.0 || **d != 0.0) {
                 let damping = (damping * (1.0 + d * width)).clamp(0.002, MOST_DAMPING);
-                let tried = Bell {
+                let tried = Resonance {
                     at: [hz * (1.0 + width * f), damping],
-                    ..bell
+                    ..resonance
                 };
                 let own = fitness(tried);
                 if own > best.1 {

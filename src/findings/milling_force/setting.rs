@@ -4,8 +4,8 @@
 //! its depth (m), its relative spindle speed and the angle of tooth 1 at its first sample (rad).
 
 use crate::cutting::wave::Side;
-use crate::experiments::bell::Rung;
 use crate::experiments::milling_force::{CutScene, PHASE, RUNOUT, SPEED, UNKNOWNS, WIDTH};
+use crate::experiments::resonance::Resonant;
 use crate::ground::spatial::V3;
 
 /// Shape of a cause of the process: this, then the direction of every amount in the vector.
@@ -92,7 +92,7 @@ pub struct Setting<'a> {
     /// The vector.
     pub offset: &'a [f64],
     /// How the sensor rings.
-    pub rung: Option<Rung>,
+    pub resonant: Option<Resonant>,
 }
 
 /// One cut at a setting: its forces and their slopes over the vector.
@@ -121,10 +121,10 @@ impl Present {
             places,
             cut,
             offset,
-            rung,
+            resonant,
         } = setting;
         let (mut scene, mut p) = (self.scene.clone(), self.p);
-        scene.rung = rung;
+        scene.resonant = resonant;
         (0..RUNOUT + 2).for_each(|i| p[i] += offset[i]);
         p[PHASE] += offset[places.phase(cut)];
         p[SPEED] += (offset[places.speed(cut)] - self.speed) / (1.0 + self.speed);

@@ -12,7 +12,7 @@ use crate::experiments::milling_force::{PHASE, RUNOUT, UNKNOWNS};
 use crate::fit::parameter::{Identified, Status};
 use crate::ground::spatial::V3;
 use crate::measurement::milling_force::MillingForce;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Matrix2, Rotation2};
 use std::f64::consts::TAU;
 
 /// One cut, measured and fitted.
@@ -175,7 +175,7 @@ fn name_teeth(cuts: &[CutData], layout: &Layout, mut p: Vec<f64>) -> Vec<f64> {
     p
 }
 
-/// Covariance of the runout where teeth were called otherwise: `before` and after.
+/// Covariance of the runout, m², turned as its names were: from `before` to `after`.
 fn runout_covariance(
     layout: &Layout,
     (before, after): (&[f64], &[f64]),
@@ -184,14 +184,10 @@ fn runout_covariance(
     let own = layout.of_cut.first()?;
     let places = [own[RUNOUT]?, own[RUNOUT + 1]?];
     let angle = |p: &[f64]| p[places[1]].atan2(p[places[0]]);
-    let (sin, cos) = (angle(after) - angle(before)).sin_cos();
-    let turn = [[cos, -sin], [sin, cos]];
-    let sum = |i: usize, j: usize| {
-        let each = (0..2).flat_map(|a| (0..2).map(move |b| (a, b)));
-        each.map(|(a, b)| turn[i][a] * covariance[(places[a], places[b])] * turn[j][b])
-            .sum()
-    };
-    Some([0, 1].map(|i| [0, 1].map(|j| sum(i, j))))
+    let turn = Rotation2::new(angle(after) - angle(before));
+    let block = Matrix2::from_fn(|i, j| covariance[(places[i], places[j])]);
+    let turned = turn.matrix() * block * turn.matrix().transpose();
+    Some([0, 1].map(|i| [0, 1].map(|j| turned[(i, j)])))
 }
 
 struct Answer<'a> {

@@ -73,7 +73,7 @@ fn one(file: &MillingForce, place: [usize; 2], record: &Record) -> CutData {
                 .map(|t| t - first)
                 .collect(),
             low_pass: bandwidth.is_some(),
-            rung: None,
+            resonant: None,
             shorter: Vec::new(),
             chipped: Vec::new(),
             chipped_to_m: 0.0,

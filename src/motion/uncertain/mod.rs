@@ -35,6 +35,7 @@ impl Known {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ground::spatial::{add, cross};
     use crate::motion::frf::{C64, Response};
     use crate::motion::receptance::{accelerance, coordinates, under_moments};
     use crate::motion::{Linear, Work, elastic, linearise};
@@ -56,6 +57,17 @@ mod tests {
         let answers = coordinates(linear, &[s]);
         let a = accelerance(linear, &answers, s);
         (answers, a)
+    }
+
+    /// The robot under the hammer at one line: the accelerance, and the acceleration under moments.
+    fn struck() -> (Linear, C64, Response, Response) {
+        let (robot, angles) = robot();
+        let chain = elastic(&robot);
+        let linear = linearise(&chain, &mut Work::new(&chain), &angles).unwrap();
+        let s = C64::new(1.2, 70.0);
+        let (answers, a) = response(&linear, s);
+        let b = under_moments(&linear, &answers, s);
+        (linear, s, a, b)
     }
 
     fn near(found: &Response, a: &Response, b: &Response, step: f64, size: f64) {
@@ -106,12 +118,7 @@ mod tests {
 
     #[test]
     fn slopes_in_the_instrument_equal_differences() {
-        let (robot, angles) = robot();
-        let chain = elastic(&robot);
-        let linear = linearise(&chain, &mut Work::new(&chain), &angles).unwrap();
-        let s = C64::new(1.2, 70.0);
-        let (answers, a) = response(&linear, s);
-        let b = under_moments(&linear, &answers, s);
+        let (_, s, a, b) = struck();
         let (spread, size) = (laboratory().instrument, a[0][0].norm());
         let at = |number: usize, by: f64| {
             let amounts = (0..instrument::NUMBERS).map(move |i| {
@@ -132,12 +139,7 @@ mod tests {
     /// Hit and read at two points, each with its own Jacobian: J′ = J + ω × r.
     #[test]
     fn a_hit_beside_its_aim_is_a_hit_at_that_place() {
-        let (robot, angles) = robot();
-        let chain = elastic(&robot);
-        let linear = linearise(&chain, &mut Work::new(&chain), &angles).unwrap();
-        let s = C64::new(1.2, 70.0);
-        let (answers, a) = response(&linear, s);
-        let b = under_moments(&linear, &answers, s);
+        let (linear, s, a, b) = struck();
         let spread = laboratory().instrument;
         for (number, input, other) in [
             (14, 0, 1),
@@ -153,10 +155,7 @@ mod tests {
             place[other] = spread.place_m;
             let mut beside = linear.clone();
             for (lever, turn) in beside.tool.iter_mut().zip(&linear.turn) {
-                *lever = crate::ground::spatial::add(
-                    *lever,
-                    crate::ground::spatial::cross(*turn, place),
-                );
+                *lever = add(*lever, cross(*turn, place));
             }
             let struck = accelerance(&linear, &coordinates(&beside, &[s]), s);
             for (found, wanted) in read.iter().zip(&struck) {

@@ -1,10 +1,11 @@
 //! A dynamometer that rings: a resonance of the second order between the force and its reading.
 
+use crate::signal::low_pass::second_order;
 use rustfft::num_complex::Complex64;
 
 /// A resonance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bell {
+pub struct Resonance {
     /// Frequency, Hz, and damping ratio.
     pub at: [f64; 2],
     /// Whether it stands in the place of the low pass that is stated, not beside it.
@@ -13,40 +14,47 @@ pub struct Bell {
 
 /// A sensor that has it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rung {
+pub struct Resonant {
     /// The resonance.
-    pub bell: Bell,
+    pub resonance: Resonance,
     /// Its axis; none: all.
     pub axis: Option<usize>,
     /// Share of the force that passes it.
     pub share: f64,
 }
 
-impl Bell {
-    /// What it makes of a line: 1/(1 - u² + 2jDu), u the frequency over its own.
+impl Resonance {
+    /// What it makes of a line at `line_hz`, Hz.
     pub fn magnified(&self, line_hz: f64) -> Complex64 {
         let [hz, damping] = self.at;
-        let u = line_hz / hz;
-        Complex64::new(1.0 - u * u, 2.0 * damping * u).inv()
+        second_order(line_hz, hz, damping)
     }
 }
 
-impl Rung {
+impl Resonant {
     /// What the sensor makes of a line on an axis where the low pass alone makes `low` of it.
     pub(super) fn through(&self, low: Complex64, line_hz: f64, axis: usize) -> Complex64 {
-        let before = if self.bell.instead { 1.0.into() } else { low };
+        let before = if self.resonance.instead {
+            1.0.into()
+        } else {
+            low
+        };
         self.beside(low, before, line_hz, axis)
     }
 
-    /// Slope of [`Rung::through`] where that of the low pass is `low`.
+    /// Slope of [`Resonant::through`] where that of the low pass is `low`.
     pub(super) fn slope(&self, low: Complex64, line_hz: f64, axis: usize) -> Complex64 {
-        let before = if self.bell.instead { 0.0.into() } else { low };
+        let before = if self.resonance.instead {
+            0.0.into()
+        } else {
+            low
+        };
         self.beside(low, before, line_hz, axis)
     }
 
     fn beside(&self, low: Complex64, before: Complex64, line_hz: f64, axis: usize) -> Complex64 {
         match self.axis.is_none_or(|own| own == axis) {
-            true => low + (before * self.bell.magnified(line_hz) - low) * self.share,
+            true => low + (before * self.resonance.magnified(line_hz) - low) * self.share,
             false => low,
         }
     }
