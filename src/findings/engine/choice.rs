@@ -101,14 +101,14 @@ fn without(posterior: &Posterior, set: &Scored, suspect: usize) -> Option<Scored
     posterior.set(&rest).cloned()
 }
 
-/// Gains of all causes of the set, after those were dropped that gain nothing on unseen rows.
+/// The set less causes that gain nothing on unseen rows, and the gains of all others.
 pub(super) fn drop_unreal(
     statement: &Statement,
     bank: &Bank,
     posterior: &Posterior,
-    set: &mut Scored,
+    mut set: Scored,
     judgement: &Judgement,
-) -> Vec<Gain> {
+) -> (Scored, Vec<Gain>) {
     loop {
         let gains = gains(statement, bank, &set.fit);
         let least = match gains.len() {
@@ -121,7 +121,7 @@ pub(super) fn drop_unreal(
             .filter(|(_, g)| !g.is_real() || g.reduction_percent < least);
         let worst = unreal.min_by(|a, b| a.1.reduction_percent.total_cmp(&b.1.reduction_percent));
         let Some((at, _)) = worst else {
-            return gains;
+            return (set, gains);
         };
         let mut members = set.fit.members.clone();
         members.remove(at);
@@ -129,7 +129,7 @@ pub(super) fn drop_unreal(
             .iter()
             .map(|m| bank.entries[*m].suspect)
             .collect::<Vec<_>>();
-        *set = match (posterior.set(&suspects), bank.fit(&members)) {
+        set = match (posterior.set(&suspects), bank.fit(&members)) {
             (Some(less), _) => less.clone(),
             (None, Some(fit)) => Scored {
                 suspects,

@@ -3,16 +3,17 @@
 use super::bank::{Bank, Fit};
 use super::choice::{choose, drop_unreal, loses_to_structure, material, nothing, plain};
 use super::judgement::Judgement;
-use super::materiality::{explained_rms, raw_parts};
+use super::leaves::{Leaves, Weighing};
+use super::materiality::raw_parts;
 use super::posterior::Posterior;
-use super::rest::{Rest, Span, explained};
+use super::rest::{Span, explained};
 use super::search::{Scored, search};
 use super::statement::{Blamed, Experiment, Statement};
 use super::told::answer;
+use super::unseen;
 use super::verdict::name;
 use crate::findings::answer::{Answer, Verdict};
 use crate::ground::stats::rms;
-use nalgebra::DVector;
 
 /// A finished diagnosis.
 #[derive(Debug, Clone)]
@@ -107,29 +108,34 @@ fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgeme
     let nats = sets.first().filter(|_| rough).map(|s| worth(&bank, &s.fit));
     let mut posterior = Posterior::of(sets, judgement.exponent(nats));
     let span = Span::of(statement);
-    let mut set = choose(&posterior, judgement);
-    let mut gains = drop_unreal(statement, &bank, &posterior, &mut set, judgement);
-    let is_scatter = |set: &Scored| experiment.is_scatter(&residual(statement, &bank, &set.fit).0);
-    if loses_to_structure(&bank, &posterior, &set, span.as_ref()) {
-        set = plain(&posterior, is_scatter).unwrap_or_else(|| nothing(&posterior));
-        posterior = posterior.up_to(set.suspects.len());
-        gains = drop_unreal(statement, &bank, &posterior, &mut set, judgement);
-    }
-    let missed = residual(statement, &bank, &nothing(&posterior).fit).0;
-    let pattern = pattern(&bank, &set.fit, statement.reading.len());
-    let (beside, mut uncertain) = residual(statement, &bank, &set.fit);
-    let left: Vec<f64> = beside.iter().zip(&pattern.1).map(|(l, p)| l + p).collect();
-    let whole = rms(&in_noise(statement, &missed));
-    let rest = span.map_or(Rest::default(), |s| {
-        s.rest(&bank, &set.fit, whole, judgement)
-    });
-    let share = rms(&in_noise(statement, &pattern.1)) / whole.max(f64::MIN_POSITIVE);
-    let noise = set.fit.posterior.noise_variance.sqrt();
-    let rest = rest.with(share, judgement).scattering(noise, judgement);
-    let rest = match story.filter(|_| set.suspects.is_empty()) {
-        Some(story) => unnamed(statement, &bank, (&story, whole), rest, judgement),
-        None => rest,
+    let nothing = nothing(&posterior);
+    let weighing = Weighing::new(statement, &bank, span.as_ref(), &nothing.fit, judgement);
+    let mut chosen = choose(&posterior, judgement);
+    let real = |posterior: &Posterior, set: &Scored| {
+        drop_unreal(statement, &bank, posterior, set.clone(), judgement)
     };
+    let (mut set, mut gains) = real(&posterior, &chosen);
+    if loses_to_structure(&bank, &posterior, &set, span.as_ref()) {
+        let is_scatter = |set: &Scored| experiment.is_scatter(&weighing.beside(&set.fit).0);
+        chosen = plain(&posterior, is_scatter).unwrap_or(nothing);
+        posterior = posterior.up_to(chosen.suspects.len());
+        (set, gains) = real(&posterior, &chosen);
+    }
+    let mut leaves = weighing.leaves(&set, story.as_ref());
+    if leaves.rest.is_left && are_probable(&posterior, (&chosen, &set), judgement) {
+        let with = weighing.leaves(&chosen, None);
+        if !with.rest.is_left {
+            gains = unseen::gains(statement, &bank, &chosen.fit);
+            (set, leaves) = (chosen, with);
+        }
+    }
+    let Leaves {
+        left,
+        mut uncertain,
+        seen,
+        rest,
+    } = leaves;
+    let missed = weighing.missed.clone();
     let mut blamed = blamed(&bank, &set.fit);
     let named = name(
         experiment,
@@ -148,7 +154,7 @@ fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgeme
         (&missed, &left),
         judgement,
     );
-    if let Some(seen) = pattern.0 {
+    if let Some(seen) = seen {
         answer.unexplained.description = seen.into();
     }
     let mut own = set.suspects.iter().map(|s| bank.suspects[*s].named);
@@ -157,7 +163,7 @@ fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgeme
     let open = competed && answer.verdict != Verdict::Sufficient;
     let lead = match (blamed.is_empty(), leading(&bank, &posterior)) {
         (true, Some(fit)) if open => {
-            uncertain = residual(statement, &bank, &fit).1;
+            uncertain = weighing.beside(&fit).1;
             self::blamed(&bank, &fit)
         }
         _ => blamed.clone(),
@@ -181,38 +187,20 @@ fn leading(bank: &Bank, posterior: &Posterior) -> Option<Fit> {
     posterior.sets.iter().find(named).map(|s| s.0.fit.clone())
 }
 
-/// What patterns of a set look like, and what they add to the readings, per row.
-fn pattern(bank: &Bank, fit: &Fit, rows: usize) -> (Option<&'static str>, Vec<f64>) {
-    let (mut seen, mut sum) = (None, vec![0.0; rows]);
-    for (member, part) in fit.members.iter().zip(raw_parts(bank, fit)) {
-        let own = bank.suspect(*member);
-        if !own.named {
-            seen = seen.or(Some(own.summary));
-            sum.iter_mut().zip(part).for_each(|(s, p)| *s += p);
-        }
-    }
-    (seen, sum)
-}
-
-/// What is left where nothing is named. A story that fits far better than none, but of which no cause passes
-/// by itself, is no reason to call the simulation right.
-fn unnamed(
-    statement: &Statement,
-    bank: &Bank,
-    (story, whole): (&Scored, f64),
-    rest: Rest,
+/// Whether all causes that were chosen and not kept are probable themselves: what they gain on unseen rows is too
+/// little to be seen where all that is uncertain may stand in for them, far from where it is known to be.
+fn are_probable(
+    posterior: &Posterior,
+    (chosen, kept): (&Scored, &Scored),
     judgement: &Judgement,
-) -> Rest {
-    let share =
-        explained_rms(statement, bank, &story.fit, judgement) / whole.max(f64::MIN_POSITIVE);
-    match story.score > judgement.left_nats && share > judgement.left_share {
-        true => Rest {
-            nats: rest.nats.max(story.score),
-            share: rest.share.max(share),
-            is_left: true,
-        },
-        false => rest,
-    }
+) -> bool {
+    let mut dropped = chosen
+        .suspects
+        .iter()
+        .filter(|s| !kept.suspects.contains(s))
+        .peekable();
+    let is_probable = |s: &usize| posterior.inclusion(*s) >= judgement.companion_needed;
+    dropped.peek().is_some() && dropped.all(is_probable)
 }
 
 /// Nats that all a set explains is worth beside the noise that it leaves.
@@ -233,29 +221,6 @@ fn evidence_of(
     let shares: f64 = set.suspects.iter().map(|s| bank.suspects[*s].share).sum();
     let odds = judgement.name * names + judgement.companion * (names - 1.0).max(0.0) - shares;
     (places, set.score + odds)
-}
-
-fn in_noise(statement: &Statement, raw: &[f64]) -> Vec<f64> {
-    raw.iter()
-        .zip(statement.noise.spread())
-        .map(|(v, s)| v / s)
-        .collect()
-}
-
-/// What a fit leaves of the readings, nuisances at their most probable, and the amounts of these.
-fn residual(statement: &Statement, bank: &Bank, fit: &Fit) -> (Vec<f64>, Vec<f64>) {
-    let mut left = statement.reading.clone();
-    for part in raw_parts(bank, fit) {
-        left.iter_mut().zip(part).for_each(|(l, p)| *l -= p);
-    }
-    let whitened = DVector::from_vec(statement.noise.whiten(&left));
-    let amounts = bank.nuisances_in(&whitened);
-    for (nuisance, amount) in statement.nuisances.iter().zip(&amounts) {
-        left.iter_mut()
-            .zip(&nuisance.column)
-            .for_each(|(l, c)| *l -= amount * c);
-    }
-    (left, amounts)
 }
 
 fn blamed(bank: &Bank, fit: &Fit) -> Vec<Blamed> {

@@ -266,7 +266,7 @@ pub(super) fn raw_parts(bank: &Bank, fit: &Fit) -> Vec<Vec<f64>> {
     each.collect()
 }
 
-fn in_noise(statement: &Statement, raw: &[f64]) -> Vec<f64> {
+pub(super) fn in_noise(statement: &Statement, raw: &[f64]) -> Vec<f64> {
     raw.iter()
         .zip(statement.noise.spread())
         .map(|(v, s)| v / s)

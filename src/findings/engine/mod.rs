@@ -21,6 +21,7 @@ mod choice;
 pub mod diagnosis;
 mod entry;
 pub mod judgement;
+mod leaves;
 pub mod materiality;
 mod nuisances;
 mod posterior;
