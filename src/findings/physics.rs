@@ -82,7 +82,7 @@ fn of(case: &dyn OnRobot, cause: &'static dyn Cause) -> Vec<Suspect> {
 }
 
 /// One member per form; columns are the difference at an ordinary strength.
-fn members(case: &dyn OnRobot, cause: &'static dyn Cause, site: &str) -> Vec<Member> {
+pub fn members(case: &dyn OnRobot, cause: &'static dyn Cause, site: &str) -> Vec<Member> {
     let scale = cause.scale(case.robot(), site);
     let columns: Vec<Vec<f64>> = (0..scale.len())
         .map(|k| column(case, cause, site, &scale, k))

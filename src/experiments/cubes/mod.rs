@@ -13,6 +13,7 @@ use crate::motion::kinematics::{column, forward_kinematics, hinge_point, hinge_r
 use crate::motion::statics::springs;
 use crate::motion::{Chain, Work, elastic};
 use crate::robot::Robot;
+pub use seats::Added;
 use seats::{before, bends_before};
 
 /// One file with its robot, ready to predict.
@@ -51,15 +52,19 @@ impl Setup {
     /// # Errors
     /// Another number of joints, nothing elastic, or a cube on a link or behind an axis that is not there.
     pub fn new(test: &CubeTest, robot: &Robot) -> Outcome<Self> {
-        Self::bending(test, robot, robot.elastic.len())
+        let none = Added {
+            first: robot.elastic.len(),
+            is_floor: false,
+        };
+        Self::bending(test, robot, none)
     }
 
-    /// The same where elastic axes from the one of this index on are no part of the robot file: a bend within a link
-    /// has the cubes behind it that lie farther along the link.
+    /// The same where some elastic axes are no part of the robot file: a bend within a link has the cubes behind it that
+    /// lie farther along the link.
     ///
     /// # Errors
     /// As [`Setup::new`].
-    pub fn bending(test: &CubeTest, robot: &Robot, stated: usize) -> Outcome<Self> {
+    pub fn bending(test: &CubeTest, robot: &Robot, added: Added) -> Outcome<Self> {
         let refuse = |what: String, remedy: &str| Problem::new(what, remedy).in_file(&test.path);
         let (given, joints) = (test.facts.joint_angles.len(), robot.dof());
         if given != joints {
@@ -82,10 +87,10 @@ impl Setup {
         let mut work = Work::new(&chain);
         let tcp = forward_kinematics(&chain, &mut work, &angles).point;
         let seat = |cube: &Cube| {
-            let own = (&robot.elastic[..stated], robot.dof());
+            let own = (&robot.elastic[..added.first], robot.dof());
             let hinges = before(own, &chain, cube).map_err(|p| p.at_key(&test.path, "cubes"))?;
             Ok(Seat {
-                hinges: hinges + bends_before((robot, stated), &chain, &work, (cube, hinges)),
+                hinges: hinges + bends_before((robot, added), &chain, &work, (cube, hinges)),
                 at: cube.centre,
             })
         };

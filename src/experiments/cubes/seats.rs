@@ -56,24 +56,36 @@ pub(super) fn before(
     }
 }
 
+/// Elastic axes that are no part of the robot file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Added {
+    /// Index of the first among those of the robot.
+    pub first: usize,
+    /// Whether cubes of the foundation (`after` 0) sit on the floor, not on the foot that it lets move.
+    pub is_floor: bool,
+}
+
 /// Bends within the link of a cube that lie nearer along the link than it, where they are no part of the robot file.
 /// A cube before an axis of the file lies before them too.
 pub(super) fn bends_before(
-    (robot, stated): (&Robot, usize),
+    (robot, added): (&Robot, Added),
     chain: &Chain,
     work: &Work,
     (cube, from): (&Cube, usize),
 ) -> usize {
-    let drives = cube.after.checked_sub(1).map(|i| &chain.drives[i..]);
-    let Some([near, far, ..]) = drives else {
+    let own = |axes: &[ElasticAxis]| axes.iter().filter(|a| a.after == cube.after).count();
+    let (known, unknown) = robot.elastic.split_at(added.first);
+    if cube.after == 0 {
+        let moves = !added.is_floor && from >= own(known);
+        return if moves { own(unknown) } else { 0 };
+    }
+    let Some([near, far, ..]) = chain.drives.get(cube.after - 1..) else {
         return 0;
     };
-    let own = |axes: &[ElasticAxis]| axes.iter().filter(|a| a.after == cube.after).count();
-    let (known, added) = robot.elastic.split_at(stated);
     if from <= *near + own(known) {
         return 0;
     }
     let along = sub(hinge_point(work, *far), hinge_point(work, *near));
     let is_behind = |hinge: &usize| dot(along, sub(cube.centre, hinge_point(work, *hinge))) > 0.0;
-    (from..from + own(added)).take_while(is_behind).count()
+    (from..from + own(unknown)).take_while(is_behind).count()
 }

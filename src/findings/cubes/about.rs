@@ -2,10 +2,10 @@
 //! multiplied, loose cubes that follow. Together these are far from linear.
 
 use super::rows::model;
-use super::{Case, force_gain, load_misalignment, loose_cube, softer};
+use super::{Case, floor, force_gain, load_misalignment, loose_cube, softer};
 use crate::causes::CAUSES;
 use crate::causes::places::soften;
-use crate::experiments::cubes::Setup;
+use crate::experiments::cubes::{Added, Setup};
 use crate::findings::engine::{Blamed, Member, Statement};
 use crate::findings::physics;
 use crate::ground::spatial::{V3, norm, rotate, rotation, scale};
@@ -18,6 +18,8 @@ pub struct About {
     pub causes: Vec<Blamed>,
     /// Excess of the compliance of every spring that is merely uncertain.
     pub springs: Vec<(String, f64)>,
+    /// Whether cubes of the foundation sit on the floor, not on the foot that a soft foundation lets move.
+    pub is_floor: bool,
 }
 
 /// A cause of the robot with its amounts as [`crate::causes::Cause`] takes them.
@@ -63,27 +65,32 @@ impl Case {
     /// The same about what was found.
     pub fn beside(&self, causes: &[Blamed], uncertain: &[f64]) -> Self {
         let springs = self.springs.iter().cloned().zip(uncertain.iter().copied());
-        let about = About {
+        let mut case = self.with(About {
+            is_floor: causes.iter().any(floor::is_one),
             causes: causes.to_vec(),
             springs: springs.collect(),
-        };
-        let mut case = Self {
+        });
+        let robot = case.altered(None, None);
+        case.fixed = case.fixed(&robot, case.about.gain(), case.about.turn());
+        case.simulated = case.loosened(&case.fixed);
+        case.missed = case.less();
+        case
+    }
+
+    /// The same with other things found; what it shows is still that of this one.
+    pub fn with(&self, about: About) -> Self {
+        Self {
             about,
             springs: self.springs.clone(),
             robot: self.robot.clone(),
             setup: self.setup.clone(),
             rows: self.rows.clone(),
             test: self.test.clone(),
-            fixed: Vec::new(),
-            simulated: Vec::new(),
-            missed: Vec::new(),
+            fixed: self.fixed.clone(),
+            simulated: self.simulated.clone(),
+            missed: self.missed.clone(),
             ..*self
-        };
-        let robot = case.altered(None, None);
-        case.fixed = case.fixed(&robot, case.about.gain(), case.about.turn());
-        case.simulated = case.loosened(&case.fixed);
-        case.missed = case.less();
-        case
+        }
     }
 
     fn less(&self) -> Vec<f64> {
@@ -155,8 +162,11 @@ impl Case {
 
     /// What cubes that sit fast show of a robot under the load multiplied and turned; empty where the robot does not stand.
     pub fn fixed(&self, robot: &Robot, gain: f64, turn: V3) -> Vec<f64> {
-        let stated = self.robot.elastic.len();
-        let Ok(setup) = Setup::bending(&self.test, robot, stated) else {
+        let added = Added {
+            first: self.robot.elastic.len(),
+            is_floor: self.about.is_floor,
+        };
+        let Ok(setup) = Setup::bending(&self.test, robot, added) else {
             return Vec::new();
         };
         let angle = norm(turn);

@@ -1,7 +1,7 @@
 //! The statement of a cubes test for the engine.
 
 use super::patterns::PATTERNS;
-use super::{Case, EFFECTS, frame_motion, loose_cube};
+use super::{Case, EFFECTS, floor, frame_motion, loose_cube};
 use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, White};
 use crate::findings::physics;
 use crate::findings::table;
@@ -40,7 +40,7 @@ impl Experiment for Case {
     }
 
     fn state(&self, _: &[Blamed]) -> Statement {
-        let mut suspects = physics::suspects(self);
+        let mut suspects = floor::suspects(self);
         suspects.extend(table::rough(table::suspects(EFFECTS, self), &ROUGH));
         suspects.extend(table::patterns(PATTERNS, self));
         let known = self

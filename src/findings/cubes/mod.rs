@@ -2,6 +2,7 @@
 
 mod about;
 mod experiment;
+mod floor;
 mod force_gain;
 mod frame_motion;
 mod load_misalignment;

@@ -105,12 +105,7 @@ impl<'a> Design<'a> {
         let is_other = |c: &usize| !self.own[at].contains(c);
         let others: Vec<usize> = all.iter().copied().filter(is_other).collect();
         if happens_once(bank, member) {
-            let n = self.y.len() as f64;
-            let found = Gain::of(
-                self.paid(&others),
-                self.paid(&all),
-                n.max(1.0).sqrt().recip(),
-            );
+            let found = self.once(&others, &all);
             if found.is_real() {
                 return found;
             }
@@ -132,6 +127,20 @@ impl<'a> Design<'a> {
             first.get_or_insert(found);
         }
         first.unwrap_or(Gain::of(1.0, 1.0, f64::INFINITY))
+    }
+
+    /// What some columns gain on the readings themselves. That of k amounts which explain λ squared deviations of noise
+    /// scatters by √(2k + 4λ) of them (noncentral χ²).
+    fn once(&self, before: &[usize], after: &[usize]) -> Gain {
+        let n = self.y.len().max(1) as f64;
+        let [b, a] = [before, after].map(|columns| self.paid(columns));
+        let squares = n * ((b / a).powi(2) - 1.0).max(0.0);
+        let amounts = after.len() as f64 - before.len() as f64;
+        Gain::of(
+            b,
+            a,
+            (2.0 * amounts + 4.0 * squares).sqrt() / (2.0 * n) * (a / b).powi(2),
+        )
     }
 
     fn split(&self, of: &'a [usize], all: &[usize]) -> Split<'a> {
