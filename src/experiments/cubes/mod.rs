@@ -13,7 +13,7 @@ use crate::motion::kinematics::{column, forward_kinematics, hinge_point, hinge_r
 use crate::motion::statics::springs;
 use crate::motion::{Chain, Work, elastic};
 use crate::robot::Robot;
-pub use seats::Added;
+pub use seats::AddedAxes;
 use seats::{before, bends_before};
 
 /// One file with its robot, ready to predict.
@@ -52,7 +52,7 @@ impl Setup {
     /// # Errors
     /// Another number of joints, nothing elastic, or a cube on a link or behind an axis that is not there.
     pub fn new(test: &CubeTest, robot: &Robot) -> Outcome<Self> {
-        let none = Added {
+        let none = AddedAxes {
             first: robot.elastic.len(),
             is_floor: false,
         };
@@ -64,7 +64,7 @@ impl Setup {
     ///
     /// # Errors
     /// As [`Setup::new`].
-    pub fn bending(test: &CubeTest, robot: &Robot, added: Added) -> Outcome<Self> {
+    pub fn bending(test: &CubeTest, robot: &Robot, added: AddedAxes) -> Outcome<Self> {
         let refuse = |what: String, remedy: &str| Problem::new(what, remedy).in_file(&test.path);
         let (given, joints) = (test.facts.joint_angles.len(), robot.dof());
         if given != joints {

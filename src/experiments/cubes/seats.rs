@@ -58,7 +58,7 @@ pub(super) fn before(
 
 /// Elastic axes that are no part of the robot file.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Added {
+pub struct AddedAxes {
     /// Index of the first among those of the robot.
     pub first: usize,
     /// Whether cubes of the foundation (`after` 0) sit on the floor, not on the foot that it lets move.
@@ -66,9 +66,9 @@ pub struct Added {
 }
 
 /// Bends within the link of a cube that lie nearer along the link than it, where they are no part of the robot file.
-/// A cube before an axis of the file lies before them too.
+/// A cube before an axis of the file lies before them too. Cubes of the foundation have all of its own before them, or none.
 pub(super) fn bends_before(
-    (robot, added): (&Robot, Added),
+    (robot, added): (&Robot, AddedAxes),
     chain: &Chain,
     work: &Work,
     (cube, from): (&Cube, usize),

@@ -5,7 +5,7 @@ use super::rows::model;
 use super::{Case, floor, force_gain, load_misalignment, loose_cube, softer};
 use crate::causes::CAUSES;
 use crate::causes::places::soften;
-use crate::experiments::cubes::{Added, Setup};
+use crate::experiments::cubes::{AddedAxes, Setup};
 use crate::findings::engine::{Blamed, Member, Statement};
 use crate::findings::physics;
 use crate::ground::spatial::{V3, norm, rotate, rotation, scale};
@@ -162,7 +162,7 @@ impl Case {
 
     /// What cubes that sit fast show of a robot under the load multiplied and turned; empty where the robot does not stand.
     pub fn fixed(&self, robot: &Robot, gain: f64, turn: V3) -> Vec<f64> {
-        let added = Added {
+        let added = AddedAxes {
             first: self.robot.elastic.len(),
             is_floor: self.about.is_floor,
         };

@@ -13,6 +13,7 @@ use super::told::answer;
 use super::unseen;
 use super::verdict::name;
 use crate::findings::answer::{Answer, Verdict};
+use crate::findings::gain::Gain;
 use crate::ground::stats::rms;
 
 /// A finished diagnosis.
@@ -108,34 +109,16 @@ fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgeme
     let nats = sets.first().filter(|_| rough).map(|s| worth(&bank, &s.fit));
     let mut posterior = Posterior::of(sets, judgement.exponent(nats));
     let span = Span::of(statement);
-    let nothing = nothing(&posterior);
-    let weighing = Weighing::new(statement, &bank, span.as_ref(), &nothing.fit, judgement);
-    let mut chosen = choose(&posterior, judgement);
-    let real = |posterior: &Posterior, set: &Scored| {
-        drop_unreal(statement, &bank, posterior, set.clone(), judgement)
-    };
-    let (mut set, mut gains) = real(&posterior, &chosen);
-    if loses_to_structure(&bank, &posterior, &set, span.as_ref()) {
-        let is_scatter = |set: &Scored| experiment.is_scatter(&weighing.beside(&set.fit).0);
-        chosen = plain(&posterior, is_scatter).unwrap_or(nothing);
-        posterior = posterior.up_to(chosen.suspects.len());
-        (set, gains) = real(&posterior, &chosen);
-    }
-    let mut leaves = weighing.leaves(&set, story.as_ref());
-    if leaves.rest.is_left && are_probable(&posterior, (&chosen, &set), judgement) {
-        let with = weighing.leaves(&chosen, None);
-        if !with.rest.is_left {
-            gains = unseen::gains(statement, &bank, &chosen.fit);
-            (set, leaves) = (chosen, with);
-        }
-    }
+    let nothing = nothing(&posterior).fit;
+    let weighing = Weighing::new(statement, &bank, span.as_ref(), &nothing, judgement);
+    let picked = picked(experiment, &weighing, &mut posterior, story.as_ref());
+    let Picked { set, gains, leaves } = picked;
     let Leaves {
         left,
         mut uncertain,
         seen,
         rest,
     } = leaves;
-    let missed = weighing.missed.clone();
     let mut blamed = blamed(&bank, &set.fit);
     let named = name(
         experiment,
@@ -151,7 +134,7 @@ fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgeme
         &bank,
         (&posterior, &set),
         (named, rest),
-        (&missed, &left),
+        (&weighing.missed, &left),
         judgement,
     );
     if let Some(seen) = seen {
@@ -168,6 +151,7 @@ fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgeme
         }
         _ => blamed.clone(),
     };
+    let missed = weighing.missed;
     let explained = missed.iter().zip(&left).map(|(m, l)| m - l).collect();
     Found {
         answer,
@@ -187,20 +171,68 @@ fn leading(bank: &Bank, posterior: &Posterior) -> Option<Fit> {
     posterior.sets.iter().find(named).map(|s| s.0.fit.clone())
 }
 
-/// Whether all causes that were chosen and not kept are probable themselves: what they gain on unseen rows is too
-/// little to be seen where all that is uncertain may stand in for them, far from where it is known to be.
-fn are_probable(
+/// The set that is named, with what its causes gain and what it leaves.
+struct Picked {
+    set: Scored,
+    gains: Vec<Gain>,
+    leaves: Leaves,
+}
+
+/// What is probable, real on unseen rows, and beats structure of any kind.
+fn picked(
+    experiment: &dyn Experiment,
+    weighing: &Weighing,
+    posterior: &mut Posterior,
+    story: Option<&Scored>,
+) -> Picked {
+    let (statement, bank, judgement) = (weighing.statement, weighing.bank, weighing.judgement);
+    let real = |posterior: &Posterior, set: &Scored| {
+        drop_unreal(statement, bank, posterior, set.clone(), judgement)
+    };
+    let mut chosen = choose(posterior, judgement);
+    let (mut set, mut gains) = real(posterior, &chosen);
+    if loses_to_structure(bank, posterior, &set, weighing.span) {
+        let is_scatter = |set: &Scored| experiment.is_scatter(&weighing.beside(&set.fit).0);
+        chosen = plain(posterior, is_scatter).unwrap_or_else(|| nothing(posterior));
+        posterior.keep_up_to(chosen.suspects.len());
+        (set, gains) = real(posterior, &chosen);
+    }
+    let leaves = weighing.leaves(&set, story);
+    let kept = Picked { set, gains, leaves };
+    match kept.leaves.rest.is_left {
+        true => needed(weighing, posterior, chosen, &kept).unwrap_or(kept),
+        false => kept,
+    }
+}
+
+/// The set as it was chosen, where nothing is left beside it, and all that was dropped is probable and gains too little on
+/// unseen rows to be seen there: all that is uncertain may stand in for it, far from where it is known to be.
+fn needed(
+    weighing: &Weighing,
     posterior: &Posterior,
-    (chosen, kept): (&Scored, &Scored),
-    judgement: &Judgement,
-) -> bool {
-    let mut dropped = chosen
-        .suspects
-        .iter()
-        .filter(|s| !kept.suspects.contains(s))
-        .peekable();
-    let is_probable = |s: &usize| posterior.inclusion(*s) >= judgement.companion_needed;
-    dropped.peek().is_some() && dropped.all(is_probable)
+    chosen: Scored,
+    kept: &Picked,
+) -> Option<Picked> {
+    let (bank, judgement) = (weighing.bank, weighing.judgement);
+    let gains = unseen::gains(weighing.statement, bank, &chosen.fit);
+    let is_dropped = |s: &usize| !kept.set.suspects.contains(s);
+    let is_needed = |s: &usize, gain: &Gain| {
+        posterior.inclusion(*s) >= judgement.companion_needed && !gain.is_real()
+    };
+    let mut each = chosen.suspects.iter().zip(&gains);
+    let all = each.all(|(s, gain)| !is_dropped(s) || is_needed(s, gain));
+    if !all || !chosen.suspects.iter().any(is_dropped) {
+        return None;
+    }
+    if loses_to_structure(bank, posterior, &chosen, weighing.span) {
+        return None;
+    }
+    let leaves = weighing.leaves(&chosen, None);
+    (!leaves.rest.is_left).then_some(Picked {
+        set: chosen,
+        gains,
+        leaves,
+    })
 }
 
 /// Nats that all a set explains is worth beside the noise that it leaves.

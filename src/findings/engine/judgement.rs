@@ -39,7 +39,7 @@ pub struct Judgement {
     /// A group keeps its most probable members until they carry this share of what all of them have: the tail beyond
     /// is no help to who looks for the cause.
     pub group_carries: f64,
-    /// Probability below which a companion is not named (F).
+    /// Probability below which a companion is not named (F), nor any cause that unseen rows do not show.
     pub companion_needed: f64,
     /// A companion that lowers the error on unseen rows by less than this, percent, is not named: what laws
     /// miss of the first cause gains as much. Set on five cutting forces that had such companions (three of

@@ -11,10 +11,10 @@ use nalgebra::DVector;
 
 /// The scales on which sets of causes of one statement are weighed.
 pub(super) struct Weighing<'a> {
-    statement: &'a Statement,
-    bank: &'a Bank<'a>,
-    span: Option<&'a Span>,
-    judgement: &'a Judgement,
+    pub statement: &'a Statement,
+    pub bank: &'a Bank<'a>,
+    pub span: Option<&'a Span>,
+    pub judgement: &'a Judgement,
     /// What the present simulation misses, with the nuisances at their most probable: per row.
     pub missed: Vec<f64>,
     /// Its rms, noise deviations.

@@ -25,15 +25,12 @@ impl Posterior {
         }
     }
 
-    /// The same of the sets with at most so many causes; of all, where none is left.
-    pub fn up_to(self, causes: usize) -> Self {
+    /// Keeps the sets with at most so many causes; all, where none is left.
+    pub fn keep_up_to(&mut self, causes: usize) {
         let kept = |s: (Scored, f64)| (s.0.suspects.len() <= causes).then_some(s.0);
-        match causes {
-            0 => self,
-            _ => Self::of(
-                self.sets.into_iter().filter_map(kept).collect(),
-                self.temper,
-            ),
+        if causes > 0 {
+            let sets = std::mem::take(&mut self.sets);
+            *self = Self::of(sets.into_iter().filter_map(kept).collect(), self.temper);
         }
     }
 

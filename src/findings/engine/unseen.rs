@@ -129,18 +129,16 @@ impl<'a> Design<'a> {
         first.unwrap_or(Gain::of(1.0, 1.0, f64::INFINITY))
     }
 
-    /// What some columns gain on the readings themselves. That of k amounts which explain λ squared deviations of noise
-    /// scatters by √(2k + 4λ) of them (noncentral χ²).
+    /// What some columns gain on the readings themselves. The squares that k amounts explain, λ variances of the noise,
+    /// scatter by √(2k + 4λ) of these (noncentral χ²), and what is left, of n free rows, by √(2n).
     fn once(&self, before: &[usize], after: &[usize]) -> Gain {
-        let n = self.y.len().max(1) as f64;
+        let free = (self.y.len() as f64 - after.len() as f64).max(1.0);
         let [b, a] = [before, after].map(|columns| self.paid(columns));
-        let squares = n * ((b / a).powi(2) - 1.0).max(0.0);
+        let left = (a / b.max(f64::MIN_POSITIVE)).powi(2).min(1.0);
         let amounts = after.len() as f64 - before.len() as f64;
-        Gain::of(
-            b,
-            a,
-            (2.0 * amounts + 4.0 * squares).sqrt() / (2.0 * n) * (a / b).powi(2),
-        )
+        let explained = (2.0 * amounts * left * left + 4.0 * free * left * (1.0 - left)).sqrt();
+        let noise = (1.0 - left) * (2.0 * free).sqrt();
+        Gain::of(b, a, explained.hypot(noise) / (2.0 * free))
     }
 
     fn split(&self, of: &'a [usize], all: &[usize]) -> Split<'a> {

@@ -128,8 +128,8 @@ fn added(case: &Case, axis: usize, resonance: Resonance, revolutions: &[Revoluti
     let own = |k: usize| axis == ALL || axis == k;
     let shown = |f: V3| rotate(&map, [0, 1, 2].map(|k| if own(k) { f[k] } else { 0.0 }));
     let of = |r: &Revolution| r.ringing(resonance).into_iter().map(shown).collect();
-    let resonant: Vec<Vec<V3>> = revolutions.iter().map(of).collect();
-    case.column(|c, i, k| resonant[c][i][k])
+    let ringing: Vec<Vec<V3>> = revolutions.iter().map(of).collect();
+    case.column(|c, i, k| ringing[c][i][k])
 }
 
 /// A resonance a little better than this one.

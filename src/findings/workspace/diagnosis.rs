@@ -45,10 +45,11 @@ impl std::ops::Deref for WorkspaceDiagnosis {
     }
 }
 
-/// With more than this share unexplained the causes found are not the story, unless one of them lowers the error of
-/// unseen displacements by so many percent: a law that bends, or noise that grows with the force, is left in every
-/// single reading and counts for more than all slopes.
+/// With more than this share of the squares unexplained the causes found are not the story ...
 const NOT_THE_STORY: f64 = 0.35;
+/// ... unless one of them surely lowers the error of unseen displacements by so many percent: noise that grows with the
+/// force leaves squares in every single reading, and there are more readings than slopes. Seen on seed 77 of
+/// `tests/judge/workspace.rs`, no other value was tried.
 const OF_THE_STORY_PERCENT: f64 = 50.0;
 
 /// Diagnoses a test against the robot that simulates it.
@@ -164,7 +165,7 @@ fn scattered(causes: &[Cause]) -> bool {
 
 /// Whether a cause makes a good part of the error.
 fn carries(causes: &[Cause]) -> bool {
-    let carries = |c: &Cause| c.gain.reduction_percent > OF_THE_STORY_PERCENT;
+    let carries = |c: &Cause| c.gain.ci95_percent[0] > OF_THE_STORY_PERCENT;
     causes.iter().any(carries)
 }
 
