@@ -205,8 +205,8 @@ fn picked(
     }
 }
 
-/// The set as it was chosen, where nothing is left beside it, and all that was dropped is probable and gains too little on
-/// unseen rows to be seen there: all that is uncertain may stand in for it, far from where it is known to be.
+/// The set as it was chosen, where nothing is left beside it, and all that was dropped is probable and neither lowers nor
+/// raises the error of unseen rows: all that is uncertain may stand in for it there, far from where it is known to be.
 fn needed(
     weighing: &Weighing,
     posterior: &Posterior,
@@ -217,7 +217,8 @@ fn needed(
     let gains = unseen::gains(weighing.statement, bank, &chosen.fit);
     let is_dropped = |s: &usize| !kept.set.suspects.contains(s);
     let is_needed = |s: &usize, gain: &Gain| {
-        posterior.inclusion(*s) >= judgement.companion_needed && !gain.is_real()
+        let changes_nothing = !gain.is_real() && gain.reduction_percent > -judgement.companion_gain;
+        posterior.inclusion(*s) >= judgement.companion_needed && changes_nothing
     };
     let mut each = chosen.suspects.iter().zip(&gains);
     let all = each.all(|(s, gain)| !is_dropped(s) || is_needed(s, gain));
