@@ -34,25 +34,20 @@ impl Resonance {
 impl Resonant {
     /// What the sensor makes of a line on an axis where the low pass alone makes `low` of it.
     pub(super) fn through(&self, low: Complex64, line_hz: f64, axis: usize) -> Complex64 {
-        let before = if self.resonance.instead {
-            1.0.into()
-        } else {
-            low
-        };
-        self.beside(low, before, line_hz, axis)
+        self.beside(low, 1.0, line_hz, axis)
     }
 
     /// Slope of [`Resonant::through`] where that of the low pass is `low`.
     pub(super) fn slope(&self, low: Complex64, line_hz: f64, axis: usize) -> Complex64 {
-        let before = if self.resonance.instead {
-            0.0.into()
-        } else {
-            low
-        };
-        self.beside(low, before, line_hz, axis)
+        self.beside(low, 0.0, line_hz, axis)
     }
 
-    fn beside(&self, low: Complex64, before: Complex64, line_hz: f64, axis: usize) -> Complex64 {
+    /// `alone`: what stands before the resonance where no low pass does.
+    fn beside(&self, low: Complex64, alone: f64, line_hz: f64, axis: usize) -> Complex64 {
+        let before = match self.resonance.instead {
+            true => alone.into(),
+            false => low,
+        };
         match self.axis.is_none_or(|own| own == axis) {
             true => low + (before * self.resonance.magnified(line_hz) - low) * self.share,
             false => low,

@@ -154,7 +154,7 @@ fn of_group(group: &Group, unit: &str) -> String {
 fn of_gain(gain: &Gain, unit: &str) -> String {
     let does = match gain.is_real() {
         true => "cuts",
-        false => "is needed to explain these data, and does not plainly cut",
+        false => "does not plainly cut",
     };
     format!(
         "{does} the error on data held out of the fit from {} to {} ({:.0} % less, 95 % interval {:.0} to {:.0} %)",

@@ -43,7 +43,8 @@ pub struct Judgement {
     pub companion_needed: f64,
     /// A companion that lowers the error on unseen rows by less than this, percent, is not named: what laws
     /// miss of the first cause gains as much. Set on five cutting forces that had such companions (three of
-    /// `tests/judge`, two of `tests/blind_milling_force.rs`), so neither judges this number.
+    /// `tests/judge`, two of `tests/blind_milling_force.rs`), so neither judges this number. A cause that raises it by more
+    /// is not named however probable it is (`diagnosis`, `needed`).
     pub companion_gain: f64,
     /// Highest probability that is stated: no generator has shown more (F).
     pub certain: f64,
