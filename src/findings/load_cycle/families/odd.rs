@@ -45,7 +45,9 @@ fn backlash(view: &View) -> Shapes {
     }
     for place in even(-0.2, 0.2, 33) {
         for width in [0.008, 0.025] {
+            let zero = step(-place, width);
             shapes.positive(view, &view.over_load(|u| step(u - place, width)));
+            shapes.positive(view, &view.over_load(|u| step(u - place, width) - zero));
         }
     }
     for held in [0.015, 0.03, 0.05, 0.08, 0.12] {
