@@ -199,7 +199,7 @@ fn picked(
     }
     let leaves = weighing.leaves(&set, story);
     let kept = Picked { set, gains, leaves };
-    match kept.leaves.rest.is_left {
+    match kept.leaves.rest.is_left || !experiment.has_rough_laws() {
         true => needed(weighing, posterior, chosen, &kept).unwrap_or(kept),
         false => kept,
     }
@@ -207,6 +207,7 @@ fn picked(
 
 /// The set as it was chosen, where nothing is left beside it, and all that was dropped is probable and neither lowers nor
 /// raises the error of unseen rows: all that is uncertain may stand in for it there, far from where it is known to be.
+/// Where laws are only nearly right, a probable cause may be what they miss, and something must be left without it.
 fn needed(
     weighing: &Weighing,
     posterior: &Posterior,

@@ -8,7 +8,7 @@ use crate::findings::table::{Effect, Place};
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "cross_talk",
     summary: "A force along one axis of the sensor shows on another.",
-    mechanism: "calibration",
+    mechanism: "cross-talk",
     places: |case| vec![Place::new("sensor", members(case))],
     parameters: |_, blamed| {
         vec![

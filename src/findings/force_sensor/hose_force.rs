@@ -35,6 +35,11 @@ const TIED: f64 = 0.1;
 const RINGS: usize = 4;
 const ON_HORIZON: f64 = 9.0;
 
+/// Twist, in half turns, and part of the quaternion about z, at which the orientation no longer tells how a hose is
+/// wound.
+const HALF_A_TURN: f64 = 0.98;
+const UPSIDE_DOWN: f64 = 0.02;
+
 fn members(case: &Case) -> Vec<Member> {
     let any = |channels: std::ops::Range<usize>| {
         let one = |own: usize, k: usize| {
@@ -110,21 +115,45 @@ fn towards(case: &Case, way: V3) -> Vec<Vec<f64>> {
     // the end on the tool moves against the far one: seen from the tool, a constant
     let unit = |k: usize| -> V3 { std::array::from_fn(|j| f64::from(u8::from(j == k))) };
     columns.extend([0, 1, 2].map(|k| column(&|_| (unit(k), NONE))));
-    columns.push(column(&|i| (NONE, scale(TIED * wound(case, i), unit(2)))));
+    columns.extend(
+        windings(case)
+            .iter()
+            .map(|turn| column(&|i| (NONE, scale(TIED * turn[i], unit(2))))),
+    );
     columns
 }
 
-/// How far a hose along the sensor's z is wound, in half turns: the twist about z of the orientation.
-fn wound(case: &Case, i: usize) -> f64 {
+/// How far a hose is wound in every reading, and one for every point of which nobody knows it.
+fn windings(case: &Case) -> Vec<Vec<f64>> {
+    let wound: Vec<Option<f64>> = (0..case.test.readings.len())
+        .map(|i| wound(case, i))
+        .collect();
+    let points = &case.points.0;
+    let is_unknown = |point: &usize| {
+        points
+            .iter()
+            .zip(&wound)
+            .any(|(p, w)| p == point && w.is_none())
+    };
+    let at = |point: usize| {
+        points
+            .iter()
+            .map(move |p| f64::from(u8::from(*p == point)))
+            .collect()
+    };
+    let known = wound.iter().map(|w| w.unwrap_or(0.0)).collect();
+    let unknown = (0..case.points.1.len()).filter(is_unknown).map(at);
+    std::iter::once(known).chain(unknown).collect()
+}
+
+/// How far a hose along the sensor's z is wound, in half turns: the twist about z of the orientation. `None`
+/// where the orientation does not tell it but the way on which the wrist came: after half a turn either way, and
+/// where z has turned over.
+fn wound(case: &Case, i: usize) -> Option<f64> {
     let [w, _, _, z] = case.test.readings[i].quaternion;
     let twist = 2.0 * z.atan2(w) / std::f64::consts::PI;
-    if twist > 1.0 {
-        twist - 2.0
-    } else if twist < -1.0 {
-        twist + 2.0
-    } else {
-        twist
-    }
+    let twist = twist - 2.0 * (twist / 2.0).round();
+    (w.hypot(z) > UPSIDE_DOWN && twist.abs() < HALF_A_TURN).then_some(twist)
 }
 
 /// Two directions across a third.
