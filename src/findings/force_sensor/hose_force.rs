@@ -35,6 +35,9 @@ const TIED: f64 = 0.1;
 const RINGS: usize = 4;
 const ON_HORIZON: f64 = 9.0;
 
+/// Orientations from which a hose is wound: z upwards, and z downwards with x kept.
+const UPRIGHT: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
+const HANGING: [f64; 4] = [0.0, 1.0, 0.0, 0.0];
 /// Twist, in half turns, and part of the quaternion about z, at which the orientation no longer tells how a hose is
 /// wound.
 const HALF_A_TURN: f64 = 0.98;
@@ -51,8 +54,12 @@ fn members(case: &Case) -> Vec<Member> {
     match case.test.readings.len() {
         0..12 => Vec::new(),
         _ => {
+            let windings = [UPRIGHT, HANGING].map(|from| windings(case, from));
             let ways = directions().into_iter();
-            let tied = ways.flat_map(|way| table::flexible(towards(case, way)));
+            let tied = ways.flat_map(|way| {
+                let each = windings.iter();
+                each.flat_map(move |wound| table::flexible(towards(case, way, wound)))
+            });
             tied.chain(any(0..3))
                 .chain(any(0..6))
                 .chain(any(3..6))
@@ -87,7 +94,7 @@ fn directions() -> Vec<V3> {
 
 /// A hose from the tool to a far point: it pulls that way, more or less as its end on the tool comes nearer
 /// (which is first of all the end along the sensor's z), and with the lever of that end.
-fn towards(case: &Case, way: V3) -> Vec<Vec<f64>> {
+fn towards(case: &Case, way: V3, windings: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let aside = across(way);
     let pull = |i: usize, along: V3| rotate_back(&matrix(case.test.readings[i].quaternion), along);
     let column = |of: &dyn Fn(usize) -> (V3, V3)| {
@@ -116,7 +123,7 @@ fn towards(case: &Case, way: V3) -> Vec<Vec<f64>> {
     let unit = |k: usize| -> V3 { std::array::from_fn(|j| f64::from(u8::from(j == k))) };
     columns.extend([0, 1, 2].map(|k| column(&|_| (unit(k), NONE))));
     columns.extend(
-        windings(case)
+        windings
             .iter()
             .map(|turn| column(&|i| (NONE, scale(TIED * turn[i], unit(2))))),
     );
@@ -124,9 +131,9 @@ fn towards(case: &Case, way: V3) -> Vec<Vec<f64>> {
 }
 
 /// How far a hose is wound in every reading, and one for every point of which nobody knows it.
-fn windings(case: &Case) -> Vec<Vec<f64>> {
+fn windings(case: &Case, from: [f64; 4]) -> Vec<Vec<f64>> {
     let wound: Vec<Option<f64>> = (0..case.test.readings.len())
-        .map(|i| wound(case, i))
+        .map(|i| wound(case.test.readings[i].quaternion, from))
         .collect();
     let points = &case.points.0;
     let is_unknown = |point: &usize| {
@@ -146,14 +153,16 @@ fn windings(case: &Case) -> Vec<Vec<f64>> {
     std::iter::once(known).chain(unknown).collect()
 }
 
-/// How far a hose along the sensor's z is wound, in half turns: the twist about z of the orientation. `None`
-/// where the orientation does not tell it but the way on which the wrist came: after half a turn either way, and
-/// where z has turned over.
-fn wound(case: &Case, i: usize) -> Option<f64> {
-    let [w, _, _, z] = case.test.readings[i].quaternion;
-    let twist = 2.0 * z.atan2(w) / std::f64::consts::PI;
+/// How far a hose along the sensor's z is wound, in half turns: the twist about z of the orientation, seen `from`
+/// that in which it is not. `None` where the orientation does not tell it but the way on which the wrist came: after half
+/// a turn either way, and where z has turned over.
+fn wound(orientation: [f64; 4], from: [f64; 4]) -> Option<f64> {
+    let ([w, x, y, z], [a, b, c, d]) = (orientation, from);
+    // two parts of the product of the conjugate of `from` with the orientation
+    let (real, about) = (a * w + b * x + c * y + d * z, a * z - d * w - b * y + c * x);
+    let twist = 2.0 * about.atan2(real) / std::f64::consts::PI;
     let twist = twist - 2.0 * (twist / 2.0).round();
-    (w.hypot(z) > UPSIDE_DOWN && twist.abs() < HALF_A_TURN).then_some(twist)
+    (real.hypot(about) > UPSIDE_DOWN && twist.abs() < HALF_A_TURN).then_some(twist)
 }
 
 /// Two directions across a third.
@@ -166,4 +175,25 @@ fn across(way: V3) -> [V3; 2] {
     let first = cross(way, other);
     let first = scale(norm(first).recip(), first);
     [first, cross(way, first)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn a_hanging_tool_winds_its_hose_as_a6_turns() {
+        for (swing, turn) in [(0.0, 0.4), (0.9, -1.1), (-1.9, 2.9), (1.2, -3.0)] {
+            let ((s, c), (t, u)) = (f64::sin_cos(0.5 * swing), f64::sin_cos(0.5 * turn));
+            // about x by half a turn, then about the new y by the swing, then about the new z
+            let orientation = [-s * t, c * u, -c * t, s * u];
+            let found = wound(orientation, HANGING).unwrap();
+            assert!((found - turn / PI).abs() < 1e-12, "{found} {turn}");
+            let turned = orientation.map(|q| -q);
+            assert!((wound(turned, HANGING).unwrap() - found).abs() < 1e-12);
+        }
+        assert_eq!(wound([0.0, 1.0, 0.0, 0.0], UPRIGHT), None);
+        assert_eq!(wound([0.0, 0.0, 0.0, 1.0], UPRIGHT), None);
+    }
 }
