@@ -383,3 +383,25 @@ fn what_cannot_be_read_is_refused_with_line_and_remedy() {
         Some(2)
     );
 }
+
+#[test]
+fn a_noise_far_beyond_the_stated_one_is_said_and_no_load_is_invented() {
+    use ident::findings::Verdict;
+    use ident::findings::engine::diagnose;
+    use ident::findings::force_sensor::Case;
+    use ident::findings::kinds::Measured;
+    let text = file(&TRUTH, &many(), 3, [0.3, 0.02], |_| [0.0; 3]);
+    let said = |stated: f64| {
+        let mut test = read(&text);
+        test.facts.noise = [Some(stated), Some(stated / 15.0)];
+        let case = Case::new(test).unwrap();
+        let answer = diagnose(&case, &case.judgement()).answer;
+        (answer.verdict, answer.unexplained.description)
+    };
+    let (verdict, beyond) = said(0.03);
+    assert!(beyond.contains("times the noise"), "{beyond}");
+    assert_eq!(verdict, Verdict::PartlyExplained);
+    let (verdict, within) = said(0.3);
+    assert!(!within.contains("times the noise"), "{within}");
+    assert_eq!(verdict, Verdict::Explained);
+}

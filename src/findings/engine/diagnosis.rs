@@ -137,8 +137,8 @@ fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgeme
         (&weighing.missed, &left),
         judgement,
     );
-    if let Some(seen) = seen {
-        answer.unexplained.description = seen.into();
+    if let Some(seen) = seen.map(Into::into).or(rest.scatter.map(scattering)) {
+        answer.unexplained.description = seen;
     }
     let mut own = set.suspects.iter().map(|s| bank.suspects[*s].named);
     blamed.retain(|_| own.next().unwrap_or(true));
@@ -163,6 +163,14 @@ fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgeme
         lead,
         evidence,
     }
+}
+
+/// What is seen where only its scatter is too large.
+fn scattering(times: f64) -> String {
+    format!(
+        "a scatter of {times:.1} times the noise that is stated, or seen between neighbours, and no pattern in it: the noise \
+         is larger, or what scatters is none"
+    )
 }
 
 /// The best set of causes of the library.

@@ -123,6 +123,7 @@ impl<'a> Weighing<'a> {
                 nats: rest.nats.max(story.score),
                 share: rest.share.max(share),
                 is_left: true,
+                scatter: None,
             },
             false => rest,
         }

@@ -18,6 +18,8 @@ pub struct Rest {
     pub share: f64,
     /// Whether it counts.
     pub is_left: bool,
+    /// Times the noise by which it scatters, where that alone makes it count.
+    pub scatter: Option<f64>,
 }
 
 impl Rest {
@@ -29,6 +31,7 @@ impl Rest {
                 nats: self.nats.max(judgement.left_nats),
                 share: self.share.max(share),
                 is_left: true,
+                scatter: None,
             },
             false => self,
         }
@@ -40,6 +43,7 @@ impl Rest {
             true => Self {
                 nats: self.nats.max(judgement.left_nats),
                 is_left: true,
+                scatter: (!self.is_left).then_some(noise),
                 ..self
             },
             false => self,
@@ -142,6 +146,7 @@ impl Span {
             nats,
             share,
             is_left,
+            scatter: None,
         }
     }
 }
