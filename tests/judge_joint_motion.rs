@@ -6,18 +6,18 @@
 use crate::judge::joint_motion::draw;
 use crate::judge::{Floors, conclude, judged};
 
-/// Seed 502, 300 cases, nothing mended after it: clean 77 of 79, single 80 of 122, pair 16 of 57, outside 27 of 37, untrue names
-/// in 11 of 295. Before the common engine: 78 of 79, 92, 25 and 11, untrue names in 30: more is left unsaid now, and
-/// a third as much invented.
+/// Mended on seeds 511 to 514 (150 cases each). Seeds 521 to 524, at which nobody had looked: clean 144 of 147, single 229
+/// of 244, pair 82 of 115, outside 73 of 83, untrue names in 3 of 600. The judge's loops gave energy until then and
+/// now take it, so that older counts do not compare.
 #[test]
 fn joints_by_strangers_are_judged_rightly() {
     let rates = conclude("joint-motion", &judged(draw, 24));
     let floors = Floors {
-        clean: 0.8,
-        single: 0.4,
-        pair: 0.0,
-        outside: 0.3,
-        wrong: 0.1,
+        clean: 0.85,
+        single: 0.7,
+        pair: 0.25,
+        outside: 0.5,
+        wrong: 0.08,
     };
     floors.hold(&rates);
 }

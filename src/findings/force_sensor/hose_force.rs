@@ -5,7 +5,9 @@ use super::Case;
 use crate::findings::engine::Member;
 use crate::findings::table::{self, Effect, Place};
 use crate::ground::spatial::{V3, cross, norm, rotate_back, scale};
-use crate::measurement::force_sensor::matrix;
+use crate::measurement::force_sensor::{Reading, matrix};
+use crate::path::quaternion::Quaternion;
+use std::collections::BTreeSet;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "hose_force",
@@ -38,8 +40,9 @@ const ON_HORIZON: f64 = 9.0;
 /// Orientations from which a hose is wound: z upwards, and z downwards with x kept.
 const UPRIGHT: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
 const HANGING: [f64; 4] = [0.0, 1.0, 0.0, 0.0];
-/// Twist, in half turns, and part of the quaternion about z, at which the orientation no longer tells how a hose is
-/// wound.
+/// Twist, in half turns, beyond which a wrist whose angle is off by a degree or two may have come the other way, and
+/// part of the quaternion about z (a z within two degrees of turned over) below which its twist is anything: there the
+/// orientation does not tell how a hose is wound.
 const HALF_A_TURN: f64 = 0.98;
 const UPSIDE_DOWN: f64 = 0.02;
 
@@ -132,34 +135,30 @@ fn towards(case: &Case, way: V3, windings: &[Vec<f64>]) -> Vec<Vec<f64>> {
 
 /// How far a hose is wound in every reading, and one for every point of which nobody knows it.
 fn windings(case: &Case, from: [f64; 4]) -> Vec<Vec<f64>> {
-    let wound: Vec<Option<f64>> = (0..case.test.readings.len())
-        .map(|i| wound(case.test.readings[i].quaternion, from))
-        .collect();
+    let wound = |reading: &Reading| wound(reading.quaternion, from);
+    let wound: Vec<Option<f64>> = case.test.readings.iter().map(wound).collect();
     let points = &case.points.0;
-    let is_unknown = |point: &usize| {
+    let each = points.iter().zip(&wound);
+    let unknown: BTreeSet<usize> = each
+        .filter_map(|(point, wound)| wound.is_none().then_some(*point))
+        .collect();
+    let known = wound.iter().map(|w| w.unwrap_or(0.0)).collect();
+    let at = |point| {
         points
             .iter()
-            .zip(&wound)
-            .any(|(p, w)| p == point && w.is_none())
-    };
-    let at = |point: usize| {
-        points
-            .iter()
-            .map(move |p| f64::from(u8::from(*p == point)))
+            .map(|p| f64::from(u8::from(*p == point)))
             .collect()
     };
-    let known = wound.iter().map(|w| w.unwrap_or(0.0)).collect();
-    let unknown = (0..case.points.1.len()).filter(is_unknown).map(at);
-    std::iter::once(known).chain(unknown).collect()
+    std::iter::once(known)
+        .chain(unknown.into_iter().map(at))
+        .collect()
 }
 
 /// How far a hose along the sensor's z is wound, in half turns: the twist about z of the orientation, seen `from`
 /// that in which it is not. `None` where the orientation does not tell it but the way on which the wrist came: after half
 /// a turn either way, and where z has turned over.
 fn wound(orientation: [f64; 4], from: [f64; 4]) -> Option<f64> {
-    let ([w, x, y, z], [a, b, c, d]) = (orientation, from);
-    // two parts of the product of the conjugate of `from` with the orientation
-    let (real, about) = (a * w + b * x + c * y + d * z, a * z - d * w - b * y + c * x);
+    let [real, _, _, about] = Quaternion(from).inverse().times(Quaternion(orientation)).0;
     let twist = 2.0 * about.atan2(real) / std::f64::consts::PI;
     let twist = twist - 2.0 * (twist / 2.0).round();
     (real.hypot(about) > UPSIDE_DOWN && twist.abs() < HALF_A_TURN).then_some(twist)

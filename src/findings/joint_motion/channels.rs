@@ -1,7 +1,7 @@
 //! The channels of one joint as they are compared: averaged down, with speed and acceleration.
 
 use crate::fit::observation::reduce;
-use crate::ground::stats::mean;
+use crate::ground::stats::{mean, quantile};
 use crate::measurement::joint_motion::JointRecord;
 use crate::signal::outliers;
 
@@ -9,10 +9,17 @@ use crate::signal::outliers;
 const MOST_ROWS: usize = 3200;
 /// Width over which speed, acceleration and torque are smoothed, s.
 const SMOOTHING_S: f64 = 0.035;
+/// Passes of smoothing, twice three of them one after the other, through which an end reaches inwards.
+const PASSES_BACK: usize = 6;
+/// Times that width over which the torque is smoothed once more.
+const WIDER: usize = 3;
+/// Half of normal readings lie within so many deviations.
+const MEDIAN: f64 = 0.6745;
 /// Distance from its neighbours, in robust standard deviations, that makes a lone reading wild.
 const WILD: f64 = 6.0;
 
 /// One joint, row by row, SI, on the link side of the gear.
+#[derive(Clone)]
 pub struct Channels {
     /// Time, s.
     pub time: Vec<f64>,
@@ -22,6 +29,9 @@ pub struct Channels {
     pub torque: Vec<f64>,
     /// What smoothing took from it, N·m.
     pub quick: Vec<f64>,
+    /// What smoothing again, as much and more, takes of it and of the acceleration, N·m and rad/s²: by nearly as much both
+    /// miss the sharp turns of a motion already, and have too much noise elsewhere.
+    pub bends: [Vec<f64>; 3],
     /// Its rate, N·m/s.
     pub torque_rate: Vec<f64>,
     /// Speed, smoothed, rad/s.
@@ -58,8 +68,12 @@ impl Channels {
         let acceleration = smoothed(&slope(&time, &speed), width);
         let raw = reduce(&joint.torque, block);
         let torque = smoothed(&raw, width);
-        Self {
+        let mut channels = Self {
             twist,
+            bends: [(&torque, 1), (&torque, WIDER), (&acceleration, 1)].map(|(c, times)| {
+                let again = smoothed(c, times * width);
+                again.iter().zip(c).map(|(a, c)| a - c).collect()
+            }),
             quick: raw.iter().zip(&torque).map(|(r, t)| r - t).collect(),
             torque_rate: slope(&time, &torque),
             torque,
@@ -71,12 +85,75 @@ impl Channels {
             time,
             zero,
             wild: wild.len(),
+        };
+        channels.trim();
+        channels
+    }
+
+    /// Leaves out the rows at either end for which smoothing had neighbours on one side only.
+    fn trim(&mut self) {
+        let margin = (PASSES_BACK * self.width).min(self.rows() / 20);
+        let Self {
+            time,
+            twist,
+            torque,
+            quick,
+            bends,
+            torque_rate,
+            speed,
+            acceleration,
+            motor,
+            link,
+            ..
+        } = self;
+        let [first, second, third] = bends;
+        for column in [
+            first,
+            second,
+            third,
+            time,
+            twist,
+            torque,
+            quick,
+            torque_rate,
+            speed,
+            acceleration,
+            motor,
+            link,
+        ] {
+            column.truncate(column.len() - margin);
+            column.drain(..margin);
         }
     }
 
     /// A column as smooth as the torque.
     pub fn smoothed(&self, column: &[f64]) -> Vec<f64> {
         smoothed(column, self.width)
+    }
+
+    /// Noise of the smoothed torque, line by line of its cosine transform, N·m: of one reading as its third neighbours'
+    /// differences scatter, by what smoothing lets pass.
+    pub fn torque_noise(&self) -> Vec<f64> {
+        let n = self.rows();
+        let raw: Vec<f64> = self
+            .torque
+            .iter()
+            .zip(&self.quick)
+            .map(|(t, q)| t + q)
+            .collect();
+        let bend = |w: &[f64]| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]).abs();
+        let bends: Vec<f64> = raw.windows(4).map(bend).collect();
+        let one = quantile(&bends, 0.5) / (MEDIAN * 20.0_f64.sqrt());
+        let window = (2 * self.width + 1) as f64;
+        let passes = |line: usize| {
+            let half = 0.5 * std::f64::consts::PI * line as f64 / n as f64;
+            let mean = match line {
+                0 => 1.0,
+                _ => (window * half).sin() / (window * half.sin()),
+            };
+            mean.powi(3)
+        };
+        (0..n).map(|line| one * passes(line).abs()).collect()
     }
 
     /// Number of rows.

@@ -9,6 +9,7 @@ use super::projection;
 use super::stiffness::{Compliance, compliance};
 use crate::findings::answer::{Answer, Cause, Verdict};
 use crate::findings::engine::{Experiment, Found, diagnose};
+use crate::findings::gain::Gain;
 use crate::ground::stats::{mean, rms};
 use crate::measurement::joint_motion::JointRecord;
 use crate::sheet::number::significant;
@@ -53,6 +54,7 @@ pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
         left,
         ..
     } = diagnose(&joint, &judgement());
+    keep_the_surer(&mut answer);
     let others = |effect: &str| -> Vec<Vec<f64>> {
         let others = blamed.iter().filter(|b| b.effect != effect);
         others.map(|b| b.part.clone()).collect()
@@ -88,6 +90,16 @@ pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
         delay,
         compliance,
         data: joint.data,
+    }
+}
+
+/// Where what is left is the story, a cause is named only if it explains more of the variance of unseen readings than
+/// it leaves: what it misses may well be something else altogether, and gain as much.
+fn keep_the_surer(answer: &mut Answer) {
+    if answer.verdict == Verdict::UnknownCause {
+        let is_surer = |gain: &Gain| gain.before > 2.0_f64.sqrt() * gain.after;
+        answer.causes.retain(|c| is_surer(&c.gain));
+        answer.groups.retain(|g| is_surer(&g.gain));
     }
 }
 

@@ -63,11 +63,11 @@ impl Friction {
         }
     }
 
-    /// The torque less this friction.
-    pub fn transmitted(&self, data: &Channels) -> Vec<f64> {
+    /// A torque less this friction.
+    pub fn less(&self, data: &Channels, torque: &[f64]) -> Vec<f64> {
         let sign = sign(data);
         let viscous = self.viscous.max(0.0);
-        let less = |i: usize| data.torque[i] - self.dry * sign[i] - viscous * data.speed[i];
+        let less = |i: usize| torque[i] - self.dry * sign[i] - viscous * data.speed[i];
         (0..data.rows()).map(less).collect()
     }
 }

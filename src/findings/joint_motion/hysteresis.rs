@@ -2,6 +2,7 @@
 
 use super::channels::range;
 use super::joint::Joint;
+use super::presliding::dahl;
 use crate::findings::engine::Member;
 use crate::findings::table::{Effect, Place};
 
@@ -9,6 +10,8 @@ use crate::findings::table::{Effect, Place};
 const WIDTHS: [f64; 9] = [0.015, 0.03, 0.05, 0.08, 0.12, 0.18, 0.27, 0.4, 0.6];
 /// Neighbouring contacts that act together.
 const TOGETHER: [usize; 4] = [1, 2, 3, 5];
+/// Shares of the torque's range over which many contacts slip, the weak ones first (Dahl 1968).
+const REACHES: [f64; 5] = [0.03, 0.06, 0.12, 0.22, 0.4];
 
 /// What contacts hold before the record: nothing, or all they can.
 const BEGINS: [f64; 3] = [0.0, -1.0, 1.0];
@@ -24,7 +27,7 @@ pub(super) const EFFECT: Effect<Joint> = Effect {
 };
 
 fn loops(joint: &Joint) -> Vec<Member> {
-    let torque = &joint.data.torque;
+    let torque = &joint.geared;
     let (low, high) = range(torque);
     if high <= low {
         return Vec::new();
@@ -36,7 +39,9 @@ fn loops(joint: &Joint) -> Vec<Member> {
             Member::free(joint.column(at)).positive()
         };
         let each = TOGETHER.iter().flat_map(|many| single.windows(*many));
-        each.map(together).collect::<Vec<Member>>()
+        let many = REACHES.map(|r| dahl(torque, r * (high - low), begin));
+        let many = many.map(|column| Member::free(column).positive());
+        each.map(together).chain(many).collect::<Vec<Member>>()
     };
     BEGINS.into_iter().flat_map(from).collect()
 }

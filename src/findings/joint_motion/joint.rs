@@ -3,9 +3,10 @@
 
 use super::channels::Channels;
 use super::friction::{Friction, sign};
+use super::gear_torque::gear_torque;
 use super::jumps::jumps;
 use super::noise::Coloured;
-use super::projection;
+use super::projection::{self, partial};
 use super::ripple::{Wave, waves};
 use crate::findings::engine::Suspect;
 use crate::findings::table::{unit_range, waves as smooth};
@@ -22,6 +23,7 @@ pub struct Nominal {
 }
 
 /// A joint as its diagnosis sees it: one row per reading of the difference of its encoders.
+#[derive(Clone)]
 pub struct Joint {
     /// Its site: `A2`.
     pub site: String,
@@ -35,6 +37,8 @@ pub struct Joint {
     pub nominal: Nominal,
     /// Its channels.
     pub data: Channels,
+    /// Torque in the gear, N·m.
+    pub geared: Vec<f64>,
     /// Friction that the torque shows.
     pub friction: Friction,
     /// Rows at which a zero may have jumped.
@@ -45,8 +49,8 @@ pub struct Joint {
     pub noise: Coloured,
 }
 
-/// Shapes of every suspect beside which noise is sought: more would take all that is slow.
-const EACH: usize = 3;
+/// Shapes of every suspect beside which noise is sought: fewer leave loops in it, more would take all that is slow.
+const EACH: usize = 8;
 /// Waves of smooth structure over a channel ...
 const SMOOTH: usize = 6;
 /// ... and over time.
@@ -56,20 +60,49 @@ impl Joint {
     /// From a record.
     pub fn new(record: &JointRecord, nominal: Nominal) -> Self {
         let data = Channels::of(record);
-        let rough = rough(&data);
+        let rough = rough(&data, &data.twist);
         let mut joint = Self {
             site: record.site(),
             ratio: record.ratio,
             declared: record.delay,
             zero_std: record.zero_std,
             nominal,
+            geared: gear_torque(&data, &data.twist),
             friction: Friction::of(&data),
             jumps: jumps(&rough),
             waves: waves(&data, &rough, record.ratio),
             noise: Coloured::unit(data.rows()),
             data,
         };
-        joint.noise = Coloured::of(&joint.data.twist, &joint.beside_noise());
+        joint.noise = Coloured::of(
+            &joint.data.twist,
+            &joint.beside_noise(),
+            &joint.noise_of_torque(),
+        );
+        joint
+    }
+
+    /// What the torque's own noise makes of the twist, line by line of its cosine transform, rad.
+    fn noise_of_torque(&self) -> Vec<f64> {
+        let compliance = partial(&self.beside_torque(), &self.data.torque, &self.data.twist).slope;
+        let noise = self.data.torque_noise().into_iter();
+        noise.map(|n| compliance.abs() * n).collect()
+    }
+
+    /// The same once these parts of the twist are told: what they hid of the gear's torque, of instants and of periods.
+    pub fn beside(&self, parts: &[Vec<f64>]) -> Self {
+        let mut joint = self.clone();
+        let part = |i: usize| parts.iter().map(|p| p[i]).sum::<f64>();
+        let twist: Vec<f64> = self.column(|i| self.data.twist[i] - part(i));
+        let rough = rough(&self.data, &twist);
+        joint.geared = gear_torque(&self.data, &twist);
+        let new = jumps(&rough).into_iter();
+        joint
+            .jumps
+            .extend(new.filter(|row| !self.jumps.contains(row)));
+        let near = |w: &Wave| self.waves.iter().any(|own| w.is_near(own, &self.data));
+        let new = waves(&self.data, &rough, self.ratio).into_iter();
+        joint.waves.extend(new.filter(|w| !near(w)));
         joint
     }
 
@@ -86,8 +119,8 @@ impl Joint {
         span
     }
 
-    /// Columns that every model has: zero, torque, the inertia of the rotor, and the quick part of the torque, with
-    /// its noise.
+    /// Columns that every model has: zero, torque, the inertia of the rotor, the quick part of the torque, with its
+    /// noise, and what smoothing takes of sharp turns.
     pub fn base(&self) -> Vec<Vec<f64>> {
         base(&self.data)
     }
@@ -120,7 +153,7 @@ impl Joint {
         let over = [
             &data.time,
             &data.motor,
-            &data.torque,
+            &self.geared,
             &data.speed,
             &data.acceleration,
         ];
@@ -134,16 +167,18 @@ impl Joint {
 pub const TORQUE: usize = 1;
 
 fn base(data: &Channels) -> Vec<Vec<f64>> {
-    vec![
+    let mut columns = vec![
         vec![1.0; data.rows()],
         data.torque.clone(),
         data.acceleration.clone(),
         data.quick.clone(),
-    ]
+    ];
+    columns.extend(data.bends.clone());
+    columns
 }
 
 /// What zero, torque, acceleration, speed, friction, a gap and slow structure over the angle leave of the twist.
-fn rough(data: &Channels) -> Vec<f64> {
+fn rough(data: &Channels, twist: &[f64]) -> Vec<f64> {
     let mut columns = base(data);
     columns.extend([
         data.speed.clone(),
@@ -151,5 +186,5 @@ fn rough(data: &Channels) -> Vec<f64> {
         super::backlash::step(&data.torque, 0.04),
     ]);
     columns.extend(smooth(&unit_range(&data.motor), 2));
-    projection::left(&columns, &data.twist)
+    projection::left(&columns, twist)
 }

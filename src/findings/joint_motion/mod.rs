@@ -15,11 +15,13 @@ mod encoder_ripple;
 mod experiment;
 mod finding;
 mod friction;
+mod gear_torque;
 mod hysteresis;
 mod joint;
 mod jumps;
 mod noise;
 mod patterns;
+mod presliding;
 mod projection;
 mod remarks;
 mod ripple;
@@ -49,9 +51,10 @@ pub const EFFECTS: &[Effect<Joint>] = &[
     scales::STIFFNESS,
 ];
 
-/// Whether a channel lies beyond a limit for a twenty-fifth of its rows on either side.
-fn balanced(values: &[f64], limit: f64) -> bool {
-    let share =
-        |sign: f64| values.iter().filter(|v| sign * **v > limit).count() * 25 > values.len();
-    share(1.0) && share(-1.0)
+/// Whether a channel lies beyond a limit for more than this share of its rows, on either side.
+fn balanced(values: &[f64], limit: f64, share: f64) -> bool {
+    let beyond = |sign: f64| values.iter().filter(|v| sign * **v > limit).count() as f64;
+    [1.0, -1.0]
+        .iter()
+        .all(|sign| beyond(*sign) > share * values.len() as f64)
 }

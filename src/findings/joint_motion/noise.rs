@@ -43,7 +43,9 @@ impl Coloured {
     }
 
     /// Of readings, from what the span of these columns leaves; short records have room for the first of them only.
-    pub fn of(reading: &[f64], span: &[Vec<f64>]) -> Self {
+    /// No line is taken to be quieter than `least` says: a channel among the columns has noise too, and where it has
+    /// nothing else, its column would take that for the reading's.
+    pub fn of(reading: &[f64], span: &[Vec<f64>], least: &[f64]) -> Self {
         let span = &span[..span.len().min(reading.len() / ROOM)];
         let mut noise = Self::unit(reading.len());
         for _ in 0..ROUNDS {
@@ -59,6 +61,8 @@ impl Coloured {
             };
             let lines: Vec<(f64, f64)> = (0..reading.len()).map(line).collect();
             noise.sigma = coloured(&lines);
+            let each = noise.sigma.iter_mut().zip(least);
+            each.for_each(|(sigma, least)| *sigma = sigma.max(*least));
             noise.worth = (reading.len() - basis.len()) as f64;
         }
         let square = noise.sigma.iter().map(|s| s * s).sum::<f64>() / reading.len() as f64;

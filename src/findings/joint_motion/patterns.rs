@@ -20,12 +20,17 @@ pub(super) const PATTERNS: &[Pattern<Joint>] = &[
     Pattern {
         name: "load",
         summary: BENT,
-        members: |joint| bends(&joint.data.torque),
+        members: |joint| bends(&joint.geared),
     },
     Pattern {
         name: "meshing",
         summary: MESHING,
         members: |joint| members(joint, false),
+    },
+    Pattern {
+        name: "late",
+        summary: "a twist that follows the torque late, as what creeps does",
+        members: |joint| flexible(LATE_S.map(|late| lagging(joint, late)).to_vec()),
     },
     Pattern {
         name: "angle",
@@ -43,6 +48,21 @@ pub(super) const PATTERNS: &[Pattern<Joint>] = &[
         members: |joint| bends(&joint.data.speed),
     },
 ];
+
+/// Time constants of what creeps, s.
+const LATE_S: [f64; 3] = [0.1, 0.3, 0.9];
+
+/// What the torque's recent past adds to the twist beyond the torque itself.
+fn lagging(joint: &Joint, late: f64) -> Vec<f64> {
+    let (time, torque) = (&joint.data.time, &joint.geared);
+    let mut at = torque[0];
+    let of = |i: usize| {
+        let step = time[i] - time[i.saturating_sub(1)];
+        at += (torque[i] - at) * (1.0 - (-step / late).exp());
+        at - torque[i]
+    };
+    (0..time.len()).map(of).collect()
+}
 
 /// Waves of a curve over torque or speed.
 const WAVES: usize = 5;

@@ -50,6 +50,14 @@ pub struct Wave {
     pub columns: Vec<Vec<f64>>,
 }
 
+impl Wave {
+    /// Whether a motion cannot tell its order from that of another.
+    pub fn is_near(&self, other: &Self, data: &Channels) -> bool {
+        let apart = (self.order - other.order).abs();
+        apart < resolution(&data.link).max(resolution(&data.motor))
+    }
+}
+
 /// How many periods of an angle are tried.
 pub const TRIED: f64 = (BINS / 8) as f64;
 

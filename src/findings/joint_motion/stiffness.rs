@@ -19,7 +19,7 @@ pub struct Compliance {
 
 /// Largest relative standard deviation of a compliance that is printed.
 const TIGHT: f64 = 0.1;
-/// The torque's own part of the twist must stand so far above what is left.
+/// The torque's own part of the twist must stand so far above what is left, as smooth as the torque.
 const STANDS_OUT: f64 = 1.5;
 /// Pieces of time: which of how many.
 const PIECES: [(usize, usize); 6] = [(0, 1), (0, 2), (1, 2), (0, 3), (1, 3), (2, 3)];
@@ -53,7 +53,9 @@ pub fn compliance(joint: &Joint, parts: &[Vec<f64>]) -> Result<Compliance, &'sta
         );
     }
     let own = value * rms(&left(&fullest, &data.torque));
-    if own < STANDS_OUT * rms(&left(&with(&fullest, &data.torque), &data.twist)) {
+    // what is left scatters from reading to reading, the torque's part does not
+    let beside = data.smoothed(&left(&with(&fullest, &data.torque), &data.twist));
+    if own < STANDS_OUT * rms(&beside) {
         return Err("the torque's own part of the twist does not stand out from what is left");
     }
     Ok(Compliance { value, std })

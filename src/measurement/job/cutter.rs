@@ -42,6 +42,9 @@ const RPM: f64 = TAU / 60.0;
 /// Steepest helix, degrees.
 const STEEPEST: f64 = 89.0;
 
+/// Least way along the circumference from tooth to tooth, m.
+const CLOSEST: f64 = 1e-3;
+
 impl Cutter {
     /// The table `[tool]`, if it is there; `modal` files hold the same table.
     ///
@@ -55,7 +58,7 @@ impl Cutter {
     fn of_keys(keys: &Keys<'_>) -> Outcome<Self> {
         let diameter = keys.positive("diameter_mm")?.map(|mm| mm * 1e-3);
         let diameter = diameter.ok_or_else(|| keys.missing("diameter_mm", "diameter_mm = 16.0"))?;
-        let teeth = keys.count("teeth", 1)?;
+        let teeth = teeth(keys, diameter)?;
         Ok(Self {
             diameter,
             teeth: teeth.ok_or_else(|| keys.missing("teeth", "teeth = 2"))?,
@@ -66,6 +69,19 @@ impl Cutter {
             runout: keys.not_negative("runout_um")?.unwrap_or(0.0) * 1e-6,
             runout_angle: keys.number("runout_angle_deg")?.unwrap_or(0.0) * DEGREE,
         })
+    }
+}
+
+fn teeth(keys: &Keys<'_>, diameter: f64) -> Outcome<Option<usize>> {
+    let teeth = keys.count("teeth", 1)?;
+    let most = (std::f64::consts::PI * diameter / CLOSEST).floor().max(1.0);
+    match teeth.filter(|n| *n as f64 > most) {
+        None => Ok(teeth),
+        Some(n) => {
+            let what = format!("is {n}, more than stand around {} mm", diameter * 1e3);
+            let remedy = format!("write how many teeth the tool has, at most {most} here");
+            Err(keys.problem("teeth", what, remedy))
+        }
     }
 }
 

@@ -31,6 +31,10 @@ const COEFFICIENTS: [(&str, &str, f64); 6] = [
     ("Kae_N_mm", "Kae_ci95_N_mm", 1e3),
 ];
 
+/// Most that any coefficient may be, N/mm² and N/mm: the hardest that are cut have some ten thousand.
+const HARDEST: f64 = 1e6;
+const HARD: &str = "write it in N/mm² (edge: N/mm): steel has some 2000 and 30";
+
 /// What else a material may say; free, and for people, but for `name` and `rel_std`.
 const WORDS: &[&str] = &[
     "kind",
@@ -87,7 +91,7 @@ impl Material {
         let mut values = [0.0; 6];
         let mut ci95 = [None; 6];
         for (i, (key, interval, factor)) in COEFFICIENTS.iter().enumerate() {
-            let value = keys.number(key)?;
+            let value = keys.judged(key, |k| k.abs() <= HARDEST, "no material's", HARD)?;
             let example = format!("{key} = ...; 0.0 where it does not act");
             values[i] = factor * value.ok_or_else(|| keys.missing(key, &example))?;
             ci95[i] = keys

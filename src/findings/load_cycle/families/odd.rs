@@ -3,7 +3,8 @@
 use super::shape::{even, geometric};
 use super::{Family, Shapes, View};
 
-/// A gap: a step at a free place, rounded by the contact, or held by friction.
+/// A gap: a step at a free place, rounded by the contact, or held by friction; a weight may hold it open when the zero is
+/// set, and then the step is nought at no load.
 pub const BACKLASH: Family = Family {
     cause: "backlash",
     mechanism: "static, odd",
