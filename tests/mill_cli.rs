@@ -59,6 +59,45 @@ fn job() -> tempfile::TempDir {
     folder
 }
 
+/// Found by fuzzing: runs of minutes, each a unit gone wrong.
+#[test]
+fn what_no_cutter_is_or_does_is_refused() {
+    let folder = job();
+    let whats = [
+        ("teeth = 2", "teeth = 72", "job.toml:15", "16 mm"),
+        (
+            "Krc_N_mm2 = 788.83",
+            "Krc_N_mm2 = 2e22",
+            "job.toml:21",
+            "N/mm²",
+        ),
+        (
+            "feed_mm_min = 3000.0",
+            "feed_mm_min = 1.0",
+            "job.toml:5",
+            "µm per tooth",
+        ),
+    ];
+    for (right, wrong, place, word) in whats {
+        std::fs::write(folder.path().join("job.toml"), JOB.replace(right, wrong)).unwrap();
+        let output = ident(folder.path(), &["mill", "--static", "job.toml"]);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains(place) && said.contains(word), "{said}");
+    }
+    let slow = "# kind = \"path\"\nx_mm,y_mm,z_mm,rapid,feed_mm_min\n-12,0,-2,0,600\n20,0,-2,0,1\n";
+    std::fs::write(folder.path().join("slot.csv"), slow).unwrap();
+    let job = JOB.replace("feed_mm_min = 3000.0\n", "");
+    std::fs::write(folder.path().join("job.toml"), job).unwrap();
+    let output = ident(folder.path(), &["mill", "--static", "job.toml"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(
+        said.contains("slot.csv:4") && said.contains("per tooth"),
+        "{said}"
+    );
+}
+
 fn near(a: &Value, b: &Value, share: f64) {
     let [a, b] = [a, b].map(|x| x.as_f64().unwrap());
     assert!((a - b).abs() <= share * b.abs(), "{a} {b}");

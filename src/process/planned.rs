@@ -9,6 +9,8 @@ use crate::path::programs::{Exporter, ProgramFile};
 use crate::planning::program::program;
 use crate::planning::{Plan, Unreached, plan};
 use crate::robot::load::load;
+use crate::sheet::number::significant;
+use std::f64::consts::TAU;
 use std::path::Path;
 
 /// A planned job.
@@ -31,6 +33,44 @@ pub struct Unplanned {
     pub inputs: Vec<(String, String)>,
     /// The refusal.
     pub problem: Problem,
+}
+
+/// Least feed per tooth, m: no edge takes chips so far below its own radius, and hours of cutting would be simulated
+/// tooth by tooth.
+const THINNEST: f64 = 1e-7;
+
+/// Refuses a feed that no cutter works at: that of the job, which holds for all, or of a line of the path.
+fn check_feeds(job: &Job, toolpath: &Toolpath) -> Outcome<()> {
+    let Some(cutter) = &job.cutter else {
+        return Ok(());
+    };
+    for step in toolpath.moves.iter().skip(1).filter(|step| !step.rapid) {
+        let speed = cutter.spindle.or(step.spindle).map_or(0.0, f64::abs);
+        let teeth = cutter.teeth as f64 * speed / TAU;
+        let feed = job.feed.or(step.feed);
+        let Some(feed) = feed.filter(|feed| *feed < THINNEST * teeth) else {
+            continue;
+        };
+        let problem = too_slow(feed, teeth);
+        return Err(match job.feed {
+            Some(_) => problem.at_key(&job.path, "feed_mm_min"),
+            None => problem.at_line(step.line).in_file(&toolpath.path),
+        });
+    }
+    Ok(())
+}
+
+/// Feed, m/s, at so many teeth a second.
+fn too_slow(feed: f64, teeth: f64) -> Problem {
+    let what = format!(
+        "a feed of {} mm/min is {} µm per tooth, which no edge cuts",
+        significant(feed * 60e3, 3),
+        significant(feed / teeth * 1e6, 3)
+    );
+    Problem::new(
+        what,
+        "check the unit of the feed, and the speed of the spindle",
+    )
 }
 
 impl Planned {
@@ -57,6 +97,7 @@ impl Planned {
     /// # Errors
     /// As [`Planned::try_read`].
     pub fn of(job: Job, toolpath: Toolpath) -> Outcome<Result<Self, Box<Unplanned>>> {
+        check_feeds(&job, &toolpath)?;
         let robot = load(&job.robot, Some(&job.path))?;
         let mut inputs = vec![
             (job.path.display().to_string(), job.sha256.clone()),
