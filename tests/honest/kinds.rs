@@ -216,6 +216,11 @@ const MOTION: &[Corruption] = &[
     }),
     ("dead link", |f| f.map("link_angle_deg_2", |_, _| 3.0)),
     ("dead torque", |f| f.map("motor_torque_Nm_2", |_, _| 0.0)),
+    ("one encoder in both columns", |f| {
+        let motor = f.column("motor_angle_deg_2");
+        let angles: Vec<f64> = (0..f.rows.len()).map(|i| f.number(i, motor)).collect();
+        f.map("link_angle_deg_2", |i, _| angles[i])
+    }),
     ("link clipped", |f| f.clip("link_angle_deg_2", 0.7, 1.0)),
     ("torque clipped", |f| f.clip("motor_torque_Nm_2", 0.7, 1.0)),
     ("noise for the link", |f| {

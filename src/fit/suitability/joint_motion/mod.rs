@@ -1,6 +1,7 @@
 //! The gate for joint motion.
 
 mod clipped;
+mod copied;
 mod dead;
 mod follows;
 mod reversed;
@@ -36,6 +37,7 @@ pub type Rule = super::Rule<for<'a, 'b> fn(&'b Moving<'a>) -> Said>;
 /// Every rule, in the order in which its findings are said.
 pub const RULES: &[Rule] = &[
     dead::RULE,
+    copied::RULE,
     clipped::RULE,
     follows::RULE,
     unrelated::RULE,
