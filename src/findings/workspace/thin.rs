@@ -4,8 +4,9 @@
 use crate::fit::suitability::{Doubt, Weight};
 use crate::measurement::workspace_test::WorkspaceTest;
 
-/// Points that are diagnosed at most.
-pub const MOST_POINTS: usize = 1000;
+/// Points that are diagnosed at most: of 900 points whose rest bends, all took 10 s, 500 take 4 s. Half the points
+/// widen an interval by two fifths.
+pub const MOST_POINTS: usize = 500;
 
 /// The test with at most [`MOST_POINTS`] of its points, evenly spread over the file, and what to say of that.
 pub fn thinned(test: &WorkspaceTest) -> Option<(WorkspaceTest, Doubt)> {
@@ -75,7 +76,7 @@ mod tests {
         assert!(thinned(&test_of(MOST_POINTS)).is_none());
         let (thin, doubt) = thinned(&test_of(MOST_POINTS + 7)).unwrap();
         assert_eq!(Shapes::of(&thin).setups.len(), 3 * MOST_POINTS);
-        assert!(doubt.what.contains("of 1007 points 1000"), "{}", doubt.what);
+        assert!(doubt.what.contains("of 507 points 500"), "{}", doubt.what);
     }
 
     /// Numbers that the columns hold: what memory goes with.
