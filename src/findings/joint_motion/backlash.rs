@@ -5,12 +5,14 @@ use super::channels::largest;
 use super::joint::Joint;
 use crate::findings::engine::Member;
 use crate::findings::table::{Effect, Place};
+use crate::signal::play::play;
 
 /// Shares of the largest torque over which a gap closes.
 const WIDTHS: [f64; 9] = [0.003, 0.005, 0.008, 0.013, 0.02, 0.032, 0.05, 0.08, 0.15];
 /// Shares of the largest torque that hold a link where it is while it is loose.
 const HELD: [f64; 3] = [0.02, 0.05, 0.1];
-/// Share of the largest torque that must be passed to either side, and of the readings in which it must be.
+/// Share of the largest torque that must be passed to either side, and of the readings in which it must be: a gap shows
+/// where the torque passes zero, however briefly.
 const BOTH_WAYS: f64 = 0.02;
 const SELDOM: f64 = 0.01;
 
@@ -27,7 +29,7 @@ pub(super) const EFFECT: Effect<Joint> = Effect {
             .into_iter()
             .filter(|t| balanced(t, BOTH_WAYS * scale, SELDOM));
         let columns = both.flat_map(|t| {
-            let held = HELD.map(|h| step(&played(t, h * scale), WIDTHS[0]));
+            let held = HELD.map(|h| step(&play(t, h * scale), WIDTHS[0]));
             let steps = WIDTHS.iter().flat_map(|w| [step(t, *w), soft(t, *w)]);
             steps.chain(held).collect::<Vec<_>>()
         });
@@ -37,16 +39,6 @@ pub(super) const EFFECT: Effect<Joint> = Effect {
     parameters: |_, blamed| vec![("gap", 2.0 * blamed.amounts[0], "rad")],
     would_tell: "let the torque pass zero slowly, once with and once without reversing the motion: a gap follows the sign of the torque, friction that of the speed",
 };
-
-/// The torque less what a play of this width on either side takes.
-fn played(torque: &[f64], held: f64) -> Vec<f64> {
-    let mut at = 0.0_f64;
-    let follow = |t: &f64| {
-        at = at.clamp(t - held, t + held);
-        at
-    };
-    torque.iter().map(follow).collect()
-}
 
 /// Twist by a gap that closes over this share of the largest torque.
 pub(super) fn step(torque: &[f64], width: f64) -> Vec<f64> {

@@ -13,7 +13,7 @@ const SMOOTHING_S: f64 = 0.035;
 const PASSES_BACK: usize = 6;
 /// Times that width over which the torque is smoothed once more.
 const WIDER: usize = 3;
-/// Half of normal readings lie within so many deviations.
+/// Half of normal readings lie within so many deviations. Third differences of white noise have twenty times its variance.
 const MEDIAN: f64 = 0.6745;
 /// Distance from its neighbours, in robust standard deviations, that makes a lone reading wild.
 const WILD: f64 = 6.0;

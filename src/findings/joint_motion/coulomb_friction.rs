@@ -26,7 +26,7 @@ const STICTION: [(f64, f64); 5] = [
     (0.4, 0.1),
 ];
 
-/// Share of the readings in which a joint must move either way.
+/// Share of the readings in which a joint must move either way: motion in one direction alone makes friction a zero.
 const SELDOM: f64 = 0.04;
 
 /// As the engine takes it: one amount is the twist that it takes, rad.

@@ -1,7 +1,7 @@
 //! One encoder in both columns.
 
 use super::{Moving, Rule};
-use crate::fit::suitability::{Said, Weight};
+use crate::fit::suitability::{Said, Weight, extent};
 
 /// The rule.
 pub const RULE: Rule = Rule {
@@ -11,17 +11,13 @@ pub const RULE: Rule = Rule {
     look,
 };
 
-/// Share of the motion within which both angles are one.
+/// Share of the motion within which both angles are one: the last digits of a subtraction.
 const SAME: f64 = 1e-12;
 
 fn look(on: &Moving) -> Said {
-    let range = |of: &dyn Fn(usize) -> f64| {
-        let each = (0..on.joint.time.len()).map(of);
-        let ends = each.fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(v), h.max(v)));
-        ends.1 - ends.0
-    };
-    let motion = range(&|i| on.joint.motor[i]);
-    let twist = range(&|i| on.joint.link[i] - on.joint.motor[i]);
+    let (motor, link) = (&on.joint.motor, &on.joint.link);
+    let twist: Vec<f64> = link.iter().zip(motor).map(|(l, m)| l - m).collect();
+    let (motion, twist) = (extent(motor), extent(&twist));
     match motion > 0.0 && twist <= SAME * motion {
         true => vec![(
             Weight::Fatal,
