@@ -42,8 +42,11 @@ pub struct Found {
 const ROUNDS: usize = 6;
 /// Change of what every cause adds, as a share of it, at which a round has arrived.
 const ARRIVED: f64 = 0.03;
-/// A round that leaves so much more than the best before went astray.
-const WORSE: f64 = 1.15;
+/// A round that leaves so much more than the best before went astray ...
+const ASTRAY: f64 = 1.15;
+/// ... and one that leaves so much more is not the answer, though a later one may be.
+const WORSE: f64 = 1.02;
+
 /// Diagnoses.
 pub fn diagnose(experiment: &dyn Experiment, judgement: &Judgement) -> Found {
     let mut last = stated(experiment, &[], &[]);
@@ -51,7 +54,8 @@ pub fn diagnose(experiment: &dyn Experiment, judgement: &Judgement) -> Found {
     if experiment.is_linear() || found.lead.is_empty() {
         return found;
     }
-    let mut least = rms(&found.left);
+    let (missed, discrepancy) = (found.missed.clone(), found.answer.discrepancy.clone());
+    let (mut best, mut least) = (found.clone(), rms(&found.left));
     for _ in 0..ROUNDS {
         let statement = stated(experiment, &found.lead, &found.uncertain);
         if experiment.is_settled(&last, &statement) {
@@ -59,21 +63,23 @@ pub fn diagnose(experiment: &dyn Experiment, judgement: &Judgement) -> Found {
         }
         let next = about(experiment, &statement, judgement);
         let left = rms(&next.left);
-        if left > WORSE * least {
+        if left > ASTRAY * least {
             break;
         }
-        least = least.min(left);
         let arrived = is_same(&found.lead, &next.lead);
-        let missed = std::mem::take(&mut found.missed);
-        let discrepancy = found.answer.discrepancy;
         found = next;
-        (found.missed, found.answer.discrepancy) = (missed, discrepancy);
-        if arrived {
+        if left <= WORSE * least {
+            best = found.clone();
+        }
+        least = least.min(left);
+        // stated about it, a cause that was found was none
+        if arrived || found.lead.is_empty() {
             break;
         }
         last = statement;
     }
-    found
+    (best.missed, best.answer.discrepancy) = (missed, discrepancy);
+    best
 }
 
 /// The statement without suspects that change nothing here: they have no column to be compared by.
