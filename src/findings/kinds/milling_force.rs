@@ -10,6 +10,11 @@ use crate::sheet::chart::{Axis, Chart, Panel, Series};
 use std::f64::consts::TAU;
 use std::path::Path;
 
+/// Peak of a cause's own part below which it is too small to be named, in noise deviations over the root of the revolutions. An
+/// offset acts on all readings alike and has no more of a peak than of a mean: at 2 one of 1.2 deviations was put aside,
+/// and a drift named for it (seed 434 of `tests/judge`).
+const PEAK: f64 = 1.5;
+
 /// Places of a revolution that are drawn.
 const PLACES: usize = 120;
 /// Cuts that are drawn.
@@ -57,7 +62,7 @@ impl Measured for Case {
     fn judgement(&self) -> Judgement {
         let usual = Judgement::default();
         Judgement {
-            peak: usual.peak / self.revolutions().max(1.0).sqrt(),
+            peak: PEAK / self.revolutions().max(1.0).sqrt(),
             peak_above: 0.995,
             share: LEAST_SHARE,
             noise_beyond: NOISE_BEYOND[usize::from(self.file().facts.sensor_noise_n.is_none())],

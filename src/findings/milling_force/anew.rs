@@ -5,7 +5,9 @@ use super::direction::Direction;
 use super::experiment::ROUGH;
 use super::patterns::PATTERNS;
 use super::setting::PROCESS;
-use super::{Case, EFFECTS, coefficients, cross_talk, force_gain, runout, sensor_resonance};
+use super::{
+    Case, EFFECTS, chatter, coefficients, cross_talk, force_gain, runout, sensor_resonance,
+};
 use crate::experiments::milling_force::RUNOUT;
 use crate::findings::engine::{Blamed, Member, Statement, Suspect};
 use crate::findings::table::{self, Effect};
@@ -18,6 +20,8 @@ const ROUNDS: usize = 2;
 struct Anew {
     /// All in place.
     all: Case,
+    /// All in place but chatter, which a hum would be taken for: patterns are looked for beside it.
+    still: Case,
     /// Effects that were found, with the case that lacks only them.
     without: Vec<(&'static str, Case)>,
     /// Causes that are in place.
@@ -32,6 +36,7 @@ pub(super) fn about(case: &Case, blamed: &[Blamed]) -> Statement {
     let mut statement = anew.all.statement();
     let reading = &mut statement.reading;
     add_to(reading, &anew.beside, 1.0);
+    add_to(reading, &anew.all.of_speeds(), 1.0);
     let forces = anew.all.forces();
     for (_, without) in &anew.without {
         add_to(reading, &forces, 1.0);
@@ -39,7 +44,7 @@ pub(super) fn about(case: &Case, blamed: &[Blamed]) -> Statement {
     }
     let mut suspects: Vec<Suspect> = EFFECTS.iter().flat_map(|e| anew.suspects(e)).collect();
     suspects = table::rough(suspects, &ROUGH);
-    suspects.extend(table::patterns(PATTERNS, &anew.all));
+    suspects.extend(table::patterns(PATTERNS, &anew.still));
     Statement {
         suspects,
         ..statement
@@ -94,6 +99,7 @@ impl Anew {
             .map(|name| (name, combined(case, &turned, blamed, name)))
             .collect();
         Self {
+            still: combined(case, &turned, blamed, chatter::EFFECT.name),
             beside: beside(case, blamed, ""),
             found: blamed.iter().filter(|b| is_in_place(b)).cloned().collect(),
             all,
@@ -159,7 +165,9 @@ impl Anew {
         let mut way = self.all.forces();
         add_to(&mut way, &without.forces(), -1.0);
         let mut member = match found.amounts[..] {
-            [amount] if amount != 0.0 => Member::free(over(way, amount)).shaped(&found.shape),
+            [amount] if amount != 0.0 && way.iter().any(|x| *x != 0.0) => {
+                Member::free(over(way, amount)).shaped(&found.shape)
+            }
             [a, b] if size > 0.0 && found.effect == runout::EFFECT.name => {
                 let (first, second) = found.shape[1..].split_at(self.all.places().len());
                 let turned = |a: f64, b: f64| -> Vec<f64> {
@@ -198,9 +206,6 @@ fn combined(case: &Case, turned: &[f64], blamed: &[Blamed], but: &str) -> Case {
         }
         sensor.resonant = sensor.resonant.or(sensor_resonance::resonant(cause));
     }
-    // the speeds of the records are in the scenes already
-    let places = case.places();
-    (0..places.cuts).for_each(|c| by[places.speed(c)] = 0.0);
     case.moved(&by, sensor, beside(case, blamed, but))
 }
 

@@ -51,6 +51,8 @@ pub struct Case {
     sensor: Sensor,
     /// What causes that are known add to the readings, N; none: nothing.
     explained: Vec<f64>,
+    /// Relative errors of the stated speeds that causes account for, by cut.
+    speeds: Vec<f64>,
     slopes: Vec<Slopes>,
     aim: OnceLock<Aim>,
 }
@@ -84,6 +86,7 @@ impl Case {
 
     fn at(data: Arc<Data>, offset: Vec<f64>, sensor: Sensor, explained: Vec<f64>) -> Self {
         let mut case = Self {
+            speeds: vec![0.0; data.cuts.len()],
             data,
             offset,
             sensor,
@@ -96,11 +99,27 @@ impl Case {
     }
 
     /// The same file where the process differs by `by` more, the sensor is this one, and `explained` is known
-    /// beside it.
+    /// beside it. The speeds of the records are in the scenes already.
     pub(super) fn moved(&self, by: &[f64], sensor: Sensor, explained: Vec<f64>) -> Self {
-        let each = self.offset.iter().zip(by);
-        let offset = each.map(|(o, b)| o + b).collect();
-        Self::at(self.data.clone(), offset, sensor, explained)
+        let places = self.places();
+        let speeds: Vec<usize> = (0..places.cuts).map(|c| places.speed(c)).collect();
+        let each = self.offset.iter().zip(by).enumerate();
+        let offset = each
+            .map(|(at, (o, b))| if speeds.contains(&at) { *o } else { o + b })
+            .collect();
+        Self {
+            speeds: speeds.iter().map(|at| by[*at]).collect(),
+            ..Self::at(self.data.clone(), offset, sensor, explained)
+        }
+    }
+
+    /// What the speeds that causes account for add to the readings, N.
+    pub(super) fn of_speeds(&self) -> Vec<f64> {
+        self.along(
+            &self
+                .places()
+                .of_every_cut(Places::speed, |c| self.speeds[c]),
+        )
     }
 
     /// What the sensor makes of a force.
@@ -255,10 +274,8 @@ impl Case {
 
     /// Measured less simulated and less what is known, with the speeds of the records as what is stated.
     pub(super) fn reading(&self) -> Vec<f64> {
-        let places = self.places();
-        let mut speeds = vec![0.0; places.len()];
-        (0..places.cuts).for_each(|c| speeds[places.speed(c)] = self.cuts()[c].present.speed);
-        let back = self.along(&speeds);
+        let error = |c: usize| self.cuts()[c].present.speed - self.speeds[c];
+        let back = self.along(&self.places().of_every_cut(Places::speed, error));
         let left = self.column(|c, i, k| self.cuts()[c].measured[i][k] - self.simulated(c, i)[k]);
         let mut reading: Vec<f64> = left.iter().zip(back).map(|(l, b)| l + b).collect();
         let each = reading.iter_mut().zip(&self.explained);

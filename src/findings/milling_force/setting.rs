@@ -76,6 +76,17 @@ impl Places {
         unit
     }
 
+    /// The vector that is this at one place of every cut.
+    pub fn of_every_cut(
+        &self,
+        place: fn(&Self, usize) -> usize,
+        of: impl Fn(usize) -> f64,
+    ) -> Vec<f64> {
+        let mut to = vec![0.0; self.len()];
+        (0..self.cuts).for_each(|c| to[place(self, c)] = of(c));
+        to
+    }
+
     /// Places that act on a cut.
     pub fn of_cut(&self, cut: usize) -> impl Iterator<Item = usize> {
         (0..self.common()).chain(self.width(cut)..self.width(cut) + OF_CUT)
