@@ -190,6 +190,19 @@ fn what_changes_with_time_is_named() {
     is_named(&bench.found(chatter), "chatter");
 }
 
+/// A drift over the root of time is no drift towards an end with an offset beside it, and is told by how far it has come.
+#[test]
+fn a_drift_of_another_shape_is_one_drift() {
+    let bench = Bench::new(3);
+    let rows = bench.rows();
+    let [start, end] = [rows[0][1], rows[rows.len() - 1][1]];
+    let found = bench.found(|r| r[2] += 40.0 * ((r[1] - start) / (end - start)).sqrt());
+    let named: Vec<&str> = found.answer.causes.iter().map(|c| c.effect).collect();
+    assert_eq!(named, ["thermal_drift"]);
+    let drift = found.answer.causes[0].parameters[0].1;
+    assert!((drift / 40.0 - 1.0).abs() < 0.1, "{drift}");
+}
+
 #[test]
 fn teeth_that_do_not_run_alike_are_named() {
     let mut bench = Bench::new(4);

@@ -20,8 +20,8 @@ const ROUNDS: usize = 2;
 struct Anew {
     /// All in place.
     all: Case,
-    /// All in place but chatter, which a hum would be taken for: patterns are looked for beside it.
-    still: Case,
+    /// All in place but chatter, which a hum would be taken for: patterns are looked for beside it. None: there is none.
+    still: Option<Case>,
     /// Effects that were found, with the case that lacks only them.
     without: Vec<(&'static str, Case)>,
     /// Causes that are in place.
@@ -44,7 +44,10 @@ pub(super) fn about(case: &Case, blamed: &[Blamed]) -> Statement {
     }
     let mut suspects: Vec<Suspect> = EFFECTS.iter().flat_map(|e| anew.suspects(e)).collect();
     suspects = table::rough(suspects, &ROUGH);
-    suspects.extend(table::patterns(PATTERNS, &anew.still));
+    suspects.extend(table::patterns(
+        PATTERNS,
+        anew.still.as_ref().unwrap_or(&anew.all),
+    ));
     Statement {
         suspects,
         ..statement
@@ -99,7 +102,10 @@ impl Anew {
             .map(|name| (name, combined(case, &turned, blamed, name)))
             .collect();
         Self {
-            still: combined(case, &turned, blamed, chatter::EFFECT.name),
+            still: blamed
+                .iter()
+                .any(|b| b.effect == chatter::EFFECT.name)
+                .then(|| combined(case, &turned, blamed, chatter::EFFECT.name)),
             beside: beside(case, blamed, ""),
             found: blamed.iter().filter(|b| is_in_place(b)).cloned().collect(),
             all,

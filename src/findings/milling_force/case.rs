@@ -115,11 +115,8 @@ impl Case {
 
     /// What the speeds that causes account for add to the readings, N.
     pub(super) fn of_speeds(&self) -> Vec<f64> {
-        self.along(
-            &self
-                .places()
-                .of_every_cut(Places::speed, |c| self.speeds[c]),
-        )
+        let places = self.places();
+        self.along(&places.of_every_cut(Places::speed, |c| self.speeds[c]))
     }
 
     /// What the sensor makes of a force.

@@ -12,7 +12,9 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     mechanism: "drift",
     places: |case| vec![Place::new("sensor", members(case))],
     parameters: |_, blamed| {
-        let square: f64 = blamed.amounts.iter().map(|a| a * a).sum();
+        // every column has come to one at the end; those of one axis follow one another
+        let each = blamed.amounts.chunks(blamed.shape[2] as usize);
+        let square: f64 = each.map(|own| own.iter().sum::<f64>().powi(2)).sum();
         vec![("drift", square.sqrt(), "N")]
     },
     would_tell: "let the sensor warm up, and repeat the first cut at the end",
