@@ -46,8 +46,8 @@ fn force_sensors_by_strangers_are_judged_rightly() {
 /// seeds 401 to 405, which set the errors: pair 16 / 24 of 30. Seeds 417 to 420, at which nobody had looked, after: 13 of 14,
 /// 37 of 39, 12 of 19, 6 of 8, 4 of 72. Seeds 433 to 436, 160 cases, before hums, speeds, offsets and drifts were mended on them, and
 /// after: clean 33 / 34 of 35, single 71 / 71 of 74, pair 24 / 25 of 32, outside 14 / 18 of 18, untrue names in 12 / 5 of 160.
-/// Seeds 451 to 453, 150 cases, likewise: 39 / 39 of 40, 55 / 56 of 63, 19 / 19 of 28, 12 / 16 of 18, 15 / 10 of 150 (one drift of theirs
-/// was mended since). Seeds 461 to 464, at which nobody had looked, after: 33 of 35, 70 of 76, 25 of 29, 19 of 20, 9 of 160.
+/// Seeds 451 to 453, 150 cases, on which one drift was mended: 39 / 39 of 40, 55 / 57 of 63, 19 / 19 of 28, 12 / 16 of 18,
+/// 15 / 9 of 150. Seeds 461 to 464, at which nobody had looked, after: 33 of 35, 70 of 76, 25 of 29, 19 of 20, 9 of 160.
 /// Noise of half a milliradian in the angle of the teeth was tried on the last two: 8 of 160 and 11 of 150, so it was left out.
 #[test]
 fn cutting_forces_by_strangers_are_judged_rightly() {
@@ -76,7 +76,8 @@ fn a_hum_is_no_chatter() {
     }
 }
 
-/// A speed that is accounted for turns no tooth: the angles were sought again as if it were not, and a depth was named.
+/// A speed that is accounted for turns no tooth: the angles were sought again as if it were not, and a depth was named in the
+/// one, a drift in the other.
 #[test]
 fn an_offset_beside_a_wrong_speed_is_found() {
     for seed in [43_300_012, 43_400_012] {
