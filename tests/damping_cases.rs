@@ -19,11 +19,18 @@ fn example(name: &str) -> PathBuf {
     folder.join(name)
 }
 
-/// Exit status, document (null without one) and what was said.
+/// Exit status, document (null without one) and what was said, with three starts: `frf_starts` asks
+/// whether more find another place.
 fn damping(folder: &Path, arguments: &[&str]) -> (i32, Value, String) {
     let output = Command::new(env!("CARGO_BIN_EXE_ident"))
         .current_dir(folder)
-        .args([&["damping", "--json", "--dry-run", "--frf"], arguments].concat())
+        .args(
+            [
+                &["damping", "--json", "--dry-run", "--starts", "3", "--frf"],
+                arguments,
+            ]
+            .concat(),
+        )
         .output()
         .unwrap();
     let said = String::from_utf8_lossy(&output.stderr).to_string();

@@ -35,7 +35,7 @@ fn ident(folder: &Path, arguments: &[&str]) -> Vec<u8> {
 }
 
 fn damping(folder: &Path, more: &[&str]) -> Value {
-    let arguments = [&["damping", "--json", "--frf"], more].concat();
+    let arguments = [&["damping", "--json", "--starts", "3", "--frf"], more].concat();
     serde_json::from_slice(&ident(folder, &arguments)).unwrap()
 }
 

@@ -207,15 +207,8 @@ fn thinned_and_cut_the_real_run_says_the_same() {
     let Some((facts, header, rows)) = real_run() else {
         return;
     };
-    let thinned = [2, 3, 5].map(|k| rows.iter().step_by(k).cloned().collect::<Vec<_>>());
-    let cut = [
-        (0, 1250),
-        (1250, 2501),
-        (300, 2200),
-        (500, 2000),
-        (0, 2000),
-        (500, 2501),
-    ];
+    let thinned = [3, 5].map(|k| rows.iter().step_by(k).cloned().collect::<Vec<_>>());
+    let cut = [(0, 1250), (1250, 2501), (500, 2000)];
     let cut = cut.map(|(a, b)| rows[a..b].to_vec());
     for part in thinned.iter().chain(&cut) {
         let found = diagnosed(&facts, "", &header, part);

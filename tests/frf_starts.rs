@@ -49,11 +49,9 @@ fn most_starts_reach_the_same_place() {
         (true, true, 0.75),
     ];
     for (stiffness, only_z, least) in cases {
-        let seeds = [77, 78];
-        let shares = seeds.map(|seed| tuned(seed, stiffness, only_z).tuned.agreeing_starts);
-        let share = shares.iter().sum::<f64>() / 2.0;
+        let share = tuned(77, stiffness, only_z).tuned.agreeing_starts;
         println!("stiffness {stiffness}, z alone {only_z}: {share:.2} of the starts agree");
-        assert!(share >= least, "{shares:?}");
+        assert!(share >= least, "{share}");
     }
 }
 

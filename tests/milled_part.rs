@@ -223,7 +223,7 @@ fn single_causes_are_named_and_sound_parts_are_left_alone() {
         .and_then(|s| s.parse().ok())
         .unwrap_or(1);
     let folder = tempfile::tempdir().unwrap();
-    let (planned, setup) = ready(&job(folder.path(), OUTLINE, 1500.0, ""));
+    let (planned, setup) = ready(&job(folder.path(), OUTLINE, 3000.0, ""));
     let z = Random::new(seed).normal().clamp(-1.0, 1.0);
     let mut right = 0;
     let mut wrong = 0;

@@ -302,6 +302,12 @@ fn judged(ran: &Ran, clean: &Value, right: fn(&Value, &Value) -> bool) -> &'stat
     }
 }
 
+/// Every corruption before every second verb, turn by turn; before all of them with `IDENT_THOROUGH`.
+fn asked(corruption: usize, verb: usize, verbs: usize) -> bool {
+    verbs == 1 || (corruption + verb) % 2 == 0 || std::env::var_os("IDENT_THOROUGH").is_some()
+}
+
+/// Puts every corruption before the verbs; how many answers are wrong without a word.
 pub fn table(name: &str, file: &File, corruptions: &[Corruption], verbs: &[Verb]) -> usize {
     let clean: Vec<Value> = verbs
         .iter()
@@ -309,15 +315,16 @@ pub fn table(name: &str, file: &File, corruptions: &[Corruption], verbs: &[Verb]
         .collect();
     let rows: Vec<(&str, Vec<&str>)> = corruptions
         .par_iter()
-        .map(|(what, spoil)| {
+        .enumerate()
+        .map(|(i, (what, spoil))| {
             let spoiled = spoil(file.clone());
-            let cells = verbs.iter().zip(&clean);
-            (
-                *what,
-                cells
-                    .map(|(verb, clean)| judged(&run(verb.0, &spoiled), clean, verb.1))
-                    .collect(),
-            )
+            let cells = verbs.iter().zip(&clean).enumerate();
+            let told = |(j, (verb, clean)): (usize, (&Verb, &Value))| match asked(i, j, verbs.len())
+            {
+                true => judged(&run(verb.0, &spoiled), clean, verb.1),
+                false => "-",
+            };
+            (*what, cells.map(told).collect())
         })
         .collect();
     let heads: Vec<&str> = verbs.iter().map(|v| v.0[0]).collect();

@@ -18,7 +18,7 @@ const PERIOD: usize = 200;
 /// How many records; more by `IDENT_UNRELATED`.
 fn count() -> u64 {
     let asked = std::env::var("IDENT_UNRELATED").ok();
-    asked.and_then(|n| n.parse().ok()).unwrap_or(60)
+    asked.and_then(|n| n.parse().ok()).unwrap_or(40)
 }
 
 fn displacement(kind: usize, random: &mut Random) -> Vec<f64> {

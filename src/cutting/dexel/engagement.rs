@@ -4,6 +4,7 @@
 //! there is known exactly, as the places it stood at, and costs no accuracy by the rays' spacing. On
 //! every cell of ring and angle the depth at its corners says which share of it is in.
 
+use super::arc::{Arc, taken};
 use super::rings::Ring;
 use super::solid::Solid;
 use super::stock::Stock;
@@ -58,10 +59,9 @@ pub struct Engagement {
     /// Rings below this one may be in material.
     used: usize,
     nodes: Vec<f64>,
+    /// What the latest places take of the circle that is looked along.
+    arcs: Vec<Arc>,
 }
-
-/// What the tool has cut on its latest way is seen where it is deeper than this, m.
-const TOUCH: f64 = 1e-9;
 
 impl Engagement {
     /// Nothing in material yet: `angles` cells around each ring.
@@ -79,6 +79,7 @@ impl Engagement {
             directions: (0..angles).map(direction).collect(),
             rings,
             used: 0,
+            arcs: Vec::new(),
         }
     }
 
@@ -146,14 +147,20 @@ impl Engagement {
         let [radius, height] = ring.circles[usize::from(line > 0)];
         let centre = add(tip, scale(height, self.frame.z));
         let next = self.rings.get(line).unwrap_or(ring);
+        self.arcs.clear();
+        let arcs = latest
+            .iter()
+            .map(|s| Arc::of(s, &self.frame, centre, radius));
+        self.arcs.extend(arcs);
         for k in 0..self.angles {
-            let out = self.frame.outward(self.directions[k]);
+            let direction = self.directions[k];
+            let out = self.frame.outward(direction);
             let moving = faces(ring, out, self.frame.z, way) || faces(next, out, self.frame.z, way);
             self.nodes[line * self.angles + k] = match moving {
                 false => -1.0,
                 true => {
                     let point = add(centre, scale(radius, out));
-                    match latest.iter().any(|s| s.holds(point, TOUCH)) {
+                    match taken(&self.arcs, latest, direction, point) {
                         true => -1.0,
                         false => stock.depth(point),
                     }

@@ -2,6 +2,7 @@
 //! of itself that lie in material, so memory grows with the surface, and no face is blind to all three
 //! (source 004, 11.2.2; Benouamer and Michelucci 1997).
 
+mod arc;
 mod depth;
 pub mod engagement;
 mod grid;

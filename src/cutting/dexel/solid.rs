@@ -48,18 +48,22 @@ impl Solid {
         let from = sub(point, self.tip);
         let z = dot(from, self.axis);
         let across = (dot(from, from) - z * z).max(0.0);
-        let inside = |r: f64| r > 0.0 && across < r * r;
+        self.reach(z, depth).is_some_and(|r| across < r * r)
+    }
+
+    /// Radius of what lies deeper than `depth` inside at height `z` above the tip, m; `None` where
+    /// nothing does.
+    pub(super) fn reach(&self, z: f64, depth: f64) -> Option<f64> {
         if z < depth || z > self.length {
-            return false;
+            return None;
         }
-        match z < self.corner {
-            false => inside(self.radius - depth),
-            true => {
-                let (rise, r) = (self.corner - z, self.corner - depth);
-                let reach = (r * r - rise * rise).max(0.0).sqrt();
-                r > rise && inside(self.radius - self.corner + reach)
-            }
-        }
+        let (rise, r) = (self.corner - z, self.corner - depth);
+        let reach = match z < self.corner {
+            false => self.radius - depth,
+            true if r > rise => self.radius - self.corner + (r * r - rise * rise).max(0.0).sqrt(),
+            true => return None,
+        };
+        (reach > 0.0).then_some(reach)
     }
 
     /// Radius at height z above the tip.

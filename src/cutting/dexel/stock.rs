@@ -1,6 +1,6 @@
 //! The stock of a job: a box or a closed surface, and what is left of it.
 
-use super::depth::{depth, view};
+use super::depth::depth;
 use super::grid::Grid;
 use super::mesh;
 use super::solid::Solid;
@@ -110,10 +110,7 @@ impl Stock {
         if (0..3).any(far) {
             return -self.cap;
         }
-        depth(
-            &[0, 1, 2].map(|k| view(&self.grids[k], point, self.cap)),
-            self.cap,
-        )
+        depth(&self.grids, point, self.cap)
     }
 
     /// Points of the surface across one axis: where the rays along it end first from above, with
