@@ -14,8 +14,8 @@ use std::path::{Path, PathBuf};
 
 /// Half of a 99.7 % interval in standard errors.
 const Z997: f64 = 2.967_737_925_342_127;
-/// Repetitions of each of the twelve tests: 96 in all, or as `IDENT_COVERAGE_SEEDS` says.
-const SEEDS: u64 = 8;
+/// Repetitions of each of the twelve tests: 144 in all, or as `IDENT_COVERAGE_SEEDS` says.
+const SEEDS: u64 = 12;
 
 fn seeds() -> u64 {
     let chosen = std::env::var("IDENT_COVERAGE_SEEDS").ok();

@@ -1,8 +1,9 @@
 //! Block bootstrap over cycles: intervals that assume nothing about the noise.
 
-use super::least_squares::{Problem, Search, minimise};
+use super::least_squares::{Problem, minimise};
 use super::observation::Observation;
 use super::solution::Solution;
+use crate::ground::descent::Stop;
 use crate::ground::random::Random;
 
 /// 95 % intervals of every parameter from `draws` resamplings of the residual, cycle by cycle.
@@ -50,7 +51,7 @@ fn refit(solution: &Solution, data: &Observation, random: &mut Random) -> Vec<f6
         colour: &solution.colour,
         ignored: &ignored,
     };
-    minimise(&problem, &solution.p, Search::default()).p
+    minimise(&problem, &solution.p, Stop::default()).p
 }
 
 /// Residual blocks of one cycle's length, drawn with replacement and a random sign.

@@ -4,7 +4,8 @@
 
 use super::frf_identifiability::Place;
 use super::frf_linear::Frozen;
-use super::frf_search::{Stop, descend_by};
+use super::frf_search::{SHARE, descend_by};
+use crate::ground::descent::Stop;
 use nalgebra::DMatrix;
 
 /// Relative half width from which on the curvature is not trusted alone.
@@ -92,6 +93,7 @@ impl Profile<'_> {
         let stop = Stop {
             steps: STEPS,
             gain: GAIN,
+            share: SHARE,
         };
         let near = |theta: &[f64]| self.frozen.linearise(&held, theta);
         let (reached, cost) = descend_by(&held, guess, stop, near)?;

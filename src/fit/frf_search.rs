@@ -1,26 +1,20 @@
-//! Levenberg-Marquardt descents on a tuning task, with parameters that stop at their bounds.
+//! Descents on a tuning task, with parameters that stop at their bounds.
 
 use super::frf_linear::{Linearised, linearise};
 use super::frf_tuning::{Parameter, Tuning};
-use nalgebra::{DMatrix, DVector};
+use crate::ground::descent::{self, Landscape, Linear, Stop, pushed};
+use nalgebra::DVector;
 
 /// Where a descent ended: logarithms and cost.
 pub(super) type Run = (Vec<f64>, f64);
 
 /// Gain as a share of the cost from which on a search goes on: a model that misses by far is not tuned to the
 /// last digit, and its intervals are wider by as much.
-const SHARE: f64 = 1e-6;
+pub(super) const SHARE: f64 = 1e-6;
+/// Largest step of a logarithm.
+const LARGEST: f64 = 1.5;
 
-/// When a search ends: after so many steps, or once one gains less than this.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Stop {
-    /// Steps at most.
-    pub(super) steps: usize,
-    /// Least gain in cost.
-    pub(super) gain: f64,
-}
-
-/// Levenberg-Marquardt, steps cut at the bounds.
+/// From `theta`.
 pub(super) fn descend(task: &Tuning, theta: Vec<f64>, stop: Stop) -> Option<Run> {
     descend_by(task, theta, stop, |theta| linearise(task, theta))
 }
@@ -28,54 +22,51 @@ pub(super) fn descend(task: &Tuning, theta: Vec<f64>, stop: Stop) -> Option<Run>
 /// The same with the normal equations of `linearised`.
 pub(super) fn descend_by(
     task: &Tuning,
-    mut theta: Vec<f64>,
+    theta: Vec<f64>,
     stop: Stop,
     linearised: impl Fn(&[f64]) -> Option<Linearised>,
 ) -> Option<Run> {
-    let mut at = linearised(&theta)?;
-    let mut brake = 1e-3;
-    for _ in 0..stop.steps {
-        let before = at.cost;
-        while brake < 1e10 {
-            let trial = stepped(task, &theta, &at, brake);
-            let found = trial.and_then(|trial| Some((linearised(&trial)?, trial)));
-            if let Some((lower, trial)) = found.filter(|(found, _)| found.cost < at.cost) {
-                (at, theta) = (lower, trial);
-                brake = (0.1 * brake).max(1e-10);
-                break;
-            }
-            brake *= 10.0;
-        }
-        if before - at.cost <= stop.gain.max(SHARE * before) {
-            break;
-        }
-    }
-    Some((theta, at.cost))
+    let bounds = task.parameters.iter().map(Parameter::ends).collect();
+    let along = Along { bounds, linearised };
+    let at = linearised_at(&along, theta)?;
+    let (theta, lowest) = descent::descend(&along, at, stop);
+    Some((theta, lowest.cost))
 }
 
-/// A damped step; parameters that push against a bound stay there.
-fn stepped(task: &Tuning, theta: &[f64], at: &Linearised, brake: f64) -> Option<Vec<f64>> {
-    let bounds: Vec<[f64; 2]> = task.parameters.iter().map(Parameter::ends).collect();
-    let bound = |i: usize, side: usize| bounds[i][side];
-    let held = |i: &usize| {
-        (at.slope[*i] < 0.0 && theta[*i] <= bound(*i, 0))
-            || (at.slope[*i] > 0.0 && theta[*i] >= bound(*i, 1))
-    };
-    let free: Vec<usize> = (0..theta.len()).filter(|i| !held(i)).collect();
-    let largest = at.normal.diagonal().max().max(1e-300);
-    let damped = DMatrix::from_fn(free.len(), free.len(), |i, j| {
-        let entry = at.normal[(free[i], free[j])];
-        if i == j {
-            entry * (1.0 + brake) + 1e-12 * largest
-        } else {
-            entry
-        }
-    });
-    let slope = DVector::from_iterator(free.len(), free.iter().map(|i| at.slope[*i]));
-    let step = damped.cholesky()?.solve(&slope);
-    let mut next = theta.to_vec();
-    for (i, change) in free.iter().zip(step.iter()) {
-        next[*i] = (theta[*i] + change.clamp(-1.5, 1.5)).clamp(bound(*i, 0), bound(*i, 1));
+struct Along<F> {
+    bounds: Vec<[f64; 2]>,
+    linearised: F,
+}
+
+fn linearised_at<F: Fn(&[f64]) -> Option<Linearised>>(
+    along: &Along<F>,
+    theta: Vec<f64>,
+) -> Option<(Vec<f64>, Linearised)> {
+    let found = (along.linearised)(&theta)?;
+    Some((theta, found))
+}
+
+impl<F: Fn(&[f64]) -> Option<Linearised>> Landscape for Along<F> {
+    type Place = (Vec<f64>, Linearised);
+
+    fn height(&self, place: &Self::Place) -> f64 {
+        place.1.cost
     }
-    Some(next)
+
+    fn linear(&self, place: &mut Self::Place) -> Option<Linear> {
+        Some(Linear {
+            normal: place.1.normal.clone(),
+            slope: place.1.slope.clone(),
+        })
+    }
+
+    fn step(&self, (theta, _): &Self::Place, step: &DVector<f64>) -> Option<Self::Place> {
+        let parts = theta.iter().zip(step.iter()).zip(&self.bounds);
+        let moved = parts.map(|((x, d), b)| (x + d.clamp(-LARGEST, LARGEST)).clamp(b[0], b[1]));
+        linearised_at(self, moved.collect())
+    }
+
+    fn held(&self, (theta, _): &Self::Place, i: usize, slope: f64) -> bool {
+        pushed(theta[i], self.bounds[i], slope)
+    }
 }

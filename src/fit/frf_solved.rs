@@ -6,9 +6,10 @@ use super::frf_identifiability::{Place, inverse, uncertainty};
 use super::frf_linear::{Linearised, linearise};
 use super::frf_nuisance::{Pull, pulls};
 use super::frf_rivals::rivals;
-use super::frf_search::{Run, Stop, descend};
+use super::frf_search::{Run, SHARE, descend};
 use super::frf_starts::{starts, thinned};
 use super::frf_tuning::{Tuned, Tuning, check, freedom, matches, pairs, singular};
+use crate::ground::descent::Stop;
 use crate::ground::problem::Outcome;
 use rayon::prelude::*;
 
@@ -21,6 +22,7 @@ const RIVAL: f64 = 16.0;
 const SEARCH: Stop = Stop {
     steps: 200,
     gain: 1e-4,
+    share: SHARE,
 };
 /// Lines per pair on which is searched first.
 const LINES: usize = 64;
@@ -28,6 +30,7 @@ const LINES: usize = 64;
 const FIRST: Stop = Stop {
     steps: 200,
     gain: 1e-2,
+    share: SHARE,
 };
 /// At most so many places of that search are followed on all lines: those that are further apart in some
 /// logarithm than this.

@@ -4,7 +4,7 @@
 //! history. The ports are swapped: the observation's "load" is the displacement, its reading the
 //! force, and the law a clearance in series with a stuck spring and a dry slider.
 
-use super::least_squares::{Problem, Search, minimise};
+use super::least_squares::{Problem, minimise};
 use super::observation::{MOST_ROWS, Observation, reduce};
 use super::parameter::{Identified, Status};
 use super::solution::{Solution, conclude_with, noise_of};
@@ -12,6 +12,7 @@ use super::starts::starts;
 use super::suitability::relation::{Relation, halved, ramps, slope};
 use crate::effects::{CLEARANCE_SLIDER, Composite, Effect, named};
 use crate::experiments::load_cycle::enclosed;
+use crate::ground::descent::Stop;
 use crate::measurement::cycles::Cycles;
 use crate::measurement::load_cycle::LoadCycle;
 use crate::signal::colour::Colour;
@@ -116,10 +117,10 @@ pub fn solve(effects: &[&'static dyn Effect], data: &Observation) -> Solution {
     };
     let fits = starts(&model, data, STARTS)
         .into_iter()
-        .map(|s| minimise(&problem, &s, Search::default()));
+        .map(|s| minimise(&problem, &s, Stop::default()));
     let best = fits.min_by(|a, b| a.chi2.total_cmp(&b.chi2));
     let start = best.map_or_else(|| model.start(&data.scene), |b| b.p);
-    let optimum = minimise(&problem, &start, Search::default());
+    let optimum = minimise(&problem, &start, Stop::default());
     let colour = noise_of(&problem, &optimum);
     conclude_with(&problem, optimum, colour)
 }

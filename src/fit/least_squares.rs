@@ -1,10 +1,10 @@
-//! Bounded weighted nonlinear least squares of a composite of effects.
-//!
-//! Levenberg–Marquardt (Moré 1978) on whitened residuals in the cosine domain, parameters scaled by
-//! their natural scale, bounds by projection with an active set. Derivatives by dual numbers.
+//! Bounded weighted nonlinear least squares of a composite of effects: whitened residuals in the cosine
+//! domain, parameters scaled by their natural scale, derivatives by dual numbers.
 
 use super::observation::Observation;
 use crate::effects::Composite;
+use crate::ground::descent::{Landscape, Linear, Stop, descend};
+use crate::ground::products::gram;
 use crate::signal::colour::Colour;
 use nalgebra::{DMatrix, DVector};
 
@@ -23,26 +23,6 @@ pub struct Optimum {
     pub residual: DVector<f64>,
     /// Scales of the parameters.
     pub scale: Vec<f64>,
-    /// Iterations used.
-    pub iterations: usize,
-}
-
-/// Settings of the search.
-#[derive(Debug, Clone, Copy)]
-pub struct Search {
-    /// Most iterations.
-    pub iterations: usize,
-    /// Relative fall of the sum of squares that counts as arrived.
-    pub tolerance: f64,
-}
-
-impl Default for Search {
-    fn default() -> Self {
-        Self {
-            iterations: 60,
-            tolerance: 1e-9,
-        }
-    }
 }
 
 /// The whitened problem: model, data and noise.
@@ -104,96 +84,84 @@ impl Problem<'_> {
 }
 
 /// Minimises from `start`. Always returns the best point seen.
-pub fn minimise(problem: &Problem, start: &[f64], search: Search) -> Optimum {
-    let scale = problem.scale();
-    let bounds = problem.model.bounds(&problem.data.scene);
-    let mut p = project(start, &bounds);
-    let (mut residual, mut jacobian) = problem.linearise(&p, &scale);
-    let mut chi2 = residual.norm_squared();
-    let mut damping = 1e-3;
-    let mut iterations = 0;
-    while iterations < search.iterations {
-        iterations += 1;
-        let gradient = jacobian.transpose() * &residual;
-        let free = free_parameters(&p, &bounds, &gradient);
-        let Some(step) = damped_step(&jacobian, &gradient, &free, damping) else {
-            break;
-        };
-        let moved: Vec<f64> = p
-            .iter()
-            .zip(step.iter())
-            .zip(&scale)
-            .map(|((v, d), s)| v + d * s)
-            .collect();
-        let trial = project(&moved, &bounds);
-        let after: f64 = problem.residual(&trial).iter().map(|r| r * r).sum();
-        if after < chi2 {
-            let fall = (chi2 - after) / chi2.max(f64::MIN_POSITIVE);
-            p = trial;
-            (residual, jacobian) = problem.linearise(&p, &scale);
-            chi2 = residual.norm_squared();
-            damping = (damping * 0.2).max(1e-12);
-            if fall < search.tolerance {
-                break;
-            }
-        } else {
-            damping *= 6.0;
-            if damping > 1e10 {
-                break;
-            }
-        }
-    }
-    let active = active_bounds(&p, &bounds);
+pub fn minimise(problem: &Problem, start: &[f64], stop: Stop) -> Optimum {
+    let within = Within {
+        problem,
+        scale: problem.scale(),
+        bounds: problem.model.bounds(&problem.data.scene),
+    };
+    let at = descend(&within, within.at(start), stop);
+    let (residual, jacobian) = match at.known {
+        Some(known) => known,
+        None => problem.linearise(&at.p, &within.scale),
+    };
     Optimum {
-        p,
-        chi2,
-        active,
+        active: (0..at.p.len()).map(|j| within.side(j, at.p[j])).collect(),
+        chi2: residual.norm_squared(),
+        p: at.p,
         jacobian,
         residual,
-        scale,
-        iterations,
+        scale: within.scale,
     }
 }
 
-fn project(p: &[f64], bounds: &[(f64, f64)]) -> Vec<f64> {
-    p.iter()
-        .zip(bounds)
-        .map(|(v, (low, high))| v.clamp(*low, *high))
-        .collect()
+/// A problem within its bounds, in scaled parameters.
+struct Within<'a> {
+    problem: &'a Problem<'a>,
+    scale: Vec<f64>,
+    bounds: Vec<(f64, f64)>,
 }
 
-fn active_bounds(p: &[f64], bounds: &[(f64, f64)]) -> Vec<i8> {
-    let side = |(v, (low, high)): (&f64, &(f64, f64))| {
+struct At {
+    p: Vec<f64>,
+    chi2: f64,
+    /// Residual and Jacobian, once asked for.
+    known: Option<(DVector<f64>, DMatrix<f64>)>,
+}
+
+impl Within<'_> {
+    fn at(&self, p: &[f64]) -> At {
+        let ends = p.iter().zip(&self.bounds);
+        let p: Vec<f64> = ends.map(|(v, (low, high))| v.clamp(*low, *high)).collect();
+        At {
+            chi2: self.problem.residual(&p).iter().map(|r| r * r).sum(),
+            p,
+            known: None,
+        }
+    }
+
+    /// On which bound a value of parameter j stands.
+    fn side(&self, j: usize, value: f64) -> i8 {
+        let (low, high) = self.bounds[j];
         let near = 1e-9 * (high - low).abs();
-        i8::from(*v >= high - near) - i8::from(*v <= low + near)
-    };
-    p.iter().zip(bounds).map(side).collect()
+        i8::from(value >= high - near) - i8::from(value <= low + near)
+    }
 }
 
-/// Parameters that may move: not on a bound with the descent pointing outwards.
-fn free_parameters(p: &[f64], bounds: &[(f64, f64)], gradient: &DVector<f64>) -> Vec<usize> {
-    let sides = active_bounds(p, bounds);
-    (0..p.len())
-        .filter(|j| f64::from(sides[*j]) * gradient[*j] <= 0.0)
-        .collect()
-}
+impl Landscape for Within<'_> {
+    type Place = At;
 
-fn damped_step(
-    jacobian: &DMatrix<f64>,
-    gradient: &DVector<f64>,
-    free: &[usize],
-    damping: f64,
-) -> Option<DVector<f64>> {
-    let columns = jacobian.select_columns(free);
-    let mut normal = columns.transpose() * &columns;
-    for j in 0..free.len() {
-        normal[(j, j)] += damping * normal[(j, j)].max(1e-12);
+    fn height(&self, place: &At) -> f64 {
+        place.chi2
     }
-    let right = DVector::from_iterator(free.len(), free.iter().map(|j| gradient[*j]));
-    let solved = normal.cholesky()?.solve(&right);
-    let mut step = DVector::zeros(jacobian.ncols());
-    for (k, j) in free.iter().enumerate() {
-        step[*j] = solved[k];
+
+    fn linear(&self, place: &mut At) -> Option<Linear> {
+        let (residual, jacobian) = self.problem.linearise(&place.p, &self.scale);
+        let linear = Linear {
+            normal: gram(&jacobian),
+            slope: jacobian.tr_mul(&residual),
+        };
+        place.known = Some((residual, jacobian));
+        Some(linear)
     }
-    Some(step)
+
+    fn step(&self, from: &At, step: &DVector<f64>) -> Option<At> {
+        let parts = from.p.iter().zip(step.iter()).zip(&self.scale);
+        let moved: Vec<f64> = parts.map(|((v, d), s)| v + d * s).collect();
+        Some(self.at(&moved))
+    }
+
+    fn held(&self, at: &At, j: usize, slope: f64) -> bool {
+        f64::from(self.side(j, at.p[j])) * slope > 0.0
+    }
 }

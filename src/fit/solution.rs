@@ -1,11 +1,12 @@
 //! A fitted model: parameters, covariance, noise, and what the data do not fix.
 
-use super::least_squares::{Optimum, Problem, Search, minimise};
+use super::least_squares::{Optimum, Problem, minimise};
 use super::observation::Observation;
 use super::parameter::{Identified, Status, Z95};
 use super::starts::starts;
 use crate::effects::composite::Slot;
 use crate::effects::{Composite, Scale};
+use crate::ground::descent::Stop;
 use crate::ground::products::gram;
 use crate::measurement::load_cycle::Port;
 use crate::signal::colour::Colour;
@@ -68,7 +69,7 @@ pub fn fit_from(
         };
         let best = starts
             .iter()
-            .map(|start| minimise(&problem, start, Search::default()))
+            .map(|start| minimise(&problem, start, Stop::default()))
             .filter(|optimum| optimum.chi2.is_finite())
             .min_by(|a, b| a.chi2.total_cmp(&b.chi2));
         let Some(best) = best else { break };
@@ -82,7 +83,7 @@ pub fn fit_from(
         colour: &colour,
         ignored,
     };
-    let last = minimise(&problem, &starts[0], Search::default());
+    let last = minimise(&problem, &starts[0], Stop::default());
     conclude(&problem, optimum.map_or(last.clone(), |_| last))
 }
 

@@ -3,6 +3,7 @@
 
 pub mod arctangent;
 pub mod cholesky;
+pub mod descent;
 pub mod dual;
 pub mod files;
 pub mod nearest;

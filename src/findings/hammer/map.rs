@@ -1,9 +1,10 @@
 //! The most probable amounts and nuisances of a set of causes, and how probable the set is then
-//! (Laplace): Levenberg and Marquardt's descent with a unit prior on everything.
+//! (Laplace), with a unit prior on everything.
 
 use super::data::Data;
 use super::nuisance::Nuisance;
 use super::prediction::{Machine, Point, stack};
+use crate::ground::descent::{Landscape, Linear, Stop, descend, pushed};
 use crate::ground::problem::{Outcome, Problem};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
@@ -40,10 +41,20 @@ pub struct Fit {
     pub nuisance: Nuisance,
 }
 
+/// A point with what it leaves, and its weighted slopes with their normal matrix once asked for.
 struct Here {
     point: Point,
     residual: DVector<f64>,
     cost: f64,
+    slopes: Option<(DMatrix<f64>, DMatrix<f64>)>,
+}
+
+/// The cost of amounts and nuisances, nats.
+struct Cost<'a> {
+    machine: &'a Machine<'a>,
+    nuisance: Nuisance,
+    data: &'a Data,
+    weights: Vec<f64>,
 }
 
 /// Descends from `start` by at most `steps` steps.
@@ -51,33 +62,21 @@ struct Here {
 /// # Errors
 /// A robot that cannot stand or a singular model.
 pub fn fit(machine: &Machine, data: &Data, start: Point, steps: usize) -> Outcome<Fit> {
-    let nuisance = machine.nuisance(&start)?;
+    let cost = Cost {
+        nuisance: machine.nuisance(&start)?,
+        machine,
+        data,
+        weights: weights(data),
+    };
     let mut point = start;
-    point.theta.resize(nuisance.len(), 0.0);
-    let weights = weights(data);
-    let mut here = look(machine, &nuisance, data, &weights, point)?;
-    let (mut slopes, mut normal) = slopes(machine, &nuisance, data, &weights, &here)?;
-    let mut brake = 1e-3;
-    for _ in 0..steps {
-        let before = here.cost;
-        while brake < 1e7 {
-            let next = step(&here, &slopes, &normal, brake)
-                .and_then(|next| look(machine, &nuisance, data, &weights, next).ok());
-            if let Some(next) = next.filter(|next| next.cost < here.cost) {
-                here = next;
-                brake = (0.1 * brake).max(1e-6);
-                break;
-            }
-            brake *= 10.0;
-        }
-        if before - here.cost > 0.0 {
-            (slopes, normal) = self::slopes(machine, &nuisance, data, &weights, &here)?;
-        }
-        if before - here.cost < ARRIVED {
-            break;
-        }
-    }
-    finish(here, slopes, normal, nuisance)
+    point.theta.resize(cost.nuisance.len(), 0.0);
+    let stop = Stop {
+        steps,
+        gain: ARRIVED,
+        share: 0.0,
+    };
+    let here = descend(&cost, cost.at(point)?, stop);
+    cost.finish(here)
 }
 
 /// Weights of all rows.
@@ -96,36 +95,101 @@ pub fn measured(data: &Data) -> Vec<f64> {
         .collect()
 }
 
-fn look(
-    machine: &Machine,
-    nuisance: &Nuisance,
-    data: &Data,
-    weights: &[f64],
-    point: Point,
-) -> Outcome<Here> {
-    let mut rows = Vec::with_capacity(data.rows());
-    stack(data, &machine.predict(nuisance, &point, data)?, &mut rows);
-    let residual = measured(data)
-        .iter()
-        .zip(&rows)
-        .zip(weights)
-        .map(|((m, p), w)| (m - p) * w)
-        .collect();
-    let residual = DVector::from_vec(residual);
-    let prior: f64 = point
-        .theta
-        .iter()
-        .chain(&point.amounts)
-        .map(|x| x * x)
-        .sum();
-    let cost = 0.5 * (residual.norm_squared() + prior);
-    match cost.is_finite() {
-        true => Ok(Here {
-            point,
-            residual,
-            cost,
-        }),
-        false => Err(singular()),
+impl Cost<'_> {
+    fn at(&self, point: Point) -> Outcome<Here> {
+        let mut rows = Vec::with_capacity(self.data.rows());
+        let predicted = self.machine.predict(&self.nuisance, &point, self.data)?;
+        stack(self.data, &predicted, &mut rows);
+        let residual = measured(self.data)
+            .iter()
+            .zip(&rows)
+            .zip(&self.weights)
+            .map(|((m, p), w)| (m - p) * w)
+            .collect();
+        let residual = DVector::from_vec(residual);
+        let prior: f64 = unknowns(&point).map(|x| x * x).sum();
+        let cost = 0.5 * (residual.norm_squared() + prior);
+        match cost.is_finite() {
+            true => Ok(Here {
+                point,
+                residual,
+                cost,
+                slopes: None,
+            }),
+            false => Err(singular()),
+        }
+    }
+
+    fn slopes(&self, here: &Here) -> Outcome<(DMatrix<f64>, DMatrix<f64>)> {
+        let slopes = self.machine.slopes(&self.nuisance, &here.point, self.data);
+        let mut columns = slopes?.columns;
+        for mut column in columns.column_iter_mut() {
+            let rows = column.iter_mut().zip(&self.weights);
+            rows.for_each(|(x, w)| *x *= w);
+        }
+        let mut normal = columns.transpose() * &columns;
+        (0..normal.nrows()).for_each(|i| normal[(i, i)] += 1.0);
+        Ok((columns, normal))
+    }
+
+    fn finish(self, here: Here) -> Outcome<Fit> {
+        let (slopes, precision) = match here.slopes {
+            Some(slopes) => slopes,
+            None => self.slopes(&here)?,
+        };
+        let mut fit = Fit {
+            misfit: 0.5 * here.residual.norm_squared(),
+            point: here.point,
+            cost: here.cost,
+            evidence: 0.0,
+            precision,
+            residual: here.residual,
+            slopes,
+            nuisance: self.nuisance,
+        };
+        fit.evidence = fit.evidence_at(1.0).ok_or_else(singular)?;
+        Ok(fit)
+    }
+}
+
+/// Nuisances, then amounts.
+fn unknowns(point: &Point) -> impl Iterator<Item = f64> {
+    point.theta.iter().chain(&point.amounts).copied()
+}
+
+impl Landscape for Cost<'_> {
+    type Place = Here;
+
+    fn height(&self, place: &Here) -> f64 {
+        place.cost
+    }
+
+    fn linear(&self, place: &mut Here) -> Option<Linear> {
+        let (slopes, normal) = self.slopes(place).ok()?;
+        let own = DVector::from_iterator(normal.nrows(), unknowns(&place.point));
+        let linear = Linear {
+            slope: slopes.tr_mul(&place.residual) - own,
+            normal: normal.clone(),
+        };
+        place.slopes = Some((slopes, normal));
+        Some(linear)
+    }
+
+    fn step(&self, from: &Here, step: &DVector<f64>) -> Option<Here> {
+        let (mut point, bounds) = (from.point.clone(), from.point.bounds());
+        let (nuisances, amounts) = step.as_slice().split_at(point.theta.len());
+        for (x, change) in point.theta.iter_mut().zip(nuisances) {
+            *x += change.clamp(-LARGEST[1], LARGEST[1]);
+        }
+        for ((x, change), [low, high]) in point.amounts.iter_mut().zip(amounts).zip(bounds) {
+            *x = (*x + change.clamp(-LARGEST[0], LARGEST[0])).clamp(low, high);
+        }
+        self.at(point).ok()
+    }
+
+    fn held(&self, at: &Here, i: usize, slope: f64) -> bool {
+        let amount = i.checked_sub(at.point.theta.len());
+        amount.is_some_and(|k| pushed(at.point.amounts[k], at.point.bounds()[k], slope))
     }
 }
 
@@ -134,86 +198,6 @@ fn singular() -> Problem {
         "the model has no finite FRF",
         "check masses and stiffnesses of the robot file",
     )
-}
-
-fn slopes(
-    machine: &Machine,
-    nuisance: &Nuisance,
-    data: &Data,
-    weights: &[f64],
-    here: &Here,
-) -> Outcome<(DMatrix<f64>, DMatrix<f64>)> {
-    let mut columns = machine.slopes(nuisance, &here.point, data)?.columns;
-    for mut column in columns.column_iter_mut() {
-        column.iter_mut().zip(weights).for_each(|(x, w)| *x *= w);
-    }
-    let normal = columns.transpose() * &columns;
-    Ok((columns, normal))
-}
-
-/// A damped step; amounts that push against a bound stay there.
-fn step(here: &Here, slopes: &DMatrix<f64>, normal: &DMatrix<f64>, brake: f64) -> Option<Point> {
-    let (nuisances, bounds) = (here.point.theta.len(), here.point.bounds());
-    let x: Vec<f64> = here
-        .point
-        .theta
-        .iter()
-        .chain(&here.point.amounts)
-        .copied()
-        .collect();
-    let slope = slopes.tr_mul(&here.residual) - DVector::from_column_slice(&x);
-    let held = |i: &usize| {
-        let Some(k) = i.checked_sub(nuisances) else {
-            return false;
-        };
-        (slope[*i] < 0.0 && x[*i] <= bounds[k][0]) || (slope[*i] > 0.0 && x[*i] >= bounds[k][1])
-    };
-    let free: Vec<usize> = (0..x.len()).filter(|i| !held(i)).collect();
-    let damped = DMatrix::from_fn(free.len(), free.len(), |i, j| {
-        let entry = normal[(free[i], free[j])];
-        if i == j {
-            (entry + 1.0) * (1.0 + brake)
-        } else {
-            entry
-        }
-    });
-    let right = DVector::from_iterator(free.len(), free.iter().map(|i| slope[*i]));
-    let change = damped.cholesky()?.solve(&right);
-    let mut point = here.point.clone();
-    for (i, change) in free.iter().zip(change.iter()) {
-        match i.checked_sub(nuisances) {
-            None => point.theta[*i] += change.clamp(-LARGEST[1], LARGEST[1]),
-            Some(k) => {
-                let next = point.amounts[k] + change.clamp(-LARGEST[0], LARGEST[0]);
-                point.amounts[k] = next.clamp(bounds[k][0], bounds[k][1]);
-            }
-        }
-    }
-    Some(point)
-}
-
-fn finish(
-    here: Here,
-    slopes: DMatrix<f64>,
-    mut normal: DMatrix<f64>,
-    nuisance: Nuisance,
-) -> Outcome<Fit> {
-    for i in 0..normal.nrows() {
-        normal[(i, i)] += 1.0;
-    }
-    let misfit = 0.5 * here.residual.norm_squared();
-    let mut fit = Fit {
-        point: here.point,
-        misfit,
-        cost: here.cost,
-        evidence: 0.0,
-        precision: normal,
-        residual: here.residual,
-        slopes,
-        nuisance,
-    };
-    fit.evidence = fit.evidence_at(1.0).ok_or_else(singular)?;
-    Ok(fit)
 }
 
 impl Fit {
@@ -251,13 +235,7 @@ impl Fit {
         };
         let across = self.slopes.tr_mul(column);
         let own = column.norm_squared() - across.dot(&factor.solve(&across));
-        let x: Vec<f64> = self
-            .point
-            .theta
-            .iter()
-            .chain(&self.point.amounts)
-            .copied()
-            .collect();
+        let x: Vec<f64> = unknowns(&self.point).collect();
         let slope = self.slopes.tr_mul(&self.residual) - DVector::from_vec(x);
         let pull = column.dot(&self.residual) - across.dot(&factor.solve(&slope));
         let amount = (pull / own.max(1e-12)).clamp(-most, most);

@@ -2,8 +2,9 @@
 
 use crate::effects::{Composite, Scene};
 use crate::experiments::schedule::SCHEDULES;
-use crate::fit::least_squares::{Problem, Search, minimise};
+use crate::fit::least_squares::{Problem, minimise};
 use crate::fit::observation::{Observation, Part};
+use crate::ground::descent::Stop;
 use crate::measurement::cycles::Cycles;
 use crate::signal::colour::Colour;
 use crate::signal::cosine::Cosine;
@@ -86,13 +87,5 @@ fn separation(
         colour: &colour,
         ignored: &ignored,
     };
-    0.5 * minimise(
-        &problem,
-        rival.1,
-        Search {
-            iterations: 12,
-            tolerance: 1e-4,
-        },
-    )
-    .chi2
+    0.5 * minimise(&problem, rival.1, Stop::at_share(12, 1e-4)).chi2
 }

@@ -1,8 +1,9 @@
 //! Shapes set free before judging: grid error looks like a second cause.
 
 use crate::effects::Composite;
-use crate::fit::least_squares::{Optimum, Problem, Search, minimise};
+use crate::fit::least_squares::{Optimum, Problem, minimise};
 use crate::fit::observation::Observation;
+use crate::ground::descent::Stop;
 use crate::signal::colour::Colour;
 
 /// A set of effects with its parameters refined.
@@ -31,11 +32,7 @@ pub fn refine_from(
         colour,
         ignored: &ignored,
     };
-    let search = Search {
-        iterations,
-        tolerance: 1e-5,
-    };
-    let optimum = minimise(&problem, start, search);
+    let optimum = minimise(&problem, start, Stop::at_share(iterations, 1e-5));
     let mut causes: Vec<&'static str> = model.effects()[1..]
         .iter()
         .map(|e| e.card().cause)

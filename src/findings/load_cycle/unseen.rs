@@ -2,8 +2,9 @@
 
 use crate::effects::Composite;
 use crate::findings::gain::Gain;
-use crate::fit::least_squares::{Problem, Search, minimise};
+use crate::fit::least_squares::{Problem, minimise};
 use crate::fit::observation::Observation;
+use crate::ground::descent::Stop;
 use crate::signal::colour::Colour;
 
 /// Which rows are predicted from which.
@@ -55,14 +56,7 @@ pub fn held_out(
             colour,
             ignored: &fold,
         };
-        let fit = minimise(
-            &problem,
-            start,
-            Search {
-                iterations: 6,
-                tolerance: 1e-4,
-            },
-        );
+        let fit = minimise(&problem, start, Stop::at_share(6, 1e-4));
         let predicted = model.predict(&fit.p, &data.scene);
         for i in (0..error.len()).filter(|i| fold[*i]) {
             error[i] = data.reading[i] - predicted[i];

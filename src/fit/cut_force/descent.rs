@@ -1,8 +1,9 @@
-//! Levenberg-Marquardt (Moré 1978) over all cuts, whose normal equations are made side by side.
+//! The descent over all cuts, whose normal equations are made side by side.
 
 use super::CutData;
 use super::layout::Layout;
 use super::whitening::Whitening;
+use crate::ground::descent::{Landscape, Linear, Stop, descend};
 use crate::ground::products::gram;
 use crate::ground::spatial::V3;
 use nalgebra::{DMatrix, DVector};
@@ -29,9 +30,10 @@ pub struct Descent<'a> {
     pub whitening: &'a Whitening,
 }
 
-struct Linear {
-    normal: DMatrix<f64>,
-    gradient: DVector<f64>,
+/// Values, and what they leave.
+pub struct At {
+    p: Vec<f64>,
+    linear: Linear,
     chi2: f64,
     residuals: Vec<Vec<V3>>,
 }
@@ -61,53 +63,36 @@ const MOST_STEPS: usize = 40;
 impl Descent<'_> {
     /// Goes down from `start` until a step lowers the squares by less than this share of them.
     pub fn from(&self, start: &[f64], arrived: f64) -> Optimum {
-        let mut p = start.to_vec();
-        let mut at = self.linearise(&p);
-        let mut damping = 1e-3;
-        for _ in 0..MOST_STEPS {
-            let Some(step) = damped(&at.normal, &at.gradient, damping) else {
-                break;
-            };
-            let moved: Vec<f64> = (0..p.len())
-                .map(|j| p[j] + step[j] * self.layout.unknowns[j].scale)
-                .collect();
-            let trial = self.linearise(&moved);
-            if trial.chi2 < at.chi2 {
-                let fall = (at.chi2 - trial.chi2) / at.chi2.max(f64::MIN_POSITIVE);
-                (p, at) = (moved, trial);
-                damping = (damping * 0.1).max(1e-12);
-                if fall < arrived {
-                    break;
-                }
-            } else {
-                damping *= 8.0;
-                if damping > 1e8 {
-                    break;
-                }
-            }
-        }
+        let at = descend(
+            self,
+            self.at(start.to_vec()),
+            Stop::at_share(MOST_STEPS, arrived),
+        );
         Optimum {
-            p,
-            normal: at.normal,
+            p: at.p,
+            normal: at.linear.normal,
             residuals: at.residuals,
         }
     }
 
-    fn linearise(&self, p: &[f64]) -> Linear {
+    fn at(&self, p: Vec<f64>) -> At {
         let cuts: Vec<OneCut> = (0..self.cuts.len())
             .into_par_iter()
-            .map(|i| self.one(i, p))
+            .map(|i| self.one(i, &p))
             .collect();
         let n = self.layout.len();
-        let mut linear = Linear {
-            normal: DMatrix::zeros(n, n),
-            gradient: DVector::zeros(n),
+        let mut at = At {
+            p,
+            linear: Linear {
+                normal: DMatrix::zeros(n, n),
+                slope: DVector::zeros(n),
+            },
             chi2: 0.0,
             residuals: Vec::with_capacity(cuts.len()),
         };
-        cuts.into_iter().for_each(|cut| linear.add(cut));
-        self.add_priors(p, &mut linear);
-        linear
+        cuts.into_iter().for_each(|cut| at.add(cut));
+        self.add_priors(&mut at);
+        at
     }
 
     fn one(&self, i: usize, p: &[f64]) -> OneCut {
@@ -148,35 +133,44 @@ impl Descent<'_> {
         }
     }
 
-    fn add_priors(&self, p: &[f64], linear: &mut Linear) {
+    fn add_priors(&self, at: &mut At) {
         for (j, unknown) in self.layout.unknowns.iter().enumerate() {
             if let Some([mean, spread]) = unknown.prior {
-                let (left, weight) = ((mean - p[j]) / spread, unknown.scale / spread);
-                linear.chi2 += left * left;
-                linear.normal[(j, j)] += weight * weight;
-                linear.gradient[j] += weight * left;
+                let (left, weight) = ((mean - at.p[j]) / spread, unknown.scale / spread);
+                at.chi2 += left * left;
+                at.linear.normal[(j, j)] += weight * weight;
+                at.linear.slope[j] += weight * left;
             }
         }
     }
 }
 
-impl Linear {
+impl Landscape for Descent<'_> {
+    type Place = At;
+
+    fn height(&self, place: &At) -> f64 {
+        place.chi2
+    }
+
+    fn linear(&self, place: &mut At) -> Option<Linear> {
+        Some(place.linear.clone())
+    }
+
+    fn step(&self, from: &At, step: &DVector<f64>) -> Option<At> {
+        let parts = from.p.iter().zip(step.iter()).zip(&self.layout.unknowns);
+        Some(self.at(parts.map(|((v, d), u)| v + d * u.scale).collect()))
+    }
+}
+
+impl At {
     fn add(&mut self, cut: OneCut) {
         for (a, i) in cut.places.iter().enumerate() {
-            self.gradient[*i] += cut.gradient[a];
+            self.linear.slope[*i] += cut.gradient[a];
             for (b, j) in cut.places.iter().enumerate() {
-                self.normal[(*i, *j)] += cut.normal[(a, b)];
+                self.linear.normal[(*i, *j)] += cut.normal[(a, b)];
             }
         }
         self.chi2 += cut.chi2;
         self.residuals.push(cut.residual);
     }
-}
-
-fn damped(normal: &DMatrix<f64>, gradient: &DVector<f64>, damping: f64) -> Option<DVector<f64>> {
-    let mut damped = normal.clone();
-    for j in 0..damped.nrows() {
-        damped[(j, j)] += damping * normal[(j, j)] + 1e-9;
-    }
-    Some(damped.cholesky()?.solve(gradient))
 }

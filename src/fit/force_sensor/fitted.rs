@@ -3,6 +3,7 @@
 use super::poses::Pose;
 use super::statics::{ANGLES, N, PARAMETERS, reading, sizes, slopes};
 use crate::fit::parameter::{Identified, Status, Z95};
+use crate::ground::descent::{self, Landscape, Linear, Stop};
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
@@ -159,6 +160,11 @@ fn less(pose: &Pose, p: &[f64; N]) -> [f64; 6] {
     std::array::from_fn(|c| pose.load[c] - model[c])
 }
 
+/// Natural sizes of the parameters about `p`.
+fn size_at(p: &[f64; N]) -> [f64; N] {
+    sizes(p[0].abs().max(1e-6))
+}
+
 /// The normal equations about a point, everything in natural sizes.
 pub struct System {
     slopes: Vec<[[f64; N]; 6]>,
@@ -174,7 +180,7 @@ impl System {
             .iter()
             .map(|pose| slopes(p, pose.quaternion))
             .collect();
-        let size = sizes(p[0].abs().max(1e-6));
+        let size = size_at(p);
         let mut normal = DMatrix::zeros(N, N);
         for rows in &slopes {
             for (c, row) in rows.iter().enumerate() {
@@ -235,44 +241,73 @@ impl System {
     }
 }
 
-fn cost(poses: &[Pose], prior: &[f64; N], noise: [f64; 2], p: &[f64; N]) -> f64 {
-    let of = |pose: &Pose| {
-        (0..6)
-            .map(|c| (less(pose, p)[c] / noise[c / 3]).powi(2))
-            .sum::<f64>()
-    };
-    let data: f64 = poses.iter().map(of).sum();
-    data + (0..N).map(|j| (p[j] / prior[j]).powi(2)).sum::<f64>()
+/// What the poses and the prior say against parameters.
+struct Poses<'a> {
+    poses: &'a [Pose],
+    prior: &'a [f64; N],
+    noise: [f64; 2],
 }
 
-/// Levenberg and Marquardt from `p`; where it arrives, and the cost there.
-fn descend(poses: &[Pose], prior: &[f64; N], noise: [f64; 2], mut p: [f64; N]) -> ([f64; N], f64) {
-    let (mut here, mut brake) = (cost(poses, prior, noise, &p), 1e-6);
-    for _ in 0..60 {
-        let system = System::new(poses, prior, noise, &p);
-        let gradient = system.downhill(poses, prior, &p);
-        let mut damped = system.normal.clone();
-        (0..N).for_each(|j| damped[(j, j)] *= 1.0 + brake);
-        let Some(factor) = damped.cholesky() else {
-            break;
+/// Parameters, what stands against them, and their natural sizes.
+struct At {
+    p: [f64; N],
+    cost: f64,
+    size: [f64; N],
+}
+
+impl Poses<'_> {
+    fn at(&self, p: [f64; N]) -> At {
+        let of = |pose: &Pose| {
+            let left = less(pose, &p);
+            (0..6).map(move |c| (left[c] / self.noise[c / 3]).powi(2))
         };
-        let step = factor.solve(&gradient);
-        let trial: [f64; N] = std::array::from_fn(|j| p[j] + step[j] * system.size[j]);
-        let there = cost(poses, prior, noise, &trial);
-        if there <= here {
-            let done = here - there <= 1e-12 * (1.0 + here);
-            (p, here, brake) = (trial, there, (brake * 0.1).max(1e-12));
-            if done {
-                break;
-            }
-        } else {
-            brake = (brake * 10.0).max(1e-6);
-            if brake > 1e10 {
-                break;
-            }
+        let data: f64 = self.poses.iter().flat_map(of).sum();
+        let prior = (0..N).map(|j| (p[j] / self.prior[j]).powi(2));
+        At {
+            cost: data + prior.sum::<f64>(),
+            size: size_at(&p),
+            p,
         }
     }
-    (p, here)
+}
+
+impl Landscape for Poses<'_> {
+    type Place = At;
+
+    fn height(&self, place: &At) -> f64 {
+        place.cost
+    }
+
+    fn linear(&self, place: &mut At) -> Option<Linear> {
+        let system = System::new(self.poses, self.prior, self.noise, &place.p);
+        Some(Linear {
+            slope: system.downhill(self.poses, self.prior, &place.p),
+            normal: system.normal,
+        })
+    }
+
+    fn step(&self, from: &At, step: &DVector<f64>) -> Option<At> {
+        let moved = |j: usize| from.p[j] + step[j] * from.size[j];
+        Some(self.at(std::array::from_fn(moved)))
+    }
+}
+
+/// Ends a descent: the sum of squares is at its rounding.
+const STOP: Stop = Stop {
+    steps: 60,
+    gain: 1e-12,
+    share: 1e-12,
+};
+
+/// Down from `p`; where it arrives, and the cost there.
+fn descend(poses: &[Pose], prior: &[f64; N], noise: [f64; 2], p: [f64; N]) -> ([f64; N], f64) {
+    let all = Poses {
+        poses,
+        prior,
+        noise,
+    };
+    let at = descent::descend(&all, all.at(p), STOP);
+    (at.p, at.cost)
 }
 
 /// The best of descents from four turns of the sensor about its z, one quarter apart.
