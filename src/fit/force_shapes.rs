@@ -4,6 +4,7 @@
 pub use super::force_rest::Level;
 use super::force_rest::Rest;
 use super::force_steps::{Reading, Setup, by_setup, setups, straight};
+use super::shared_errors::SharedErrors;
 use crate::ground::spatial::V3;
 use crate::measurement::workspace_test::WorkspaceTest;
 
@@ -23,6 +24,8 @@ pub struct Shapes {
     /// Noise that the data sheet states, m.
     pub(super) stated: Option<f64>,
     pub(super) rests: Vec<Rest>,
+    /// Errors that levels of many set-ups share.
+    shared: Option<SharedErrors>,
 }
 
 impl Shapes {
@@ -47,6 +50,7 @@ impl Shapes {
             stated: noise,
             wander: [0.0; 3],
             rests,
+            shared: None,
         };
         shapes.take_lines();
         shapes.share_noise();
@@ -102,6 +106,19 @@ impl Shapes {
         }
     }
 
+    /// Puts up with errors that many levels share: what one standard deviation of each does, in the units of
+    /// [`Shapes::left`].
+    pub fn share(&mut self, errors: &[Vec<f64>]) {
+        self.shared = SharedErrors::of(errors);
+    }
+
+    fn whitened(&self, left: Vec<f64>) -> Vec<f64> {
+        match &self.shared {
+            Some(shared) => shared.whiten(left),
+            None => left,
+        }
+    }
+
     /// Whether what the lines leave (in the units of [`Shapes::left`]) is hardly noise.
     pub fn is_bent(&self, left: &[f64]) -> bool {
         let (sums, count) = self.bends(left);
@@ -133,10 +150,11 @@ impl Shapes {
         self.rests.iter().flat_map(own).collect()
     }
 
-    /// What the lines leave at every level, in standard deviations of the mean there.
+    /// What the lines leave at every level, in standard deviations of the mean there, less what errors that
+    /// they share may do.
     pub fn left(&self) -> Vec<f64> {
         let own = |rest: &Rest| rest.project(&rest.readings, self.slow_noise(rest)).1;
-        self.rests.iter().flat_map(own).collect()
+        self.whitened(self.rests.iter().flat_map(own).collect())
     }
 
     /// A displacement over force (m, by point, direction and the forces in N in their order) seen in the
@@ -171,7 +189,7 @@ impl Shapes {
             }
             left.extend(own);
         }
-        (slopes, left)
+        (slopes, self.whitened(left))
     }
 
     /// Degrees of freedom of [`Shapes::left`]: every line and every intercept has taken one.

@@ -51,6 +51,7 @@ pub mod screen;
 pub mod screw;
 pub mod second;
 pub mod separability;
+pub mod shared_errors;
 mod shared_noise;
 pub mod solution;
 pub mod starts;

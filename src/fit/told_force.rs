@@ -35,6 +35,14 @@ pub fn grid(forces: impl Iterator<Item = f64>) -> Option<f64> {
     (rounded && grid > FINE).then_some(grid)
 }
 
+/// The sizes of force (N) that occur, ascending, none twice and not zero.
+pub fn distinct(forces: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut sizes: Vec<f64> = forces.map(f64::abs).filter(|size| *size > 0.0).collect();
+    sizes.sort_by(f64::total_cmp);
+    sizes.dedup_by(|a, b| (*a - *b).abs() < 1e-6 * *b);
+    sizes
+}
+
 fn divisor(a: u64, b: u64) -> u64 {
     match b {
         0 => a,

@@ -3,8 +3,8 @@
 
 use crate::experiments::finite_turns::FiniteTurns;
 use crate::fit::force_shapes::{Level, Shapes};
-use crate::fit::told_force::grid;
-use crate::ground::spatial::{V3, norm};
+use crate::fit::told_force::{distinct, grid};
+use crate::ground::spatial::{V3, norm, scale};
 use crate::measurement::workspace_test::WorkspaceTest;
 use crate::robot::Robot;
 
@@ -25,15 +25,30 @@ pub(super) struct Beyond {
     turns: FiniteTurns,
     /// Standard deviation of a told force, N.
     rounding: f64,
+    /// The sizes of force that were told, N, where they are few: what each is wrong by, all set-ups share.
+    sizes: Vec<f64>,
 }
+
+/// Where more forces than this are told apart, weights were laid on by hand, and every reading is wrong by an
+/// amount of its own.
+const MOST_SIZES: usize = 40;
 
 impl Beyond {
     pub(super) fn of(robot: &Robot, test: &WorkspaceTest) -> Self {
         let forces = || test.steps.iter().map(|step| step.force);
+        let rounding = grid(forces()).unwrap_or(0.0) / 12_f64.sqrt();
+        let mut sizes = match rounding > 0.0 {
+            true => distinct(forces()),
+            false => Vec::new(),
+        };
+        if sizes.len() > MOST_SIZES {
+            sizes.clear();
+        }
         let largest = forces().fold(0.0_f64, |most, force| most.max(force.abs()));
         Self {
             turns: FiniteTurns::of(robot, &test.facts.joint_angles, largest),
-            rounding: grid(forces()).unwrap_or(0.0) / 12_f64.sqrt(),
+            rounding,
+            sizes,
         }
     }
 
@@ -62,20 +77,43 @@ impl Beyond {
 
     /// Tells the shapes how well the levels can be predicted.
     pub(super) fn doubt(&self, shapes: &mut Shapes) {
-        let slope = |level: &Level| -> V3 {
-            let here = shapes.setup(level.point, level.direction);
-            let lines = here.map_or([None; 3], |i| shapes.setups[i].lines);
-            lines.map(|line| line.map_or(0.0, |line| line.slope))
+        let alone = match self.sizes.is_empty() {
+            true => self.rounding,
+            false => 0.0,
         };
         let doubt = |level: &Level| {
-            let slope = slope(level);
             let place = (level.point, level.direction);
+            let slope = slope(shapes, place);
             let turns = TURNS * self.turns.size(place, level.force);
-            let told = self.rounding * slope[level.component].abs();
+            let told = alone * slope[level.component].abs();
             let straight = PROPORTION * norm(slope) * level.force.abs();
             turns.hypot(told).hypot(straight)
         };
         let doubts: Vec<f64> = shapes.levels().iter().map(doubt).collect();
         shapes.doubt(&doubts);
+        let error = |size: &f64| self.misread(shapes, *size);
+        let errors: Vec<Vec<f64>> = self.sizes.iter().map(error).collect();
+        shapes.share(&errors);
     }
+
+    /// What the levels would show if every force of this size (N) were told wrongly by one deviation.
+    fn misread(&self, shapes: &Shapes, size: f64) -> Vec<f64> {
+        let moved = |p: usize, d: usize, forces: &[f64]| -> Vec<V3> {
+            let slope = slope(shapes, (p, d));
+            let wrong = |force: &f64| match (force.abs() - size).abs() < 1e-6 * size {
+                true => self.rounding.copysign(*force),
+                false => 0.0,
+            };
+            let each = forces.iter().map(|force| scale(wrong(force), slope));
+            each.collect()
+        };
+        shapes.seen(moved).1
+    }
+}
+
+/// The measured slopes of a set-up, m/N; none: zero.
+fn slope(shapes: &Shapes, (point, direction): (usize, usize)) -> V3 {
+    let here = shapes.setup(point, direction);
+    let lines = here.map_or([None; 3], |i| shapes.setups[i].lines);
+    lines.map(|line| line.map_or(0.0, |line| line.slope))
 }
