@@ -304,7 +304,9 @@ fn judged(ran: &Ran, clean: &Value, right: fn(&Value, &Value) -> bool) -> &'stat
 
 /// Every corruption before every second verb, turn by turn; before all of them with `IDENT_THOROUGH`.
 fn asked(corruption: usize, verb: usize, verbs: usize) -> bool {
-    verbs == 1 || (corruption + verb) % 2 == 0 || std::env::var_os("IDENT_THOROUGH").is_some()
+    verbs == 1
+        || (corruption + verb).is_multiple_of(2)
+        || std::env::var_os("IDENT_THOROUGH").is_some()
 }
 
 /// Puts every corruption before the verbs; how many answers are wrong without a word.
