@@ -8,13 +8,13 @@
 //!  9 report       text, HTML, SVG, JSON: ink for a sheet
 //!  8 findings     what the simulation gets wrong, and why    laboratory  known truth, hidden effects
 //!  7 fit          parameters, intervals, stored fits    causes    of the whole robot, ONE FILE EACH    process  robot and cut
-//!  6 inference    one linear-Gaussian update with its evidence
+//!  6 inference    one descent, one linear-Gaussian update, statistics
 //!  5 experiments  what a model says that a measurement should have shown    planning  a robot on a path
 //!  4 motion       kinematics, dynamics, statics, modes, FRFs    path  geometry and time of tool paths
 //!  3 robot        chain, springs, bodies, robot files
 //!  2 effects      ONE FILE PER EFFECT    cutting  tools, force laws, the stock
 //!  1 measurement  files and their facts    signal  spectra, noise    sheet  tables and charts as data
-//!  0 ground       units, dual numbers, spatial algebra, the one descent, files, problems with a remedy
+//!  0 ground       units, dual numbers, spatial algebra, files, problems with a remedy
 //! ```
 //!
 //! From a file to its stiffness, and to the cause of what the simulation misses:

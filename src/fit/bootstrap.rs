@@ -3,8 +3,8 @@
 use super::least_squares::{Problem, minimise};
 use super::observation::Observation;
 use super::solution::Solution;
-use crate::ground::descent::Stop;
 use crate::ground::random::Random;
+use crate::inference::descent::Stop;
 
 /// 95 % intervals of every parameter from `draws` resamplings of the residual, cycle by cycle.
 ///

@@ -5,7 +5,7 @@
 use super::frf_identifiability::Place;
 use super::frf_linear::Frozen;
 use super::frf_search::{SHARE, descend_by};
-use crate::ground::descent::Stop;
+use crate::inference::descent::Stop;
 use nalgebra::DMatrix;
 
 /// Relative half width from which on the curvature is not trusted alone.

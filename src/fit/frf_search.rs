@@ -2,7 +2,7 @@
 
 use super::frf_linear::{Linearised, linearise};
 use super::frf_tuning::{Parameter, Tuning};
-use crate::ground::descent::{self, Landscape, Linear, Stop, pushed};
+use crate::inference::descent::{self, Landscape, Linear, Stop, pushed};
 use nalgebra::DVector;
 
 /// Where a descent ended: logarithms and cost.

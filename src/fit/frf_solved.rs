@@ -9,8 +9,8 @@ use super::frf_rivals::rivals;
 use super::frf_search::{Run, SHARE, descend};
 use super::frf_starts::{starts, thinned};
 use super::frf_tuning::{Tuned, Tuning, check, freedom, matches, pairs, singular};
-use crate::ground::descent::Stop;
 use crate::ground::problem::Outcome;
+use crate::inference::descent::Stop;
 use rayon::prelude::*;
 
 /// Weighted sum of squares within which another minimum explains the data as well as the best: four

@@ -12,7 +12,7 @@ use super::starts::starts;
 use super::suitability::relation::{Relation, halved, ramps, slope};
 use crate::effects::{CLEARANCE_SLIDER, Composite, Effect, named};
 use crate::experiments::load_cycle::enclosed;
-use crate::ground::descent::Stop;
+use crate::inference::descent::Stop;
 use crate::measurement::cycles::Cycles;
 use crate::measurement::load_cycle::LoadCycle;
 use crate::signal::colour::Colour;

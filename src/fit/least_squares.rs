@@ -3,8 +3,8 @@
 
 use super::observation::Observation;
 use crate::effects::Composite;
-use crate::ground::descent::{Landscape, Linear, Stop, descend};
 use crate::ground::products::gram;
+use crate::inference::descent::{Landscape, Linear, Stop, descend};
 use crate::signal::colour::Colour;
 use nalgebra::{DMatrix, DVector};
 

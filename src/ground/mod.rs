@@ -3,7 +3,6 @@
 
 pub mod arctangent;
 pub mod cholesky;
-pub mod descent;
 pub mod dual;
 pub mod files;
 pub mod nearest;

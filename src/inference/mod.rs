@@ -1,5 +1,6 @@
-//! Floor 6: what measurements say about unknowns, whatever was measured: one linear-Gaussian
-//! update with its evidence ([`gaussian`]). The one descent lies on the ground, since spectra use it too
-//! ([`crate::ground::descent`]), and so does the small change of statistics ([`crate::ground::stats`]).
+//! Floor 6: what measurements say about unknowns, whatever was measured. One descent ([`descent`]) and one
+//! linear-Gaussian update with its evidence ([`gaussian`]); the small change of statistics lies on the
+//! ground ([`crate::ground::stats`]).
 
+pub mod descent;
 pub mod gaussian;

@@ -4,7 +4,6 @@
 use super::modal_kernel::{Columns, Lines};
 use super::modal_model::{Channels, stacked};
 use super::modal_structure::{Row, Structure};
-use crate::ground::descent::{Landscape, Linear, Stop, descend};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, QR};
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
@@ -185,9 +184,29 @@ impl<'a> Task<'a> {
         normal
     }
 
-    /// Down from `start`.
-    pub fn refine(&self, start: Structure, stop: Stop) -> Fit {
-        let best = descend(self, self.state(start), stop);
+    /// Levenberg-Marquardt from `start`, at most `steps`, until one gains less than the share `enough`.
+    pub fn refine(&self, start: Structure, (steps, enough): (usize, f64)) -> Fit {
+        let mut best = self.state(start);
+        let mut brake = 1e-4;
+        for _ in 0..steps {
+            let normal = self.normal_of(&best.structure, &best.columns, &best.rest);
+            let before = best.cost;
+            while brake < 1e6 {
+                let step = normal.solve(brake);
+                let trial = step.and_then(|step| best.structure.stepped(step.as_slice()));
+                match trial.map(|trial| self.state(trial)) {
+                    Some(trial) if trial.cost < best.cost => {
+                        best = trial;
+                        brake = (brake * 0.1).max(1e-8);
+                        break;
+                    }
+                    _ => brake *= 10.0,
+                }
+            }
+            if before - best.cost <= enough * before {
+                break;
+            }
+        }
         Fit {
             structure: best.structure,
             cost: best.cost,
@@ -206,29 +225,8 @@ impl<'a> Task<'a> {
     }
 }
 
-impl Landscape for Task<'_> {
-    type Place = State;
-
-    fn height(&self, place: &State) -> f64 {
-        place.cost
-    }
-
-    fn linear(&self, place: &mut State) -> Option<Linear> {
-        let normal = self.normal_of(&place.structure, &place.columns, &place.rest);
-        Some(Linear {
-            normal: normal.matrix,
-            slope: normal.slope,
-        })
-    }
-
-    fn step(&self, from: &State, step: &DVector<f64>) -> Option<State> {
-        let trial = from.structure.stepped(step.as_slice());
-        trial.map(|trial| self.state(trial))
-    }
-}
-
 /// A structure on its way, with what the next step needs.
-pub struct State {
+struct State {
     structure: Structure,
     cost: f64,
     columns: Vec<Vec<Columns>>,
@@ -275,6 +273,10 @@ impl Normal {
             .into_iter()
             .map(|brake| self.factor(brake));
         factors.find_map(|factor| factor.map(|f| f.inverse()))
+    }
+
+    fn solve(&self, brake: f64) -> Option<DVector<f64>> {
+        Some(self.factor(brake)?.solve(&self.slope))
     }
 }
 

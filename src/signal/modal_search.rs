@@ -6,7 +6,6 @@ use super::modal_grid::Grid;
 use super::modal_model::{damping, frequency};
 use super::modal_structure::Structure;
 use super::stabilisation::Candidate;
-use crate::ground::descent::Stop;
 use nalgebra::{DMatrix, DVector};
 use rustfft::num_complex::Complex64;
 
@@ -25,8 +24,8 @@ const DOUBT: isize = 3;
 /// Least gain of a mode fitted alone, in units of the criterion, for which all are refined with it.
 const ALONE: f64 = 12.0;
 /// Most steps and least gain per step of the last refinement, and of one during the search.
-const LAST: Stop = Stop::at_share(40, 1e-7);
-const QUICK: Stop = Stop::at_share(12, 3e-4);
+const LAST: (usize, f64) = (40, 1e-7);
+const QUICK: (usize, f64) = (12, 3e-4);
 
 /// The structure that the data support: reciprocal where that is possible and enough.
 pub fn search(task: &Task, found: &[Candidate]) -> Fit {

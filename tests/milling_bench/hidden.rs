@@ -75,7 +75,7 @@ pub fn hidden(seed: u64, faults: &[&'static str]) -> Hidden {
     let said = passes(&mut random, diameter);
     let recording = Recording {
         rate_hz: [16_000.0, 20_000.0, 25_600.0][random.below(3)],
-        turns: random.uniform(3.0, 5.0),
+        turns: random.uniform(4.0, 8.0),
         bandwidth_hz: [None, Some(1500.0), Some(3000.0)][random.below(3)],
         noise: random.log_uniform(1.0, 5.0),
         colour: 0.0,

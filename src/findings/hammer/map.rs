@@ -4,8 +4,8 @@
 use super::data::Data;
 use super::nuisance::Nuisance;
 use super::prediction::{Machine, Point, stack};
-use crate::ground::descent::{Landscape, Linear, Stop, descend, pushed};
 use crate::ground::problem::{Outcome, Problem};
+use crate::inference::descent::{Landscape, Linear, Stop, descend, pushed};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// Prior probability that one cause is present at some place.

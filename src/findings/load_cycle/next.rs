@@ -4,7 +4,7 @@ use crate::effects::{Composite, Scene};
 use crate::experiments::schedule::SCHEDULES;
 use crate::fit::least_squares::{Problem, minimise};
 use crate::fit::observation::{Observation, Part};
-use crate::ground::descent::Stop;
+use crate::inference::descent::Stop;
 use crate::measurement::cycles::Cycles;
 use crate::signal::colour::Colour;
 use crate::signal::cosine::Cosine;

@@ -3,7 +3,7 @@
 use crate::effects::Composite;
 use crate::fit::least_squares::{Optimum, Problem, minimise};
 use crate::fit::observation::Observation;
-use crate::ground::descent::Stop;
+use crate::inference::descent::Stop;
 use crate::signal::colour::Colour;
 
 /// A set of effects with its parameters refined.

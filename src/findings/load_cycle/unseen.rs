@@ -4,7 +4,7 @@ use crate::effects::Composite;
 use crate::findings::gain::Gain;
 use crate::fit::least_squares::{Problem, minimise};
 use crate::fit::observation::Observation;
-use crate::ground::descent::Stop;
+use crate::inference::descent::Stop;
 use crate::signal::colour::Colour;
 
 /// Which rows are predicted from which.

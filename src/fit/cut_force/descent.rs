@@ -3,9 +3,9 @@
 use super::CutData;
 use super::layout::Layout;
 use super::whitening::Whitening;
-use crate::ground::descent::{Landscape, Linear, Stop, descend};
 use crate::ground::products::gram;
 use crate::ground::spatial::V3;
+use crate::inference::descent::{Landscape, Linear, Stop, descend};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 

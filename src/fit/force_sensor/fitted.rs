@@ -3,7 +3,7 @@
 use super::poses::Pose;
 use super::statics::{ANGLES, N, PARAMETERS, reading, sizes, slopes};
 use crate::fit::parameter::{Identified, Status, Z95};
-use crate::ground::descent::{self, Landscape, Linear, Stop};
+use crate::inference::descent::{self, Landscape, Linear, Stop};
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 

@@ -1,6 +1,6 @@
-//! The one least-squares descent of the house: Levenberg (1944) and Marquardt (1963) in Moré's form (1978),
-//! unknowns held where they push against a bound. What is minimised, and what a place of it knows, is the
-//! caller's; a prior is a row like any other.
+//! The least-squares descent of all fits (modes of spectra, floors below, keep their own): Levenberg (1944) and
+//! Marquardt (1963) in Moré's form (1978), unknowns held where they push against a bound. What is minimised,
+//! and what a place of it knows, is the caller's; a prior is a row like any other.
 
 use nalgebra::{DMatrix, DVector};
 
