@@ -21,7 +21,7 @@ impl SharedErrors {
         let columns: Vec<DVector<f64>> = columns
             .iter()
             .map(|column| DVector::from_column_slice(column))
-            .filter(|column| column.norm_squared() > 0.0)
+            .filter(|column| column.norm_squared().is_normal())
             .collect();
         if columns.is_empty() || rows == 0 {
             return None;

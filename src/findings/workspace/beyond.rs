@@ -30,7 +30,7 @@ pub(super) struct Beyond {
 }
 
 /// Where more forces than this are told apart, weights were laid on by hand, and every reading is wrong by an
-/// amount of its own.
+/// amount of its own: twice the levels of a half cycle that are told apart (`fit/force_rest`).
 const MOST_SIZES: usize = 40;
 
 impl Beyond {
