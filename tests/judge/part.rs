@@ -73,7 +73,7 @@ struct Habit {
 }
 
 /// How the controller goes round a corner.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 enum Corner {
     /// A parabola from this far before to this far behind.
     Blend(f64),
@@ -415,8 +415,8 @@ impl Habit {
         own.stand(random)?;
         own.walk()?;
         // Nobody mills what bends the robot further.
-        let (milled, _) = own.milled(&World::told(&own));
-        let most = milled.iter().map(|d| norm(*d)).fold(0.0, f64::max);
+        let milled = own.milled(&World::told(&own));
+        let most = milled.iter().map(|cut| norm(cut.at)).fold(0.0, f64::max);
         let places = own.stations.iter().filter(|s| own.counts(s)).count();
         (most < 3e-4 && places >= 12).then_some(own)
     }
@@ -592,10 +592,10 @@ impl Habit {
         arm.bodies.iter().enumerate().filter(beyond).map(of).sum()
     }
 
-    /// Forces of the told job at every station by coefficient, and what parts of the tool's motion come before the cut.
-    fn milled(&self, world: &World) -> (Vec<V3>, Vec<[V3; 6]>) {
+    /// The job as it is cut, station by station.
+    fn milled(&self, world: &World) -> Vec<Cut> {
         let mut swept: Vec<Sweep> = Vec::new();
-        let (mut all, mut shares) = (Vec::new(), Vec::new());
+        let mut all = Vec::new();
         let mill = Mill {
             radius: self.mill.radius + world.radius,
             ..self.mill.clone()
@@ -612,11 +612,8 @@ impl Habit {
                 .collect();
             let hand = self.arm.hand(&s.joints);
             let free = self.before_the_cut(world, s, hand, zero, &mut side, end);
-            let mut d = free;
-            let mut own = [[0.0; 3]; 6];
-            for _ in 0..3 {
-                let tip = plus(s.tip, d);
-                own = mill.shares(tip, s.feed, s.speed, &swept);
+            let stands = |d: V3| {
+                let own = mill.shares(plus(s.tip, d), s.feed, s.speed, &swept);
                 let f = force(&own, &world.material);
                 let left = [-s.feed[1], s.feed[0], 0.0];
                 let ahead = [s.feed[0], s.feed[1], 0.0];
@@ -626,18 +623,23 @@ impl Habit {
                 );
                 let soft = gives(&lines, hand, placed(self, f));
                 let bent = [world.bend * f[0], world.bend * f[1], 0.0];
-                d = plus(plus(free, back(self, soft)), bent);
-            }
+                (plus(plus(free, back(self, soft)), bent), own)
+            };
+            let (d, own) = at_rest(free, stands);
+            let cut = Cut {
+                at: d,
+                shares: own,
+                answers: answers(d, |d| stands(d).0),
+            };
             let tip = plus(s.tip, d);
             match last {
                 Some((line, from)) if line == s.line => swept.push((from, tip)),
                 _ => swept.push((tip, tip)),
             }
             last = Some((s.line, tip));
-            all.push(d);
-            shares.push(own);
+            all.push(cut);
         }
-        (all, shares)
+        all
     }
 
     /// Where the weights bring the tip, base frame; each spring as it is.
@@ -689,12 +691,12 @@ impl Habit {
 
     /// What is measured less nominal at every station.
     fn measured(&self, world: &World) -> Vec<V3> {
-        let (milled, _) = self.milled(world);
+        let milled = self.milled(world);
         let all = self
             .stations
             .iter()
             .enumerate()
-            .map(|(i, s)| self.surface(world, i, s, milled[i]));
+            .map(|(i, s)| self.surface(world, i, s, milled[i].at));
         all.collect()
     }
 
@@ -991,7 +993,35 @@ fn outside(name: &str, habit: &Habit, random: &mut Random) -> (Vec<V3>, String) 
     (all.collect(), format!("{name}; {:.0} um", 1e6 * size))
 }
 
-type Hidden = (&'static str, Option<String>, String, Vec<V3>);
+struct Hidden {
+    name: &'static str,
+    site: Option<String>,
+    law: String,
+    /// What it changes at every station, m.
+    change: Vec<V3>,
+    /// Standard deviations by which springs, material and datum would have to be off to do exactly the same.
+    price: f64,
+}
+
+/// See [`Hidden::price`]: infinite where something else changed.
+fn price(habit: &Habit, before: &World, after: &World) -> f64 {
+    let of = |w: &World| (w.bend, w.gap, w.radius, w.turn, w.corner, w.growth);
+    if of(before) != of(after) || before.springs.len() != after.springs.len() {
+        return f64::INFINITY;
+    }
+    let near = habit.near.unwrap_or(0.02);
+    let mut sites = std::collections::BTreeMap::new();
+    for (b, a) in before.springs.iter().zip(&after.springs) {
+        let off = (b.stiffness / a.stiffness - 1.0) / near;
+        sites.insert((b.effect, b.site.clone()), off);
+    }
+    let coefficients = before.material.iter().zip(&after.material);
+    let material = coefficients.map(|(b, a)| (a / b - 1.0) / habit.told_material);
+    let places = before.offset.iter().zip(&after.offset);
+    let datum = places.map(|(b, a)| (a - b) / habit.datum);
+    let all = sites.into_values().chain(material).chain(datum);
+    all.map(|x| x * x).sum::<f64>().sqrt()
+}
 
 fn difference(habit: &Habit, with: &World, base: &World) -> Vec<V3> {
     let (a, b) = (habit.measured(with), habit.measured(base));
@@ -1016,7 +1046,14 @@ fn hide(habit: &Habit, world: &mut World, random: &mut Random) -> Vec<Hidden> {
                     .iter()
                     .fold(0.0_f64, |m, x| m.max(x.abs()));
                 if most > 4.0 || attempt == 7 {
-                    all.push((name, site, law, change));
+                    let price = price(habit, &before, world);
+                    all.push(Hidden {
+                        name,
+                        site,
+                        law,
+                        change,
+                        price,
+                    });
                     break;
                 }
             }
@@ -1027,31 +1064,47 @@ fn hide(habit: &Habit, world: &mut World, random: &mut Random) -> Vec<Hidden> {
                 let left = [-s.feed[1], s.feed[0], 0.0];
                 plus(scaled(left, dot(&left, d)), [0.0, 0.0, d[2]])
             });
-            all.push(("outside", None, law, flat.collect()));
+            all.push(Hidden {
+                name: "outside",
+                site: None,
+                law,
+                change: flat.collect(),
+                price: f64::INFINITY,
+            });
         }
     }
     all
 }
 
 /// What small changes of everything do to first order, for the best test.
+/// The tool at one station.
+struct Cut {
+    /// Beside its way, m.
+    at: V3,
+    /// Force by coefficient.
+    shares: [V3; 6],
+    /// Where it goes when something moves it by one along every axis: the cut gives way, or is deeper.
+    answers: [V3; 3],
+}
+
 struct Sensitivity<'a> {
     habit: &'a Habit,
     forces: Vec<V3>,
-    shares: Vec<[V3; 6]>,
+    cuts: Vec<Cut>,
 }
 
 impl<'a> Sensitivity<'a> {
     fn new(habit: &'a Habit) -> Self {
         let told = World::told(habit);
-        let (_, shares) = habit.milled(&told);
-        let forces = habit.stations.iter().zip(&shares).map(|(s, own)| {
-            let f = force(own, &habit.material);
+        let cuts = habit.milled(&told);
+        let forces = habit.stations.iter().zip(&cuts).map(|(s, cut)| {
+            let f = force(&cut.shares, &habit.material);
             based_force(habit, s, f)
         });
         Self {
             forces: forces.collect(),
             habit,
-            shares,
+            cuts,
         }
     }
 
@@ -1066,7 +1119,7 @@ impl<'a> Sensitivity<'a> {
             let lever = minus(hand, line.1);
             let cut = dot(&line.0, &cross(lever, self.forces[i]));
             let bent = scaled(cross(line.0, lever), cut / spring.stiffness);
-            self.flat(s, back(h, plus(bent, minus(h.sag(one, &s.joints), zero))))
+            self.moved(i, back(h, plus(bent, minus(h.sag(one, &s.joints), zero))))
         };
         h.stations.iter().enumerate().map(of).collect()
     }
@@ -1074,6 +1127,13 @@ impl<'a> Sensitivity<'a> {
     fn flat(&self, s: &Station, d: V3) -> V3 {
         let left = [-s.feed[1], s.feed[0], 0.0];
         plus(scaled(left, dot(&left, &d)), [0.0, 0.0, d[2]])
+    }
+
+    /// The surface where something moves the tool before the cut answers.
+    fn moved(&self, i: usize, d: V3) -> V3 {
+        let answers = &self.cuts[i].answers;
+        let of = |k: usize| scaled(answers[k], d[k]);
+        self.flat(&self.habit.stations[i], plus(plus(of(0), of(1)), of(2)))
     }
 
     /// Springs of one site together.
@@ -1104,14 +1164,14 @@ impl<'a> Sensitivity<'a> {
     fn coefficient(&self, k: usize) -> Vec<V3> {
         let h = self.habit;
         let of = |(i, s): (usize, &Station)| {
-            let f = based_force(h, s, scaled(self.shares[i][k], h.material[k]));
+            let f = based_force(h, s, scaled(self.cuts[i].shares[k], h.material[k]));
             let lines: Vec<(Line, f64)> = h
                 .arm
                 .springs
                 .iter()
                 .map(|p| (h.arm.line(p, &s.joints), p.stiffness))
                 .collect();
-            self.flat(s, back(h, gives(&lines, h.arm.hand(&s.joints), f)))
+            self.moved(i, back(h, gives(&lines, h.arm.hand(&s.joints), f)))
         };
         h.stations.iter().enumerate().map(of).collect()
     }
@@ -1151,6 +1211,12 @@ impl<'a> Sensitivity<'a> {
             .collect()
     }
 
+    /// The same where it is the tool that moves.
+    fn each_moved(&self, of: impl Fn(&Station) -> V3) -> Vec<V3> {
+        let stations = self.habit.stations.iter().enumerate();
+        stations.map(|(i, s)| self.moved(i, of(s))).collect()
+    }
+
     fn rivals(&self) -> Vec<Rival> {
         let h = self.habit;
         let mut all: Vec<Rival> = Vec::new();
@@ -1171,8 +1237,9 @@ impl<'a> Sensitivity<'a> {
                     vec![self.group(&h.arm.bearing(j, 1e6))],
                 ));
             }
-            let moved = self.each(|s| back(h, self.turned_joint(j, s, -s.moving[j].signum())));
-            let pressed = self.each(|s| {
+            let moved =
+                self.each_moved(|s| back(h, self.turned_joint(j, s, -s.moving[j].signum())));
+            let pressed = self.each_moved(|s| {
                 let side = (h.arm.weight_moment(j, &s.joints) / 5.0).clamp(-1.0, 1.0);
                 back(h, self.turned_joint(j, s, side))
             });
@@ -1185,12 +1252,12 @@ impl<'a> Sensitivity<'a> {
             Some("tool".into()),
             vec![self.group(&soft)],
         ));
-        let bend = h.stations.iter().enumerate().map(|(i, s)| {
+        let bend = h.stations.iter().enumerate().map(|(i, _)| {
             let f = back(h, self.forces[i]);
-            self.flat(s, [1e-7 * f[0], 1e-7 * f[1], 0.0])
+            self.moved(i, [1e-7 * f[0], 1e-7 * f[1], 0.0])
         });
         all.push(("tool_compliance", Some("tool".into()), vec![bend.collect()]));
-        let thick = self.each(|s| scaled([-s.feed[1], s.feed[0], 0.0], h.side));
+        let thick = self.each_moved(|s| scaled([-s.feed[1], s.feed[0], 0.0], h.side));
         if h.told_side {
             all.push(("tool_radius", None, vec![thick]));
         }
@@ -1214,8 +1281,8 @@ impl<'a> Sensitivity<'a> {
         }
         for slow in [30.0, 1e4] {
             let grown = |s: &Station| 1.0 - (-s.time / slow).exp();
-            let spindle = self.each(|s| [0.0, 0.0, -grown(s)]);
-            let arm = self.each(|s| back(h, scaled(h.arm.hand(&s.joints), grown(s))));
+            let spindle = self.each_moved(|s| [0.0, 0.0, -grown(s)]);
+            let arm = self.each_moved(|s| back(h, scaled(h.arm.hand(&s.joints), grown(s))));
             all.push(("thermal_growth", None, vec![spindle]));
             all.push(("thermal_growth", None, vec![arm]));
         }
@@ -1229,6 +1296,53 @@ impl<'a> Sensitivity<'a> {
             by,
         )
     }
+}
+
+/// Rounds within which force and deflection agree, and by how much they still differ, m.
+const ROUNDS: usize = 60;
+const AGREE: f64 = 2e-8;
+
+/// Where the tool stands so that the force of the cut there is what holds it there: steps towards what the last
+/// place asks, shorter where they do not bring it nearer (a soft tool in a hard cut overshoots).
+fn at_rest<T>(from: V3, asks: impl Fn(V3) -> (V3, T)) -> (V3, T) {
+    let (mut d, mut share, mut before) = (from, 1.0, f64::INFINITY);
+    let (mut asked, mut of) = asks(d);
+    for _ in 0..ROUNDS {
+        let step = minus(asked, d);
+        let far = dot(&step, &step).sqrt();
+        if far < AGREE {
+            break;
+        }
+        if far > 0.7 * before {
+            share = f64::max(0.7 * share, 0.05);
+        }
+        before = far;
+        d = plus(d, scaled(step, share));
+        (asked, of) = asks(d);
+    }
+    (d, of)
+}
+
+/// Way by which an answer is tried, m.
+const TRIED: f64 = 5e-6;
+
+/// Where the tool goes when something else moves it by one along every axis: (1 - J)⁻¹, J the slope of where the
+/// cut and the springs put it.
+fn answers(d: V3, stands: impl Fn(V3) -> V3) -> [V3; 3] {
+    let slope = |k: usize| {
+        let (more, less) = (
+            plus(d, scaled(axis(k), TRIED)),
+            minus(d, scaled(axis(k), TRIED)),
+        );
+        scaled(minus(stands(more), stands(less)), 0.5 / TRIED)
+    };
+    let [a, b, c] = [0, 1, 2].map(|k| minus(axis(k), slope(k)));
+    let volume = dot(&a, &cross(b, c));
+    if volume.abs() < 1e-3 {
+        return [axis(0), axis(1), axis(2)];
+    }
+    let rows = [cross(b, c), cross(c, a), cross(a, b)];
+    [0, 1, 2].map(|k| [0, 1, 2].map(|i| rows[i][k] / volume))
 }
 
 fn based_force(h: &Habit, s: &Station, f: V3) -> V3 {
@@ -1254,7 +1368,10 @@ fn truths(habit: &Habit, hidden: &[Hidden]) -> Vec<Truth> {
         .into_iter()
         .map(|(e, s, c)| (e, s, c.iter().map(|c| habit.bare(c, &tail)).collect()))
         .collect();
-    let seen: Vec<Vec<f64>> = hidden.iter().map(|h| habit.bare(&h.3, &tail)).collect();
+    let seen: Vec<Vec<f64>> = hidden
+        .iter()
+        .map(|h| habit.bare(&h.change, &tail))
+        .collect();
     let one = |i: usize| {
         let others = (0..hidden.len())
             .filter(|j| *j != i)
@@ -1266,9 +1383,16 @@ fn truths(habit: &Habit, hidden: &[Hidden]) -> Vec<Truth> {
 }
 
 fn truth(hidden: &[Hidden], i: usize, known: &[Vec<f64>], seen: &[f64], rivals: &[Seen]) -> Truth {
-    let (name, site, law, _) = &hidden[i];
+    let Hidden {
+        name,
+        site,
+        law,
+        price,
+        ..
+    } = &hidden[i];
     let own = without(seen, known);
-    let sight = dot(&own, &own).sqrt();
+    // the free columns are straight, what is hidden is not: no test sees more than it costs to be none
+    let sight = dot(&own, &own).sqrt().min(*price);
     let left = |columns: &Vec<Vec<f64>>| {
         let bare: Vec<Vec<f64>> = columns.iter().map(|c| without(c, known)).collect();
         let rest = without(&own, &basis(&bare));
@@ -1277,7 +1401,7 @@ fn truth(hidden: &[Hidden], i: usize, known: &[Vec<f64>], seen: &[f64], rivals: 
     let same = |e: &str, s: &Option<String>| {
         hidden
             .iter()
-            .any(|h| h.0 == e && (h.1.is_none() || h.1 == *s))
+            .any(|h| h.name == e && (h.site.is_none() || h.site == *s))
     };
     let near: Vec<(&'static str, Option<String>, f64)> = rivals
         .iter()
@@ -1342,7 +1466,7 @@ pub fn worth(seed: u64) -> [f64; 2] {
     let hidden = hide(&habit, &mut world, &mut random);
     let best = habit.bare(&habit.measured(&world), &[]);
     let present = habit.bare(&habit.measured(&World::told(&habit)), &[]);
-    let named: Vec<Vec<f64>> = hidden.iter().map(|h| habit.bare(&h.3, &[])).collect();
+    let named: Vec<Vec<f64>> = hidden.iter().map(|h| habit.bare(&h.change, &[])).collect();
     let (mut before, mut after) = (0.0, [0.0; 2]);
     for i in 0..best.len() {
         let noise = random.normal();
@@ -1360,11 +1484,11 @@ pub fn worth(seed: u64) -> [f64; 2] {
 pub fn nominal(seed: u64) -> (Files, Vec<(f64, V3, V3)>) {
     let mut random = Random::new(seed ^ 0x9a47_0000);
     let habit = Habit::draw(&mut random);
-    let (milled, shares) = habit.milled(&World::told(&habit));
-    let each = habit.stations.iter().zip(milled.iter().zip(&shares));
-    let rows = each.filter(|(s, _)| habit.counts(s)).map(|(s, (d, f))| {
-        let f = back(&habit, based_force(&habit, s, force(f, &habit.material)));
-        (s.s, *d, f)
+    let milled = habit.milled(&World::told(&habit));
+    let each = habit.stations.iter().zip(&milled);
+    let rows = each.filter(|(s, _)| habit.counts(s)).map(|(s, cut)| {
+        let f = force(&cut.shares, &habit.material);
+        (s.s, cut.at, back(&habit, based_force(&habit, s, f)))
     });
     let rows = rows.collect();
     (habit.files(), rows)
