@@ -25,7 +25,12 @@ fn members(case: &Case) -> Vec<Member> {
         let column: Vec<f64> = (0..case.rows.len()).map(sum).collect();
         Member::given(column, ORDINARY).shaped(&[-1.0, i as f64])
     };
-    FORMS.iter().enumerate().map(form).collect()
+    // an exponent is none that changes with the others
+    let card = case.setup.material.law.card();
+    let is_force = |k: &usize| card.coefficients[*k].unit != "1";
+    let forms = FORMS.iter().enumerate();
+    let forms = forms.filter(|(_, own)| own.iter().all(is_force));
+    forms.map(form).collect()
 }
 
 /// Least factor of a coefficient: none pulls.

@@ -69,6 +69,8 @@ pub struct Case {
     pub holds: Vec<Hold>,
     /// How far the tool goes at every station where it is moved by one before the cut answers.
     pub answer: Vec<M3>,
+    /// What a tool whose radius is larger by one adds to every row before its edge is counted (linearised).
+    pub larger: Vec<f64>,
     /// Who may be to blame, and what may be off: the same in every statement.
     stated: OnceLock<Stated>,
 }
@@ -108,6 +110,7 @@ impl Case {
         Ok(Self {
             still: seen(&rows, &tried.still),
             coefficients: coefficients.map(|moved| seen(&rows, moved)).collect(),
+            larger: seen(&rows, &tried.larger),
             answer: tried.answer,
             holds: holds(&setup, &setup.robot, &stations)?,
             stated: OnceLock::new(),

@@ -1,4 +1,5 @@
-//! The tool is larger or smaller than stated: the wall moves away from it, or towards it.
+//! The tool is larger or smaller than stated: its edge stands nearer to the wall, and it meets more material, which
+//! bends it away.
 
 use super::Case;
 use crate::findings::engine::Member;
@@ -18,6 +19,8 @@ fn members(case: &Case) -> Vec<Member> {
     let Some(side) = case.test.facts.side else {
         return Vec::new();
     };
-    let column = case.column(|_, row| if row.left { side } else { 0.0 });
+    let edge = |left: bool| if left { side } else { 0.0 };
+    let rows = case.rows.iter().zip(&case.larger);
+    let column = rows.map(|(row, gives)| edge(row.left) + gives).collect();
     vec![Member::free(column).shaped(&[-1.0])]
 }

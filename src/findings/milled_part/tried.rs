@@ -17,12 +17,16 @@ pub(super) struct Tried {
     pub coefficients: Vec<Vec<V3>>,
     /// How far the tool goes where it is moved by one: the cut gives way, or is deeper.
     pub answer: Vec<M3>,
+    /// Change by a radius of the tool that is larger by one (linearised): it meets more material.
+    pub larger: Vec<V3>,
 }
 
 /// Relative change at which coefficients are tried.
 const CHANGED: f64 = 0.1;
 /// Way by which the tool is moved, m.
 const MOVED: f64 = 40e-6;
+/// By how much the radius of the tool is larger, m.
+const LARGER: f64 = 40e-6;
 /// Coefficients: three of the cut, three of the edge.
 const COEFFICIENTS: usize = 6;
 
@@ -44,9 +48,10 @@ pub(super) fn tried(setup: &Setup, stations: &[Station]) -> Outcome<Tried> {
     let run = |i: usize| match i {
         0 => still(setup, stations),
         i if i <= COEFFICIENTS => still(&stronger(setup, i - 1), stations),
-        i => still(&moved(setup, i - 1 - COEFFICIENTS), stations),
+        i if i <= COEFFICIENTS + 3 => still(&moved(setup, i - 1 - COEFFICIENTS), stations),
+        _ => still(&larger(setup), stations),
     };
-    let runs: Vec<Outcome<Vec<V3>>> = (0..=COEFFICIENTS + 3).into_par_iter().map(run).collect();
+    let runs: Vec<Outcome<Vec<V3>>> = (0..=COEFFICIENTS + 4).into_par_iter().map(run).collect();
     let mut runs = runs.into_iter().collect::<Outcome<Vec<_>>>()?.into_iter();
     let still = runs.next().unwrap_or_default();
     let change = |run: Vec<V3>, by: f64| -> Vec<V3> {
@@ -59,6 +64,7 @@ pub(super) fn tried(setup: &Setup, stations: &[Station]) -> Outcome<Tried> {
     };
     let coefficients = changes(COEFFICIENTS, CHANGED);
     let moved = changes(3, MOVED);
+    let larger = changes(1, LARGER).pop().unwrap_or_default();
     let answer = |s: usize| {
         let at = |row: usize, k: usize| f64::from(u8::from(row == k)) + moved[k][s][row];
         [0, 1, 2].map(|row| [0, 1, 2].map(|k| at(row, k)))
@@ -66,6 +72,7 @@ pub(super) fn tried(setup: &Setup, stations: &[Station]) -> Outcome<Tried> {
     Ok(Tried {
         answer: (0..stations.len()).map(answer).collect(),
         coefficients,
+        larger,
         still,
     })
 }
@@ -73,6 +80,12 @@ pub(super) fn tried(setup: &Setup, stations: &[Station]) -> Outcome<Tried> {
 fn stronger(setup: &Setup, coefficient: usize) -> Setup {
     let mut setup = setup.clone();
     setup.material.coefficients[coefficient] *= 1.0 + CHANGED;
+    setup
+}
+
+fn larger(setup: &Setup) -> Setup {
+    let mut setup = setup.clone();
+    setup.tool.radius_m += LARGER;
     setup
 }
 
