@@ -78,7 +78,9 @@ fn force_writes_a_material_that_a_job_loads_and_a_dry_run_writes_nothing() {
     }
     let path = folder.path().join(document["material"].as_str().unwrap());
     let material = Material::of_bytes(&std::fs::read(path).unwrap()).unwrap();
-    assert!((material.cutting[0] / 1319.41e6 - 1.0).abs() < 0.02 && material.ci95[5].is_some());
+    assert!(
+        (material.coefficients[0] / 1319.41e6 - 1.0).abs() < 0.02 && material.ci95[5].is_some()
+    );
     assert!(folder.path().join("reports/al/force-cuts.html").exists());
     let again = ident(folder.path(), &["force", file, "--json"]);
     assert_eq!(output.stdout, again.stdout);

@@ -74,7 +74,7 @@ fn every_key_of_the_contract_is_read_into_si() {
     assert!(near(cutter.flute.unwrap(), 0.032));
     assert!(near(cutter.spindle.unwrap(), 10_000.0 / 60.0 * TAU));
     let material = job.material().unwrap();
-    assert!(near(material.cutting[0], 1319.41e6) && near(material.edge[2], 2050.0));
+    assert!(near(material.coefficients[0], 1319.41e6) && near(material.coefficients[5], 2050.0));
     assert_eq!(material.rel_std, Some(0.1));
     assert!(near(job.limits.path_jerk, 20.0) && near(job.limits.tolerance.unwrap(), 2e-4));
 }

@@ -98,6 +98,66 @@ fn what_no_cutter_is_or_does_is_refused() {
     );
 }
 
+/// The Beta function's ∫₀^π sinᵖ φ dφ, by the midpoint rule.
+fn sines(power: f64) -> f64 {
+    let steps = 200_000;
+    let width = std::f64::consts::PI / f64::from(steps);
+    let at = |i: i32| ((f64::from(i) + 0.5) * width).sin().powf(power);
+    (0..steps).map(at).sum::<f64>() * width
+}
+
+/// A full slot with straight teeth: the mean force of a power law has a closed form, c sin φ for the chip.
+#[test]
+fn a_material_of_the_handbook_is_milled_by_its_power_law() {
+    let folder = job();
+    let here = folder.path();
+    let (head, rest) = JOB.split_once("[material]").unwrap();
+    let (_, limits) = rest.split_once("[limits]").unwrap();
+    let kienzle = "[material]\nlaw = \"kienzle\"\nkt11_N_mm2 = 700\nkr11_N_mm2 = 300\nka11_N_mm2 = 90\n\
+                   mt = 0.25\nmr = 0.4\nma = 0.3\n";
+    let job =
+        format!("{head}{kienzle}[limits]{limits}").replace("helix_deg = 30.0", "helix_deg = 0.0");
+    std::fs::write(here.join("job.toml"), &job).unwrap();
+    let straight =
+        "# kind = \"path\"\nx_mm,y_mm,z_mm,i,j,k,rapid\n9,0,-2,0,0,1,0\n21,0,-2,0,0,1,0\n";
+    std::fs::write(here.join("slot.csv"), straight).unwrap();
+    let output = ident(here, &["mill", "job.toml", "--rigid", "--json"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    let course = json(here, &["mill", "job.toml", "--rigid"]);
+    let course = std::fs::read_to_string(here.join(course["course"].as_str().unwrap())).unwrap();
+    let rows = course
+        .lines()
+        .filter(|l| !l.starts_with('#') && !l.starts_with("time"));
+    let cells = rows.map(|l| {
+        l.split(',')
+            .map(|c| c.parse::<f64>().unwrap())
+            .collect::<Vec<_>>()
+    });
+    // at full feed, the tool wholly in the slot that it mills
+    let steady: Vec<Vec<f64>> = cells.filter(|c| (14.0..17.0).contains(&c[2])).collect();
+    let mean = |k: usize| steady.iter().map(|c| c[k]).sum::<f64>() / steady.len() as f64;
+    let chip = 3000.0 / 10000.0 / 2.0;
+    let force = |k: f64, m: f64| {
+        let [teeth, depth] = [2.0, 2.0];
+        teeth * depth / std::f64::consts::TAU * k * f64::powf(chip, 1.0 - m) * sines(2.0 - m)
+    };
+    let [along, left] = [-force(300.0, 0.4), force(700.0, 0.25)];
+    assert!((mean(5) / along - 1.0).abs() < 0.01, "{} {along}", mean(5));
+    assert!((mean(6) / left - 1.0).abs() < 0.01, "{} {left}", mean(6));
+    for (right, wrong, word) in [
+        ("\"kienzle\"", "\"taylor\"", "linear_edge"),
+        ("mt = 0.25", "mt = 25", "below 1"),
+        ("law = \"kienzle\"\n", "", "law"),
+    ] {
+        std::fs::write(here.join("job.toml"), job.replace(right, wrong)).unwrap();
+        let output = ident(here, &["mill", "--rigid", "job.toml"]);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains("job.toml:") && said.contains(word), "{said}");
+    }
+}
+
 fn near(a: &Value, b: &Value, share: f64) {
     let [a, b] = [a, b].map(|x| x.as_f64().unwrap());
     assert!((a - b).abs() <= share * b.abs(), "{a} {b}");

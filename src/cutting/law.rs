@@ -87,6 +87,15 @@ impl std::fmt::Debug for Material {
 }
 
 impl Material {
+    /// A law by the name of its card, the linear one where none has it, with its coefficients (SI).
+    pub fn of(law: &str, coefficients: &[f64]) -> Self {
+        let own = super::LAWS.iter().find(|l| l.card().name == law);
+        Self {
+            law: own.copied().unwrap_or(super::LINEAR_EDGE),
+            coefficients: coefficients.to_vec(),
+        }
+    }
+
     /// The linear law with its edge (Altintas) from the six numbers Ktc, Krc, Kac in N/mm² and Kte, Kre,
     /// Kae in N/mm.
     pub fn linear_edge(coefficients: [f64; 6]) -> Self {

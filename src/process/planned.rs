@@ -136,7 +136,7 @@ impl Planned {
         let Some(material) = &self.job.material else {
             return Vec::new();
         };
-        let values = material.cutting.iter().chain(&material.edge);
+        let values = material.coefficients.iter();
         let stds = values.zip(&material.ci95).map(|(value, ci95)| {
             let own = ci95.map(|[low, high]| (high - low) / (2.0 * Z95 * value.abs()));
             own.filter(|s| s.is_finite()).or(material.rel_std)

@@ -249,9 +249,7 @@ fn material(job: &Job) -> Outcome<Material> {
             "add [material], or `material = \"fits/<campaign>/...toml\"`",
         )
     })?;
-    let [tc, rc, ac] = material.cutting.map(|k| k * 1e-6);
-    let [te, re, ae] = material.edge.map(|k| k * 1e-3);
-    Ok(Material::linear_edge([tc, rc, ac, te, re, ae]))
+    Ok(Material::of(material.law, &material.coefficients))
 }
 
 fn stock(job: &Job, spacing: f64) -> Outcome<Stock> {

@@ -84,10 +84,7 @@ fn tool(cutter: &Cutter) -> Tool {
 }
 
 fn material(material: &job::Material) -> Material {
-    Material {
-        law: crate::cutting::LINEAR_EDGE,
-        coefficients: [material.cutting, material.edge].concat(),
-    }
+    Material::of(material.law, &material.coefficients)
 }
 
 fn of_modal(path: &Path, modal: &Modal) -> Case {

@@ -6,39 +6,68 @@ use crate::ground::problem::Outcome;
 use crate::measurement::keys::{Document, Keys};
 use std::path::{Path, PathBuf};
 
-/// Coefficients of the cutting force, `dF = (K_c h + K_e) da`, tangential, radial, axial.
+/// Coefficients of the cutting force, tangential, radial, axial.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     /// Its name.
     pub name: String,
-    /// `Ktc, Krc, Kac`, N/m².
-    pub cutting: [f64; 3],
-    /// `Kte, Kre, Kae`, N/m.
-    pub edge: [f64; 3],
+    /// The force law that they belong to, by the name of its card: `linear_edge` where the file states none.
+    pub law: &'static str,
+    /// The coefficients of the law in the order of its card, SI.
+    pub coefficients: [f64; 6],
     /// Relative standard deviation of each coefficient; `None`: not stated.
     pub rel_std: Option<f64>,
-    /// 95 % intervals of `Ktc, Krc, Kac` (N/m²) and `Kte, Kre, Kae` (N/m) where the file states them.
+    /// Their 95 % intervals where the file states them, SI.
     pub ci95: [Option<[f64; 2]>; 6],
 }
 
-/// The six coefficients with their intervals, and the factor to SI.
-const COEFFICIENTS: [(&str, &str, f64); 6] = [
-    ("Ktc_N_mm2", "Ktc_ci95_N_mm2", 1e6),
-    ("Krc_N_mm2", "Krc_ci95_N_mm2", 1e6),
-    ("Kac_N_mm2", "Kac_ci95_N_mm2", 1e6),
-    ("Kte_N_mm", "Kte_ci95_N_mm", 1e3),
-    ("Kre_N_mm", "Kre_ci95_N_mm", 1e3),
-    ("Kae_N_mm", "Kae_ci95_N_mm", 1e3),
+/// A coefficient, its interval, the factor to SI, and the most that it may be.
+type Key = (&'static str, &'static str, f64, f64);
+
+/// A force law as files name it, with its coefficients and where to look where one is impossible.
+struct Form {
+    law: &'static str,
+    keys: [Key; 6],
+    hard: &'static str,
+}
+
+/// Most that a coefficient may be, N/mm² and N/mm: the hardest that are cut have some ten thousand.
+const HARDEST: f64 = 1e6;
+/// Most that a force may fall with the chip: it would not fall with it altogether.
+const STEEPEST: f64 = 0.99;
+
+const FORMS: [Form; 2] = [
+    Form {
+        law: "linear_edge",
+        keys: [
+            ("Ktc_N_mm2", "Ktc_ci95_N_mm2", 1e6, HARDEST),
+            ("Krc_N_mm2", "Krc_ci95_N_mm2", 1e6, HARDEST),
+            ("Kac_N_mm2", "Kac_ci95_N_mm2", 1e6, HARDEST),
+            ("Kte_N_mm", "Kte_ci95_N_mm", 1e3, HARDEST),
+            ("Kre_N_mm", "Kre_ci95_N_mm", 1e3, HARDEST),
+            ("Kae_N_mm", "Kae_ci95_N_mm", 1e3, HARDEST),
+        ],
+        hard: "write it in N/mm² (edge: N/mm): steel has some 2000 and 30",
+    },
+    Form {
+        law: "kienzle",
+        keys: [
+            ("kt11_N_mm2", "kt11_ci95_N_mm2", 1e6, HARDEST),
+            ("kr11_N_mm2", "kr11_ci95_N_mm2", 1e6, HARDEST),
+            ("ka11_N_mm2", "ka11_ci95_N_mm2", 1e6, HARDEST),
+            ("mt", "mt_ci95", 1.0, STEEPEST),
+            ("mr", "mr_ci95", 1.0, STEEPEST),
+            ("ma", "ma_ci95", 1.0, STEEPEST),
+        ],
+        hard: "write k 1.1 in N/mm² (chips of 1 mm) and the fall m as a number below 1: steel has some 1700 and 0.25",
+    },
 ];
 
-/// Most that any coefficient may be, N/mm² and N/mm: the hardest that are cut have some ten thousand.
-const HARDEST: f64 = 1e6;
-const HARD: &str = "write it in N/mm² (edge: N/mm): steel has some 2000 and 30";
-
-/// What else a material may say; free, and for people, but for `name` and `rel_std`.
+/// What else a material may say; free, and for people, but for `name`, `law` and `rel_std`.
 const WORDS: &[&str] = &[
     "kind",
     "name",
+    "law",
     "rel_std",
     "source",
     "synthetic",
@@ -88,29 +117,53 @@ impl Material {
     }
 
     fn of_keys(keys: &Keys<'_>) -> Outcome<Self> {
-        let mut values = [0.0; 6];
+        let form = form(keys)?;
+        for (key, interval, ..) in others(form) {
+            if let Some(key) = [key, interval].into_iter().find(|key| keys.has(key)) {
+                let what = format!("is no coefficient of the law \"{}\"", form.law);
+                let help = "remove it, or state the `law` that it belongs to";
+                return Err(keys.problem(key, what, help));
+            }
+        }
+        let mut coefficients = [0.0; 6];
         let mut ci95 = [None; 6];
-        for (i, (key, interval, factor)) in COEFFICIENTS.iter().enumerate() {
-            let value = keys.judged(key, |k| k.abs() <= HARDEST, "no material's", HARD)?;
+        for (i, (key, interval, factor, most)) in form.keys.iter().enumerate() {
+            let value = keys.judged(key, |k| k.abs() <= *most, "no material's", form.hard)?;
             let example = format!("{key} = ...; 0.0 where it does not act");
-            values[i] = factor * value.ok_or_else(|| keys.missing(key, &example))?;
+            coefficients[i] = factor * value.ok_or_else(|| keys.missing(key, &example))?;
             ci95[i] = keys
                 .array::<2>(interval)?
                 .map(|ends| ends.map(|x| x * factor));
         }
-        let [ktc, krc, kac, kte, kre, kae] = values;
         Ok(Self {
             name: keys.text("name")?.unwrap_or("material").to_string(),
-            cutting: [ktc, krc, kac],
-            edge: [kte, kre, kae],
+            law: form.law,
+            coefficients,
             rel_std: rel_std(keys)?,
             ci95,
         })
     }
 }
 
+/// The law that is stated; that with an edge where none is.
+fn form(keys: &Keys<'_>) -> Outcome<&'static Form> {
+    let stated = keys.text("law")?.unwrap_or(FORMS[0].law);
+    let own = FORMS.iter().find(|form| form.law == stated);
+    own.ok_or_else(|| {
+        let known = FORMS.each_ref().map(|form| form.law).join("\" or \"");
+        keys.problem("law", "is no known force law", format!("write \"{known}\""))
+    })
+}
+
+/// Keys of the other laws.
+fn others(form: &Form) -> impl Iterator<Item = Key> {
+    let others = FORMS.iter().filter(|other| other.law != form.law);
+    others.flat_map(|other| other.keys)
+}
+
 fn known() -> Vec<&'static str> {
-    let coefficients = COEFFICIENTS.iter().flat_map(|(key, ci95, _)| [*key, *ci95]);
+    let keys = FORMS.iter().flat_map(|form| &form.keys);
+    let coefficients = keys.flat_map(|(key, ci95, ..)| [*key, *ci95]);
     coefficients.chain(WORDS.iter().copied()).collect()
 }
 
