@@ -76,6 +76,18 @@ fn a_hum_is_no_chatter() {
     }
 }
 
+/// What the straight line of a cause misses on its way is no second cause: a runout was named beside worn edges, a width
+/// and another channel's gain in the place of one gain.
+#[test]
+fn a_bend_is_no_companion() {
+    for (seed, name) in [
+        (46_400_025, "edge_coefficients"),
+        (46_400_024, "force_gain"),
+    ] {
+        assert_eq!(names(seed), [name], "{seed}");
+    }
+}
+
 /// A speed that is accounted for turns no tooth: the angles were sought again as if it were not, and a depth was named in the
 /// one, a drift in the other.
 #[test]

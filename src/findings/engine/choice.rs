@@ -7,7 +7,7 @@ use super::materiality::Materiality;
 use super::posterior::Posterior;
 use super::rest::Span;
 use super::search::Scored;
-use super::statement::Statement;
+use super::statement::{Experiment, Statement};
 use super::unseen::gains;
 use crate::findings::gain::Gain;
 
@@ -34,6 +34,31 @@ pub(super) fn material(
         matters || s.suspects.is_empty()
     };
     sets.into_iter().filter(|s| holds(s)).collect()
+}
+
+/// A set less what cannot be of its amounts: it stands for something that is uncertain anyway, and nobody is blamed for it.
+pub(super) fn possible(
+    experiment: &dyn Experiment,
+    bank: &Bank,
+    posterior: &Posterior,
+    set: Scored,
+) -> Scored {
+    let mut at = 0;
+    let can_be = |member: &usize| {
+        let (entry, own) = (&bank.entries[*member], bank.member(*member));
+        let mean = set.fit.posterior.mean.rows(at, own.columns.len());
+        at += own.columns.len();
+        let amounts: Vec<f64> = mean.iter().map(|m| m * entry.scale).collect();
+        experiment.can_be(bank.suspect(*member).effect, &own.shape, &amounts)
+    };
+    let kept: Vec<bool> = set.fit.members.iter().map(can_be).collect();
+    let mut each = kept.iter();
+    let mut suspects = set.suspects.clone();
+    suspects.retain(|_| *each.next().unwrap_or(&true));
+    match posterior.set(&suspects) {
+        Some(rest) if suspects.len() < set.suspects.len() => rest.clone(),
+        _ => set,
+    }
 }
 
 pub(super) fn nothing(posterior: &Posterior) -> Scored {

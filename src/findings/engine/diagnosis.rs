@@ -1,12 +1,13 @@
 //! The whole way: from a kind's statement to its answer.
 
 use super::bank::{Bank, Fit};
-use super::choice::{choose, drop_unreal, loses_to_structure, material, nothing, plain};
+use super::choice::{choose, drop_unreal, loses_to_structure, material, nothing, plain, possible};
 use super::judgement::Judgement;
 use super::leaves::{Leaves, Weighing};
 use super::materiality::raw_parts;
 use super::posterior::Posterior;
 use super::rest::{Span, explained};
+use super::rounds;
 use super::search::{Scored, search};
 use super::statement::{Blamed, Experiment, Statement};
 use super::told::answer;
@@ -14,7 +15,6 @@ use super::unseen;
 use super::verdict::name;
 use crate::findings::answer::{Answer, Verdict};
 use crate::findings::gain::Gain;
-use crate::ground::stats::rms;
 
 /// A finished diagnosis.
 #[derive(Debug, Clone)]
@@ -30,62 +30,30 @@ pub struct Found {
     /// What they leave, per row.
     pub left: Vec<f64>,
     /// Most probable amounts of the nuisances beside the causes.
-    uncertain: Vec<f64>,
+    pub(super) uncertain: Vec<f64>,
     /// The best set of causes whether or not they are named: what a kind that is not linear is stated about.
-    lead: Vec<Blamed>,
+    pub(super) lead: Vec<Blamed>,
     /// Evidence of every set that was compared, over that of no cause, no prior in it: (effect and site of
     /// each cause, ln E).
     pub evidence: Vec<(Vec<(&'static str, String)>, f64)>,
 }
 
-/// Rounds in which a kind that is not linear is stated anew about what was found.
-const ROUNDS: usize = 6;
-/// Change of what every cause adds, as a share of it, at which a round has arrived.
-const ARRIVED: f64 = 0.03;
-/// A round that leaves so much more than the best before went astray ...
-const ASTRAY: f64 = 1.15;
-/// ... and one that leaves so much more is not the answer, though a later one may be. Little more than a companion must
-/// gain (`Judgement::companion_gain`), so that a later round may drop one; at 1.15 a later round told structure
-/// where an earlier one had found the chatter (seed 434 of `tests/judge`).
-const WORSE: f64 = 1.02;
-
 /// Diagnoses.
 pub fn diagnose(experiment: &dyn Experiment, judgement: &Judgement) -> Found {
-    let mut last = stated(experiment, &[], &[]);
-    let mut found = about(experiment, &last, judgement);
-    if experiment.is_linear() || found.lead.is_empty() {
-        return found;
+    let first = stated(experiment, &[], &[]);
+    let found = about(experiment, &first, judgement);
+    match experiment.is_linear() || found.lead.is_empty() {
+        true => found,
+        false => rounds::settled(experiment, (first, found), judgement),
     }
-    let (missed, discrepancy) = (found.missed.clone(), found.answer.discrepancy.clone());
-    let (mut best, mut least) = (found.clone(), rms(&found.left));
-    for _ in 0..ROUNDS {
-        let statement = stated(experiment, &found.lead, &found.uncertain);
-        if experiment.is_settled(&last, &statement) {
-            break;
-        }
-        let next = about(experiment, &statement, judgement);
-        let left = rms(&next.left);
-        if left > ASTRAY * least {
-            break;
-        }
-        let arrived = is_same(&found.lead, &next.lead);
-        found = next;
-        if left <= WORSE * least {
-            best = found.clone();
-        }
-        least = least.min(left);
-        // stated about it, a cause that was found was none
-        if arrived || found.lead.is_empty() {
-            break;
-        }
-        last = statement;
-    }
-    (best.missed, best.answer.discrepancy) = (missed, discrepancy);
-    best
 }
 
 /// The statement without suspects that change nothing here: they have no column to be compared by.
-fn stated(experiment: &dyn Experiment, blamed: &[Blamed], uncertain: &[f64]) -> Statement {
+pub(super) fn stated(
+    experiment: &dyn Experiment,
+    blamed: &[Blamed],
+    uncertain: &[f64],
+) -> Statement {
     let mut statement = experiment.state_beside(blamed, uncertain);
     for suspect in &mut statement.suspects {
         suspect.members.retain(|m| !m.columns.is_empty());
@@ -94,15 +62,12 @@ fn stated(experiment: &dyn Experiment, blamed: &[Blamed], uncertain: &[f64]) -> 
     statement
 }
 
-fn is_same(a: &[Blamed], b: &[Blamed]) -> bool {
-    let near = |(x, y): (&Blamed, &Blamed)| {
-        let moved: Vec<f64> = x.part.iter().zip(&y.part).map(|(a, b)| a - b).collect();
-        x.effect == y.effect && x.site == y.site && rms(&moved) <= ARRIVED * rms(&y.part)
-    };
-    a.len() == b.len() && a.iter().zip(b).all(near)
-}
-
-fn about(experiment: &dyn Experiment, statement: &Statement, judgement: &Judgement) -> Found {
+/// The answer of one statement.
+pub(super) fn about(
+    experiment: &dyn Experiment,
+    statement: &Statement,
+    judgement: &Judgement,
+) -> Found {
     let mut bank = Bank::new(statement);
     let compared = search(&mut bank, judgement);
     let named = |s: &&Scored| s.suspects.iter().all(|s| bank.suspects[*s].named);
@@ -205,7 +170,7 @@ fn picked(
     let real = |posterior: &Posterior, set: &Scored| {
         drop_unreal(statement, bank, posterior, set.clone(), judgement)
     };
-    let mut chosen = choose(posterior, judgement);
+    let mut chosen = possible(experiment, bank, posterior, choose(posterior, judgement));
     let (mut set, mut gains) = real(posterior, &chosen);
     if loses_to_structure(bank, posterior, &set, weighing.span) {
         let is_scatter = |set: &Scored| experiment.is_scatter(&weighing.beside(&set.fit).0);

@@ -26,6 +26,7 @@ pub mod materiality;
 mod nuisances;
 mod posterior;
 pub mod rest;
+mod rounds;
 pub mod search;
 pub mod statement;
 mod told;

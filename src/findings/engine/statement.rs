@@ -226,6 +226,10 @@ pub trait Experiment: Sync {
     fn is_scatter(&self, _left: &[f64]) -> bool {
         false
     }
+    /// Whether a cause can be of these amounts: beyond what is uncertain of them anyway, and no larger than such a cause is.
+    fn can_be(&self, _effect: &str, _shape: &[f64], _amounts: &[f64]) -> bool {
+        true
+    }
     /// The parameters of a named cause: name, value SI, unit.
     fn parameters(&self, blamed: &Blamed) -> Vec<(&'static str, f64, &'static str)>;
     /// What would tell these rivals (effect, site) apart: a phrase.

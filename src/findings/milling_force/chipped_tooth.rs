@@ -36,3 +36,10 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 
 /// No chip is longer, µm.
 const MOST: f64 = 200.0;
+/// Nor shorter: every edge is round by some µm.
+const LEAST: f64 = 1.0;
+
+/// Whether so much of a tooth may be gone, µm.
+pub(super) fn is_broken(_shape: &[f64], amounts: &[f64]) -> bool {
+    amounts.iter().all(|a| a.abs() >= LEAST)
+}

@@ -21,6 +21,14 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     would_tell: "put a known force on the sensor along all axes",
 };
 
+/// No dynamometer shows more of a force on another axis, nor stands further aside (as a tangent).
+const MOST: f64 = 0.6;
+
+/// Whether a dynamometer may be so wrong.
+pub(super) fn is_small(_shape: &[f64], amounts: &[f64]) -> bool {
+    amounts.iter().all(|a| a.abs() <= MOST)
+}
+
 /// What a cross-talk adds to forces.
 pub(super) fn map(blamed: &Blamed) -> Option<M3> {
     if blamed.effect != EFFECT.name {

@@ -3,6 +3,7 @@
 
 use super::Case;
 use super::coefficients::{far, moved};
+use super::experiment as stated;
 use super::setting::Places;
 use crate::cutting::wave::Side;
 use crate::findings::engine::{Blamed, Member};
@@ -41,6 +42,17 @@ pub(super) const DEPTH: Effect<Case> = Effect {
 const STARTS: [f64; 6] = [-8e-4, -4e-4, -1.5e-4, 1.5e-4, 4e-4, 8e-4];
 /// No cut is farther from what is stated, m.
 const MOST: f64 = 3e-3;
+
+/// Spreads of a width as stated, beyond which it is wrong.
+const BEYOND: f64 = 2.0;
+
+/// Whether a width is off by more than what is uncertain of it anyway.
+pub(super) fn is_wrong_width(shape: &[f64], amounts: &[f64]) -> bool {
+    let most = shape[1..].iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    amounts
+        .iter()
+        .any(|a| (a * most).abs() > BEYOND * stated::WIDTH)
+}
 
 type PlaceOf = fn(&Places, usize) -> usize;
 

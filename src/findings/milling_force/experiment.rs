@@ -2,7 +2,7 @@
 
 use super::aim::Loose;
 use super::patterns::PATTERNS;
-use super::{Case, EFFECTS};
+use super::{Case, EFFECTS, chipped_tooth, cross_talk, engagement};
 use crate::cutting::wave::Side;
 use crate::experiments::milling_force::RUNOUT;
 use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, White};
@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 /// Relative spread of a spindle speed that is as stated.
 const SPEED: f64 = 5e-4;
 /// Spread of a width that is as stated, m.
-const WIDTH: f64 = 2e-5;
+pub(super) const WIDTH: f64 = 2e-5;
 /// Share of a stated runout within which it is as stated.
 const RUNOUT_SHARE: f64 = 0.15;
 /// Share of it by which its tip may stand aside: nobody states where it points.
@@ -44,6 +44,11 @@ impl Experiment for Case {
             },
             _ => super::anew::about(self, about),
         }
+    }
+
+    fn can_be(&self, effect: &str, shape: &[f64], amounts: &[f64]) -> bool {
+        let mut own = SIZES.iter().filter(|s| s.0 == effect);
+        own.all(|(_, can_be)| can_be(shape, amounts))
     }
 
     fn parameters(&self, blamed: &Blamed) -> Vec<(&'static str, f64, &'static str)> {
@@ -111,6 +116,13 @@ pub(super) const ROUGH: [(&str, f64); 12] = [
     ("force_gain", 0.02),
     ("cross_talk", 0.02),
     ("spindle_speed", 0.002),
+];
+
+/// Causes that can only be of some sizes.
+const SIZES: [(&str, fn(&[f64], &[f64]) -> bool); 3] = [
+    (engagement::WIDTH.name, engagement::is_wrong_width),
+    (cross_talk::EFFECT.name, cross_talk::is_small),
+    (chipped_tooth::EFFECT.name, chipped_tooth::is_broken),
 ];
 
 impl Case {
