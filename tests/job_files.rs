@@ -354,3 +354,23 @@ fn a_job_inside_a_workspace_finds_what_was_identified_there() {
         robot
     );
 }
+
+/// A law that the cut knows can be stated, with the keys and units of its card.
+#[test]
+fn a_material_takes_every_force_law() {
+    for law in ident::cutting::LAWS {
+        let card = law.card();
+        let lines = card
+            .coefficients
+            .iter()
+            .map(|c| format!("{} = 0.5\n", c.key));
+        let text = format!("law = \"{}\"\n{}", card.name, lines.collect::<String>());
+        let material = ident::measurement::job::Material::of_bytes(text.as_bytes()).unwrap();
+        assert_eq!(material.law, card.name);
+        for (value, c) in material.coefficients.iter().zip(card.coefficients) {
+            assert_eq!(*value, 0.5 * c.factor, "{}", c.key);
+        }
+        let read = ident::cutting::Material::of(material.law, &material.coefficients);
+        assert_eq!(read.law.card().name, card.name);
+    }
+}

@@ -145,6 +145,11 @@ fn a_material_of_the_handbook_is_milled_by_its_power_law() {
     let [along, left] = [-force(300.0, 0.4), force(700.0, 0.25)];
     assert!((mean(5) / along - 1.0).abs() < 0.01, "{} {along}", mean(5));
     assert!((mean(6) / left - 1.0).abs() < 0.01, "{} {left}", mean(6));
+    let lobes = |job: &str| {
+        std::fs::write(here.join("job.toml"), job).unwrap();
+        json(here, &["lobes", "job.toml", "--rpm", "9000:10000:1000"])["remarks"].to_string()
+    };
+    assert!(lobes(&job).contains("chip of 0.05 mm") && !lobes(JOB).contains("chip of"));
     for (right, wrong, word) in [
         ("\"kienzle\"", "\"taylor\"", "linear_edge"),
         ("mt = 0.25", "mt = 25", "below 1"),

@@ -1,6 +1,6 @@
 //! What vibrates: the modes of a file of kind modal, or the robot of a job at its start pose.
 
-use super::{Arguments, Case};
+use super::{Arguments, CHIP, Case};
 use crate::cutting::stability::TipMode;
 use crate::cutting::wave::Side;
 use crate::cutting::{Material, Tool};
@@ -105,17 +105,22 @@ fn of_modal(path: &Path, modal: &Modal) -> Case {
         width_m: modal.width,
         side: side(modal.side),
         spindle_rad_s: modal.cutter.spindle,
-        remarks: round_end(&modal.cutter),
+        remarks: counted(&modal.cutter, &material(&modal.material)),
     }
 }
 
-fn round_end(cutter: &Cutter) -> Vec<String> {
-    match cutter.corner_radius > 0.0 {
-        true => vec![
-            "The round end is counted as a square one: the limit is that of deeper cuts.".into(),
-        ],
-        false => Vec::new(),
-    }
+/// What is counted otherwise than it is.
+fn counted(cutter: &Cutter, material: &Material) -> Vec<String> {
+    let round = (cutter.corner_radius > 0.0).then(|| {
+        "The round end is counted as a square one: the limit is that of deeper cuts.".into()
+    });
+    let bent = (material.slope(CHIP) != material.slope(2.0 * CHIP)).then(|| {
+        let (law, chip) = (material.law.card().name, 1e3 * CHIP);
+        format!(
+            "The law {law} is straight at a chip of {chip} mm: thinner chips chatter at smaller depths, thicker ones at greater."
+        )
+    });
+    round.into_iter().chain(bent).collect()
 }
 
 /// The job planned, and the cut at each of its places, without modes yet.
@@ -140,7 +145,7 @@ fn of_job(arguments: &Arguments, job: &Job, inputs: Vec<(String, String)>) -> Ou
         width_m: width(arguments.width_mm, cutter)?,
         side: side(found.map_or(CutSide::Slot, |s| s.1)),
         spindle_rad_s: cutter.spindle,
-        remarks: round_end(cutter),
+        remarks: counted(cutter, &material(job.material()?)),
     })
 }
 

@@ -118,8 +118,11 @@ pub(super) const ROUGH: [(&str, f64); 12] = [
     ("spindle_speed", 0.002),
 ];
 
+/// Whether a cause of this shape can be of these amounts.
+type CanBe = fn(&[f64], &[f64]) -> bool;
+
 /// Causes that can only be of some sizes.
-const SIZES: [(&str, fn(&[f64], &[f64]) -> bool); 3] = [
+const SIZES: [(&str, CanBe); 3] = [
     (engagement::WIDTH.name, engagement::is_wrong_width),
     (cross_talk::EFFECT.name, cross_talk::is_small),
     (chipped_tooth::EFFECT.name, chipped_tooth::is_broken),
