@@ -8,7 +8,7 @@
 //!  9 report       text, HTML, SVG, JSON: ink for a sheet
 //!  8 findings     what the simulation gets wrong, and why    laboratory  known truth, hidden effects
 //!  7 fit          parameters, intervals, stored fits    causes    of the whole robot, ONE FILE EACH    process  robot and cut
-//!  6 inference    one descent, one linear-Gaussian update, statistics
+//!  6 inference    one descent, one linear-Gaussian update with its evidence
 //!  5 experiments  what a model says that a measurement should have shown    planning  a robot on a path
 //!  4 motion       kinematics, dynamics, statics, modes, FRFs    path  geometry and time of tool paths
 //!  3 robot        chain, springs, bodies, robot files

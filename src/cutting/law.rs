@@ -87,7 +87,8 @@ impl std::fmt::Debug for Material {
 }
 
 impl Material {
-    /// A law by the name of its card, the linear one where none has it, with its coefficients (SI).
+    /// A law by the name of its card, with its coefficients (SI, in the order of the card). The linear one where none has the
+    /// name: what a file may state is known to be among [`super::LAWS`] (`tests/job_files.rs`).
     pub fn of(law: &str, coefficients: &[f64]) -> Self {
         let own = super::LAWS.iter().find(|l| l.card().name == law);
         Self {

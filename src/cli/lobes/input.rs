@@ -117,7 +117,7 @@ fn counted(cutter: &Cutter, material: &Material) -> Vec<String> {
     let bent = (material.slope(CHIP) != material.slope(2.0 * CHIP)).then(|| {
         let (law, chip) = (material.law.card().name, 1e3 * CHIP);
         format!(
-            "The law {law} is straight at a chip of {chip} mm: thinner chips chatter at smaller depths, thicker ones at greater."
+            "The law {law} is taken as straight about a chip of {chip} mm: thinner chips chatter at smaller depths, thicker ones at greater."
         )
     });
     round.into_iter().chain(bent).collect()

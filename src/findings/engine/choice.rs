@@ -3,13 +3,14 @@
 
 use super::bank::Bank;
 use super::judgement::Judgement;
-use super::materiality::Materiality;
+use super::materiality::{Materiality, amounts};
 use super::posterior::Posterior;
 use super::rest::Span;
 use super::search::Scored;
 use super::statement::{Experiment, Statement};
 use super::unseen::gains;
 use crate::findings::gain::Gain;
+use nalgebra::DVector;
 
 /// Sets below the best that matters by more than this are not tried, nats.
 const HOPELESS: f64 = 60.0;
@@ -43,18 +44,14 @@ pub(super) fn possible(
     posterior: &Posterior,
     set: Scored,
 ) -> Scored {
-    let mut at = 0;
-    let can_be = |member: &usize| {
-        let (entry, own) = (&bank.entries[*member], bank.member(*member));
-        let mean = set.fit.posterior.mean.rows(at, own.columns.len());
-        at += own.columns.len();
-        let amounts: Vec<f64> = mean.iter().map(|m| m * entry.scale).collect();
-        experiment.can_be(bank.suspect(*member).effect, &own.shape, &amounts)
+    let amounts = amounts(bank, &set.fit);
+    let can_be = |(member, amounts): (&usize, &DVector<f64>)| {
+        let (effect, shape) = (bank.suspect(*member).effect, &bank.member(*member).shape);
+        experiment.can_be(effect, shape, amounts.as_slice())
     };
-    let kept: Vec<bool> = set.fit.members.iter().map(can_be).collect();
-    let mut each = kept.iter();
-    let mut suspects = set.suspects.clone();
-    suspects.retain(|_| *each.next().unwrap_or(&true));
+    let each = set.fit.members.iter().zip(&amounts).map(can_be);
+    let kept = set.suspects.iter().zip(each).filter(|(_, can_be)| *can_be);
+    let suspects: Vec<usize> = kept.map(|(suspect, _)| *suspect).collect();
     match posterior.set(&suspects) {
         Some(rest) if suspects.len() < set.suspects.len() => rest.clone(),
         _ => set,

@@ -163,7 +163,7 @@ fn all_of(fit: &Fit) -> Vec<usize> {
 }
 
 /// Amounts of every member, in units of its columns.
-fn amounts(bank: &Bank, fit: &Fit) -> Vec<DVector<f64>> {
+pub(super) fn amounts(bank: &Bank, fit: &Fit) -> Vec<DVector<f64>> {
     let mut at = 0;
     let each = fit.members.iter().map(|member| {
         let count = bank.member(*member).columns.len();

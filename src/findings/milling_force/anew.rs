@@ -15,7 +15,8 @@ use crate::ground::spatial::{M3, add};
 
 /// Rounds in which what is uncertain follows.
 const ROUNDS: usize = 2;
-/// No further than so many of its standard deviations, or where nothing is known of a coefficient, than this share of it.
+/// No further than so many of its standard deviations, or where nothing is known of a coefficient, than this share of it: short of
+/// what a single cause may count on (`aim::FARTHEST`), since here the whole statement moves. No other values were tried.
 const FARTHEST: f64 = 2.0;
 const SHARE: f64 = 0.7;
 /// Share of itself that a law may miss where coefficients follow what it leaves: a tremor, a resonance and a broken tooth

@@ -3,7 +3,7 @@
 
 use super::Case;
 use super::coefficients::{far, moved};
-use super::experiment as stated;
+use super::experiment::WIDTH_SPREAD;
 use super::setting::Places;
 use crate::cutting::wave::Side;
 use crate::findings::engine::{Blamed, Member};
@@ -43,7 +43,7 @@ const STARTS: [f64; 6] = [-8e-4, -4e-4, -1.5e-4, 1.5e-4, 4e-4, 8e-4];
 /// No cut is farther from what is stated, m.
 const MOST: f64 = 3e-3;
 
-/// Spreads of a width as stated, beyond which it is wrong.
+/// Spreads of a width as stated, beyond which it is wrong: the 95 % within which nothing is.
 const BEYOND: f64 = 2.0;
 
 /// Whether a width is off by more than what is uncertain of it anyway.
@@ -51,7 +51,7 @@ pub(super) fn is_wrong_width(shape: &[f64], amounts: &[f64]) -> bool {
     let most = shape[1..].iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     amounts
         .iter()
-        .any(|a| (a * most).abs() > BEYOND * stated::WIDTH)
+        .any(|a| (a * most).abs() > BEYOND * WIDTH_SPREAD)
 }
 
 type PlaceOf = fn(&Places, usize) -> usize;
