@@ -76,6 +76,7 @@ fn of(case: &dyn OnRobot, cause: &'static dyn Cause) -> Vec<Suspect> {
             members,
             named: true,
             law_error: 0.0,
+            can_be: |_, _| true,
         })
     };
     sites.into_iter().filter_map(suspect).collect()

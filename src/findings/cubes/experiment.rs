@@ -1,17 +1,10 @@
 //! The statement of a cubes test for the engine.
 
 use super::patterns::PATTERNS;
-use super::{Case, EFFECTS, floor, frame_motion, loose_cube};
+use super::{Case, EFFECTS, floor};
 use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, White};
 use crate::findings::physics;
 use crate::findings::table;
-
-/// A frame that shifts in every test turns as well, by some tenths of it; what a loose cube follows is no neighbour
-/// alone.
-const ROUGH: [(&str, f64); 2] = [
-    (frame_motion::EFFECT.name, 0.3),
-    (loose_cube::EFFECT.name, 0.05),
-];
 
 impl Experiment for Case {
     fn unit(&self) -> &'static str {
@@ -41,7 +34,7 @@ impl Experiment for Case {
 
     fn state(&self, _: &[Blamed]) -> Statement {
         let mut suspects = floor::suspects(self);
-        suspects.extend(table::rough(table::suspects(EFFECTS, self), &ROUGH));
+        suspects.extend(table::suspects(EFFECTS, self));
         suspects.extend(table::patterns(PATTERNS, self));
         let known = self
             .robot

@@ -8,6 +8,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "force_gain",
     summary: "The load reads too much or too little: every cube moves by one factor more or less.",
     mechanism: "load",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| {
         let more = case.under(case.about.gain() + TRIED, case.about.turn());
         let column = more.iter().map(|x| x / TRIED).collect();

@@ -9,6 +9,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "load_misalignment",
     summary: "The load points elsewhere than it is said to, in the base frame.",
     mechanism: "load",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| vec![Place::new("sensor", members(case))],
     parameters: |_, blamed| {
         let size = blamed.amounts.iter().map(|x| x * x).sum::<f64>().sqrt();

@@ -9,6 +9,9 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "loose_cube",
     summary: "A cube does not move with its link: it follows its neighbour by a share, or slips.",
     mechanism: "loose_cube",
+    // what a loose cube follows is no neighbour alone
+    law_error: 0.05,
+    can_be: |_, _| true,
     places: |case| {
         (0..case.test.facts.cubes.len())
             .map(|cube| {

@@ -32,6 +32,8 @@ const fn effect(
         name,
         summary,
         mechanism: name,
+        law_error: 0.0,
+        can_be: |_, _| true,
         places,
         parameters,
         would_tell: "put a cube on either side of it",

@@ -7,7 +7,7 @@ use super::materiality::{Materiality, amounts};
 use super::posterior::Posterior;
 use super::rest::Span;
 use super::search::Scored;
-use super::statement::{Experiment, Statement};
+use super::statement::Statement;
 use super::unseen::gains;
 use crate::findings::gain::Gain;
 use nalgebra::DVector;
@@ -38,16 +38,10 @@ pub(super) fn material(
 }
 
 /// A set less what cannot be of its amounts: it stands for something that is uncertain anyway, and nobody is blamed for it.
-pub(super) fn possible(
-    experiment: &dyn Experiment,
-    bank: &Bank,
-    posterior: &Posterior,
-    set: Scored,
-) -> Scored {
+pub(super) fn possible(bank: &Bank, posterior: &Posterior, set: Scored) -> Scored {
     let amounts = amounts(bank, &set.fit);
     let can_be = |(member, amounts): (&usize, &DVector<f64>)| {
-        let (effect, shape) = (bank.suspect(*member).effect, &bank.member(*member).shape);
-        experiment.can_be(effect, shape, amounts.as_slice())
+        (bank.suspect(*member).can_be)(&bank.member(*member).shape, amounts.as_slice())
     };
     let each = set.fit.members.iter().zip(&amounts).map(can_be);
     let kept = set.suspects.iter().zip(each).filter(|(_, can_be)| *can_be);

@@ -39,5 +39,5 @@ mod tests;
 pub use diagnosis::{Found, diagnose};
 pub use judgement::Judgement;
 pub use statement::{
-    Blamed, Experiment, Member, Noise, Nuisance, Remaining, Statement, Suspect, White,
+    Blamed, CanBe, Experiment, Member, Noise, Nuisance, Remaining, Statement, Suspect, White,
 };

@@ -3,6 +3,7 @@
 use super::diagnosis::{Found, about, stated};
 use super::judgement::Judgement;
 use super::statement::{Blamed, Experiment, Statement, Suspect};
+use crate::findings::answer::Discrepancy;
 use crate::ground::stats::rms;
 
 /// Rounds in which a kind that is not linear is stated anew about what was found.
@@ -34,7 +35,13 @@ pub(super) fn settled(
     while let Some(simpler) = simpler(experiment, &best, judgement) {
         best = simpler;
     }
-    (best.missed, best.answer.discrepancy) = (told.missed, told.answer.discrepancy);
+    // what is missed is that of the simulation as it was; the noise is what stays beside what was found
+    let noise_rms = best.answer.discrepancy.noise_rms;
+    best.missed = told.missed;
+    best.answer.discrepancy = Discrepancy {
+        noise_rms,
+        ..told.answer.discrepancy
+    };
     best
 }
 

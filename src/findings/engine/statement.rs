@@ -111,8 +111,11 @@ impl Member {
     }
 }
 
+/// Whether a cause can be of this shape and of these amounts.
+pub type CanBe = fn(&[f64], &[f64]) -> bool;
+
 /// Who may be to blame: an effect at a site, in any of its shapes.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Suspect {
     /// Name of the effect.
     pub effect: &'static str,
@@ -132,6 +135,9 @@ pub struct Suspect {
     /// Share of its own size by which its law may miss nature: a companion must be above that. 0 where
     /// [`Judgement::share`](super::Judgement::share) says enough.
     pub law_error: f64,
+    /// Whether it can be of a shape and amounts (units of the columns): beyond what is uncertain of it anyway, and no larger
+    /// than such a cause is.
+    pub can_be: CanBe,
 }
 
 /// The linear statement of a diagnosis: reading = nuisances + causes + noise.
@@ -225,10 +231,6 @@ pub trait Experiment: Sync {
     /// asked for. Kinds whose readings have no neighbours cannot say.
     fn is_scatter(&self, _left: &[f64]) -> bool {
         false
-    }
-    /// Whether a cause can be of these amounts: beyond what is uncertain of them anyway, and no larger than such a cause is.
-    fn can_be(&self, _effect: &str, _shape: &[f64], _amounts: &[f64]) -> bool {
-        true
     }
     /// The parameters of a named cause: name, value SI, unit.
     fn parameters(&self, blamed: &Blamed) -> Vec<(&'static str, f64, &'static str)>;

@@ -75,6 +75,7 @@ impl Experiment for Toy {
             members,
             named: true,
             law_error: 0.0,
+            can_be: |_, _| true,
         };
         let cosine = |k: usize, i: usize| {
             (std::f64::consts::PI * k as f64 * (i as f64 + 0.5) / rows as f64).cos() / k as f64

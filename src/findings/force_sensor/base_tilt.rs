@@ -9,6 +9,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "base_tilt",
     summary: "The base of the robot is not level.",
     mechanism: "tilt",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| {
         let column = |k: usize| case.parameter(13 + k);
         let single = (0..2).map(|k| Member::free(column(k)).shaped(&[k as f64]));

@@ -9,6 +9,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "centre_of_mass",
     summary: "The centre of mass lies elsewhere than it is said to.",
     mechanism: "centre",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| match case.stated[1] {
         true => vec![Place::new("tool", members(case))],
         false => Vec::new(),

@@ -9,6 +9,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "cross_talk",
     summary: "A force along one axis of the sensor shows on another.",
     mechanism: "cross-talk",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| vec![Place::new("sensor", members(case))],
     parameters: |_, blamed| {
         vec![

@@ -1,7 +1,7 @@
 //! The statement of a force-sensor test for the engine.
 
 use super::patterns::PATTERNS;
-use super::{Case, EFFECTS, hose_force, thermal_drift};
+use super::{Case, EFFECTS};
 use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, White};
 use crate::findings::table;
 use crate::fit::force_sensor::remainder::terms;
@@ -10,12 +10,6 @@ use crate::fit::force_sensor::remainder::terms;
 const USUAL: f64 = 0.01;
 /// Centres are known to this at best, m.
 const PLACE: f64 = 5e-4;
-
-/// What the shapes of a hose and of a drift miss of any hose and any drift.
-const ROUGH: [(&str, f64); 2] = [
-    (hose_force::EFFECT.name, 0.15),
-    (thermal_drift::EFFECT.name, 0.06),
-];
 
 impl Experiment for Case {
     fn unit(&self) -> &'static str {
@@ -45,7 +39,7 @@ impl Experiment for Case {
             }),
             nuisances: self.nuisances(),
             suspects: [
-                table::rough(table::suspects(EFFECTS, self), &ROUGH),
+                table::suspects(EFFECTS, self),
                 table::patterns(PATTERNS, self),
             ]
             .concat(),

@@ -8,6 +8,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "force_gain",
     summary: "One axis of the sensor reads too much or too little.",
     mechanism: "calibration",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| {
         (0..3)
             .map(|k| Place::new(["sensor-x", "sensor-y", "sensor-z"][k], members(case, k)))

@@ -13,6 +13,9 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "hose_force",
     summary: "A hose or cable pulls on the tool, smoothly over the orientation.",
     mechanism: "hose",
+    // what its shapes miss of any hose
+    law_error: 0.15,
+    can_be: |_, _| true,
     places: |case| vec![Place::new("tool", members(case))],
     parameters: |case, blamed| {
         let square = |i: usize| (0..3).map(|c| blamed.part[6 * i + c].powi(2)).sum::<f64>();

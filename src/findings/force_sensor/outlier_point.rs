@@ -11,6 +11,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "outlier_point",
     summary: "One orientation does not fit the others.",
     mechanism: "outlier",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| {
         let place =
             |(at, name): (usize, &i64)| Place::new(format!("point{name}"), members(case, at));

@@ -9,6 +9,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "sensor_offset",
     summary: "The sensor reads a constant where there is no load.",
     mechanism: "offset",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| {
         let axis = |k: usize| {
             Place::new(

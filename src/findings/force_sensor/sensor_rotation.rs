@@ -9,6 +9,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "sensor_rotation",
     summary: "The sensor is mounted turned about its own axes.",
     mechanism: "turn",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| vec![Place::new("sensor", members(case))],
     parameters: |_, blamed| {
         const NAMES: [&str; 3] = ["rotation_x", "rotation_y", "rotation_z"];

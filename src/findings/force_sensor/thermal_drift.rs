@@ -9,6 +9,9 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "thermal_drift",
     summary: "The zero of the sensor drifts during the test.",
     mechanism: "drift",
+    // what its shapes miss of any drift
+    law_error: 0.06,
+    can_be: |_, _| true,
     places: |case| vec![Place::new("sensor", members(case))],
     parameters: |case, blamed| {
         // from the first reading to the last

@@ -21,6 +21,8 @@ pub(super) const EFFECT: Effect<Joint> = Effect {
     name: "backlash",
     summary: "A free gap in the gear: the link is loose while the torque changes sign.",
     mechanism: "contact",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |joint| {
         let transmitted = joint.friction.less(&joint.data, &joint.geared);
         let scale = largest(&joint.geared);

@@ -34,6 +34,8 @@ pub(super) const EFFECT: Effect<Joint> = Effect {
     name: "coulomb_friction",
     summary: "Dry friction between motor and spring takes torque that never reaches the link.",
     mechanism: "dry friction",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |joint| {
         let top = joint.data.top_speed().max(f64::MIN_POSITIVE);
         let speed = &joint.data.speed;

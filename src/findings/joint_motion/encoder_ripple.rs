@@ -10,6 +10,8 @@ pub(super) const EFFECT: Effect<Joint> = Effect {
     name: "encoder_ripple",
     summary: "An encoder errs periodically over its turn.",
     mechanism: "period",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |joint| vec![Place::new(&joint.site, members(joint, true))],
     parameters: |_, blamed| {
         vec![

@@ -21,6 +21,8 @@ pub(super) const EFFECT: Effect<Joint> = Effect {
     name: "hysteresis",
     summary: "The gear gives and takes back on different curves.",
     mechanism: "dry friction",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |joint| vec![Place::new(&joint.site, loops(joint))],
     parameters: |_, blamed| vec![("width", 2.0 * blamed.amounts[0], "rad")],
     would_tell: "change the load at rest, slowly and in both directions: hysteresis follows the direction of the load, friction of the drive that of the motion",

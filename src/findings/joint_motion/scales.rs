@@ -17,6 +17,8 @@ pub(super) const STIFFNESS: Effect<Joint> = Effect {
     name: "stiffness",
     summary: "The stiffness that the simulation uses is not the joint's.",
     mechanism: "spring",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |_| Vec::new(),
     parameters: |_, _| Vec::new(),
     would_tell: super::remarks::FOR_STIFFNESS,

@@ -9,6 +9,8 @@ pub(super) const EFFECT: Effect<Joint> = Effect {
     name: "sensor_offset",
     summary: "The zero of an encoder is off, or jumps.",
     mechanism: "zero",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |joint| {
         let members = joint.jumps.iter().map(|row| jump(joint, *row));
         vec![Place::new(&joint.site, members.collect())]

@@ -9,6 +9,8 @@ pub(super) const EFFECT: Effect<Joint> = Effect {
     name: "time_skew",
     summary: "The encoders of motor and link are not read at the same instant.",
     mechanism: "instants",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |joint| {
         let late = joint.column(|i| -joint.data.speed[i]);
         match joint.data.top_speed() > 0.0 {

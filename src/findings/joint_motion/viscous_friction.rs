@@ -9,6 +9,8 @@ pub(super) const EFFECT: Effect<Joint> = Effect {
     name: "viscous_friction",
     summary: "Friction in proportion to the speed takes torque that never reaches the link.",
     mechanism: "viscous friction",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |joint| {
         let speed = Member::free(joint.data.speed.clone()).positive();
         match joint.data.top_speed() > 0.0 {

@@ -24,7 +24,7 @@ const DRAWN: usize = 4;
 /// noise). Set on seeds 201 to 204 of `tests/judge`.
 const NOISE_BEYOND: [f64; 2] = [1.7, 2.5];
 /// Share of all that is named below which a cause is none, whatever the laws of the others miss
-/// (`findings/milling_force`, `ROUGH`): a zero of the sensor is plain beside a speed that shifts every wave. Set on seeds
+/// (`Effect::law_error`): a zero of the sensor is plain beside a speed that shifts every wave. Set on seeds
 /// 401 to 405 of `tests/judge`, with 0.03 and 0.09 tried.
 const LEAST_SHARE: f64 = 0.005;
 /// Points over time that are drawn.

@@ -183,6 +183,7 @@ fn anonymous(member: &Member) -> Suspect {
         members: vec![member.clone()],
         named: true,
         law_error: 0.0,
+        can_be: |_, _| true,
     }
 }
 

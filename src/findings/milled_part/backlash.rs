@@ -11,6 +11,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "backlash",
     summary: "A drive has play: its link changes the flank where the joint turns back or its load changes sign.",
     mechanism: "backlash",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| {
         let joints = case.setup.robot.joints.iter().enumerate();
         joints

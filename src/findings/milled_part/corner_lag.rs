@@ -11,6 +11,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "corner_lag",
     summary: "The controller rounds the corners of the path.",
     mechanism: "controller",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| vec![Place::new("controller", members(case))],
     parameters: |_, blamed| {
         let (name, unit) = match blamed.shape[1] as usize {

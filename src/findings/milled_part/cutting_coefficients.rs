@@ -9,6 +9,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "cutting_coefficients",
     summary: "The material cuts harder or easier than stated.",
     mechanism: "force",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| vec![Place::new("material", members(case))],
     parameters: |_, blamed| vec![("relative_change", blamed.amounts[0], "1")],
     would_tell: "record the force of the cut (`ident force`)",

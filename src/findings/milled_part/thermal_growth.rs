@@ -10,6 +10,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "thermal_growth",
     summary: "Robot or spindle grow while they warm up: the error drifts over the time of the job.",
     mechanism: "drift",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| {
         vec![
             Place::new("spindle", CONSTANTS.map(|c| spindle(case, c)).into()),

@@ -9,6 +9,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "tool_radius",
     summary: "The tool is larger or smaller than stated.",
     mechanism: "tool",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| vec![Place::new("tool", members(case))],
     parameters: |_, blamed| vec![("radius_error", blamed.amounts[0], "m")],
     would_tell: "measure the tool, or probe walls on both sides of the feed",

@@ -9,6 +9,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "workpiece_offset",
     summary: "The workpiece stands elsewhere than the job says.",
     mechanism: "datum",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| vec![Place::new("workpiece", members(case))],
     parameters: |_, blamed| {
         let names = ["x", "y", "z"].iter();

@@ -10,6 +10,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "workpiece_rotation",
     summary: "The workpiece is turned against the frame of the job.",
     mechanism: "datum",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| vec![Place::new("workpiece", members(case))],
     parameters: |_, blamed| {
         let axes: &[&str] = match blamed.amounts.len() {

@@ -2,7 +2,6 @@
 //! what is not linear, and what a sensor makes of it, comes out right.
 
 use super::direction::Direction;
-use super::experiment::ROUGH;
 use super::patterns::PATTERNS;
 use super::setting::PROCESS;
 use super::{
@@ -53,7 +52,6 @@ pub(super) fn about(case: &Case, blamed: &[Blamed]) -> Statement {
         add_to(reading, &without.forces(), -1.0);
     }
     let mut suspects: Vec<Suspect> = EFFECTS.iter().flat_map(|e| anew.suspects(e)).collect();
-    suspects = table::rough(suspects, &ROUGH);
     suspects.extend(table::patterns(
         PATTERNS,
         anew.still.as_ref().unwrap_or(&anew.all),
@@ -131,8 +129,8 @@ impl Anew {
 
 /// Whether a law misses so much of itself that coefficients would follow its error.
 fn misses_much(blamed: &Blamed) -> bool {
-    let mut own = ROUGH.iter().filter(|r| r.0 == blamed.effect);
-    own.any(|r| r.1 > MISSED)
+    let mut own = EFFECTS.iter().filter(|e| e.name == blamed.effect);
+    own.any(|e| e.law_error > MISSED)
 }
 
 /// Moves coefficients and widths to where they fit best beside what was found: a wrong width makes wrong coefficients,

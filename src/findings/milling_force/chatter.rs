@@ -13,6 +13,9 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "chatter",
     summary: "The cut chatters at a frequency that is no harmonic of the spindle.",
     mechanism: "chatter",
+    // a tremor has no single direction or frequency
+    law_error: 0.09,
+    can_be: |_, _| true,
     places: |case| vec![Place::new("tool", members(case))],
     parameters: |_, blamed| {
         let square: f64 = blamed.amounts.iter().map(|a| a * a).sum();

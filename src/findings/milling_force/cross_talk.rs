@@ -10,6 +10,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "cross_talk",
     summary: "A force along one axis of the sensor shows on another.",
     mechanism: "calibration",
+    law_error: 0.02,
+    can_be: is_small,
     places: |case| vec![Place::new("sensor", members(case))],
     parameters: |_, blamed| {
         vec![
@@ -21,7 +23,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     would_tell: "put a known force on the sensor along all axes",
 };
 
-/// No dynamometer shows more of a force on another axis, nor stands further aside (as a tangent).
+/// No dynamometer shows more of a force on another axis, nor stands further aside (as a tangent). One of 0.8 was named beside
+/// another cause on seeds 461 to 464 of `tests/judge`.
 const MOST: f64 = 0.6;
 
 /// Whether a dynamometer may be so wrong.

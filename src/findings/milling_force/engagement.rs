@@ -13,6 +13,8 @@ pub(super) const WIDTH: Effect<Case> = Effect {
     name: "width_of_cut",
     summary: "The cut is wider or narrower than stated.",
     mechanism: "width",
+    law_error: 0.03,
+    can_be: is_wrong_width,
     places: |case| {
         let is_slot = |c: usize| case.cuts()[c].present.scene.cut.side == Side::Slot;
         let cuts: Vec<usize> = (0..case.cuts().len()).filter(|c| !is_slot(*c)).collect();
@@ -29,6 +31,9 @@ pub(super) const DEPTH: Effect<Case> = Effect {
     name: "depth_of_cut",
     summary: "The cut is deeper or shallower than stated.",
     mechanism: "depth",
+    // a depth and a coefficient nearly are each other
+    law_error: 0.06,
+    can_be: |_, _| true,
     places: |case| {
         let cuts: Vec<usize> = (0..case.cuts().len()).collect();
         let stated = |c: usize| case.cuts()[c].present.scene.cut.depth_m;
@@ -43,7 +48,8 @@ const STARTS: [f64; 6] = [-8e-4, -4e-4, -1.5e-4, 1.5e-4, 4e-4, 8e-4];
 /// No cut is farther from what is stated, m.
 const MOST: f64 = 3e-3;
 
-/// Spreads of a width as stated, beyond which it is wrong: the 95 % within which nothing is.
+/// Spreads of a width as stated, beyond which it is wrong: the 95 % within which nothing is. One of 15 µm was named beside another
+/// cause on seeds 461 to 464 of `tests/judge`.
 const BEYOND: f64 = 2.0;
 
 /// Whether a width is off by more than what is uncertain of it anyway.

@@ -2,7 +2,7 @@
 
 use super::aim::Loose;
 use super::patterns::PATTERNS;
-use super::{Case, EFFECTS, chipped_tooth, cross_talk, engagement};
+use super::{Case, EFFECTS};
 use crate::cutting::wave::Side;
 use crate::experiments::milling_force::RUNOUT;
 use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, White};
@@ -36,7 +36,7 @@ impl Experiment for Case {
         match about {
             [] => Statement {
                 suspects: [
-                    table::rough(table::suspects(EFFECTS, self), &ROUGH),
+                    table::suspects(EFFECTS, self),
                     table::patterns(PATTERNS, self),
                 ]
                 .concat(),
@@ -44,11 +44,6 @@ impl Experiment for Case {
             },
             _ => super::anew::about(self, about),
         }
-    }
-
-    fn can_be(&self, effect: &str, shape: &[f64], amounts: &[f64]) -> bool {
-        let mut own = SIZES.iter().filter(|s| s.0 == effect);
-        own.all(|(_, can_be)| can_be(shape, amounts))
     }
 
     fn parameters(&self, blamed: &Blamed) -> Vec<(&'static str, f64, &'static str)> {
@@ -98,36 +93,6 @@ impl Experiment for Case {
         }
     }
 }
-
-/// Shares of its own size by which the law of a cause misses nature, and so what a companion must stand out of: a tremor
-/// has no single direction or frequency, what carries a sensor more than one mode, a drift no formula, a broken tooth
-/// no straight edge; a depth and a coefficient nearly are each other. A speed shifts waves without changing them, and
-/// what an instrument does to a reading is a number. Set on seeds 401 to 405 of `tests/judge`.
-pub(super) const ROUGH: [(&str, f64); 12] = [
-    ("chatter", 0.09),
-    ("sensor_resonance", 0.09),
-    ("chipped_tooth", 0.09),
-    ("depth_of_cut", 0.06),
-    ("thermal_drift", 0.05),
-    ("width_of_cut", 0.03),
-    ("cutting_coefficients", 0.03),
-    ("edge_coefficients", 0.03),
-    ("runout", 0.03),
-    ("force_gain", 0.02),
-    ("cross_talk", 0.02),
-    ("spindle_speed", 0.002),
-];
-
-/// Whether a cause of this shape can be of these amounts.
-type CanBe = fn(&[f64], &[f64]) -> bool;
-
-/// Causes that can only be of some sizes. Set on four files of seeds 461 to 464 of `tests/judge` whose second cause was a width of
-/// some 15 µm, a tooth 0.2 µm short or a cross-talk of 0.8.
-const SIZES: [(&str, CanBe); 3] = [
-    (engagement::WIDTH.name, engagement::is_wrong_width),
-    (cross_talk::EFFECT.name, cross_talk::is_small),
-    (chipped_tooth::EFFECT.name, chipped_tooth::is_broken),
-];
 
 impl Case {
     /// The statement without anybody to blame.

@@ -11,6 +11,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "force_gain",
     summary: "The sensor reads too much or too little.",
     mechanism: "calibration",
+    law_error: 0.02,
+    can_be: |_, _| true,
     places: |case| {
         let axes = (0..3).map(|k| Place::new(SITES[k], vec![member(case, &[k])]));
         let all = Place::new("sensor", vec![member(case, &[0, 1, 2])]);

@@ -13,6 +13,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "runout",
     summary: "The tool turns about another axis than its own: its teeth take unequal chips.",
     mechanism: "teeth",
+    law_error: 0.03,
+    can_be: |_, _| true,
     places: |case| {
         if case.places().teeth < 2 {
             return Vec::new();

@@ -11,6 +11,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "sensor_offset",
     summary: "The sensor reads a constant where there is no force.",
     mechanism: "offset",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| {
         let axes = (0..3).map(|k| Place::new(SITES[k], vec![member(case, &[k])]));
         let all = Place::new("sensor", vec![member(case, &[0, 1, 2])]);

@@ -14,6 +14,9 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "sensor_resonance",
     summary: "The sensor rings: it magnifies forces near its own frequency.",
     mechanism: "resonance",
+    // what carries a sensor has more than one mode
+    law_error: 0.09,
+    can_be: |_, _| true,
     places: |case| vec![Place::new("sensor", members(case))],
     parameters: |_, blamed| {
         let mut told = vec![

@@ -10,6 +10,9 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "spindle_speed",
     summary: "The spindle turns at another speed than stated.",
     mechanism: "speed",
+    // it shifts waves and does not change them
+    law_error: 0.002,
+    can_be: |_, _| true,
     places: |case| {
         let places = case.places();
         let of = |cuts: std::ops::Range<usize>| {

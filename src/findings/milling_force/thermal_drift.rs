@@ -10,6 +10,9 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "thermal_drift",
     summary: "The zero of the sensor drifts during the cuts.",
     mechanism: "drift",
+    // no drift is a formula
+    law_error: 0.05,
+    can_be: |_, _| true,
     places: |case| vec![Place::new("sensor", members(case))],
     parameters: |_, blamed| {
         // every column has come to one at the end; those of one axis follow one another

@@ -8,6 +8,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "backlash",
     summary: "The ways forth and back differ by a constant: lost motion between screw and nut.",
     mechanism: "lost motion",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| {
         let members = match case.both_ways() {
             true => vec![Member::free(case.side.clone())],

@@ -11,6 +11,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "cyclic_error",
     summary: "The error repeats with every turn of the screw.",
     mechanism: "turn",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| vec![Place::new("screw", members(case))],
     parameters: |_, blamed| {
         vec![

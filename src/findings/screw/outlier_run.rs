@@ -9,6 +9,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "outlier_run",
     summary: "One run lies beside the others.",
     mechanism: "run",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| {
         let runs = case.runs();
         match runs.len() {

@@ -8,6 +8,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "pitch_scale",
     summary: "The error grows in proportion to the travel: the pitch is not the one that is stated.",
     mechanism: "pitch",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| {
         let column = case.column(|i| case.at[i]);
         vec![Place::new("screw", vec![Member::free(column)])]

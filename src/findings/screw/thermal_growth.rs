@@ -10,6 +10,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "thermal_growth",
     summary: "The screw grows while it warms up: the error drifts, in proportion to the distance from the fixed bearing.",
     mechanism: "drift",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| vec![Place::new("screw", members(case))],
     parameters: |case, blamed| {
         let [growth, shift] = match blamed.shape.len() {

@@ -10,6 +10,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     name: "wear_zone",
     summary: "A zone of the travel is worn: error or lost motion have a bump there.",
     mechanism: "wear",
+    law_error: 0.0,
+    can_be: |_, _| true,
     places: |case| vec![Place::new("screw", members(case))],
     parameters: |case, blamed| {
         let [centre, width] = [blamed.shape[0], blamed.shape[1]];

@@ -112,5 +112,6 @@ fn suspect(
         members,
         named: true,
         law_error: 0.0,
+        can_be: |_, _| true,
     })
 }
