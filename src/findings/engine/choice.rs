@@ -6,7 +6,7 @@ use super::judgement::Judgement;
 use super::materiality::{Materiality, amounts};
 use super::posterior::Posterior;
 use super::rest::Span;
-use super::search::Scored;
+use super::search::{Scored, price};
 use super::statement::Statement;
 use super::unseen::gains;
 use crate::findings::gain::Gain;
@@ -147,11 +147,16 @@ pub(super) fn drop_unreal(
             .collect::<Vec<_>>();
         set = match (posterior.set(&suspects), bank.fit(&members)) {
             (Some(less), _) => less.clone(),
-            (None, Some(fit)) => Scored {
-                suspects,
-                fit,
-                score: 0.0,
-            },
+            (None, Some(fit)) => {
+                let price = price(bank, &members, judgement);
+                let gained =
+                    fit.posterior.ln_evidence - nothing(posterior).fit.posterior.ln_evidence;
+                Scored {
+                    suspects,
+                    fit,
+                    score: gained - price,
+                }
+            }
             (None, None) => nothing(posterior),
         };
     }
@@ -163,12 +168,13 @@ pub(super) fn loses_to_structure(
     posterior: &Posterior,
     set: &Scored,
     span: Option<&Span>,
+    judgement: &Judgement,
 ) -> bool {
     let Some(span) = span.filter(|_| set.suspects.len() > 1) else {
         return false;
     };
     let empty = nothing(posterior).fit;
-    let price = set.fit.posterior.ln_evidence - empty.posterior.ln_evidence - set.score;
+    let price = price(bank, &set.fit.members, judgement);
     let with = span.best(bank, &set.fit) - set.fit.beyond;
     with - price < span.best(bank, &empty) - empty.beyond
 }

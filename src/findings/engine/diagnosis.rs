@@ -172,7 +172,7 @@ fn picked(
     };
     let mut chosen = possible(bank, posterior, choose(posterior, judgement));
     let (mut set, mut gains) = real(posterior, &chosen);
-    if loses_to_structure(bank, posterior, &set, weighing.span) {
+    if loses_to_structure(bank, posterior, &set, weighing.span, judgement) {
         let is_scatter = |set: &Scored| experiment.is_scatter(&weighing.beside(&set.fit).0);
         chosen = plain(posterior, is_scatter)
             .map(|set| possible(bank, posterior, set))
@@ -183,7 +183,7 @@ fn picked(
     let leaves = weighing.leaves(&set, story);
     let kept = Picked { set, gains, leaves };
     match kept.leaves.rest.is_left || !experiment.has_rough_laws() {
-        true => needed(weighing, posterior, chosen, &kept).unwrap_or(kept),
+        true => needed(weighing, posterior, &chosen, &kept).unwrap_or(kept),
         false => kept,
     }
 }
@@ -194,22 +194,24 @@ fn picked(
 fn needed(
     weighing: &Weighing,
     posterior: &Posterior,
-    chosen: Scored,
+    chosen: &Scored,
     kept: &Picked,
 ) -> Option<Picked> {
     let (bank, judgement) = (weighing.bank, weighing.judgement);
-    let gains = unseen::gains(weighing.statement, bank, &chosen.fit);
     let is_dropped = |s: &usize| !kept.set.suspects.contains(s);
-    let is_needed = |s: &usize, gain: &Gain| {
-        let changes_nothing = !gain.is_real() && gain.reduction_percent > -judgement.companion_gain;
-        posterior.inclusion(*s) >= judgement.companion_needed && changes_nothing
-    };
+    let is_probable = |s: &usize| posterior.inclusion(*s) >= judgement.companion_needed;
+    let own = chosen.suspects.iter().copied();
+    let probable: Vec<usize> = own.filter(|s| !is_dropped(s) || is_probable(s)).collect();
+    let chosen = posterior.set(&probable)?.clone();
+    let gains = unseen::gains(weighing.statement, bank, &chosen.fit);
+    let changes_nothing =
+        |gain: &Gain| !gain.is_real() && gain.reduction_percent > -judgement.companion_gain;
     let mut each = chosen.suspects.iter().zip(&gains);
-    let all = each.all(|(s, gain)| !is_dropped(s) || is_needed(s, gain));
+    let all = each.all(|(s, gain)| !is_dropped(s) || changes_nothing(gain));
     if !all || !chosen.suspects.iter().any(is_dropped) {
         return None;
     }
-    if loses_to_structure(bank, posterior, &chosen, weighing.span) {
+    if loses_to_structure(bank, posterior, &chosen, weighing.span, judgement) {
         return None;
     }
     let leaves = weighing.leaves(&chosen, None);

@@ -68,7 +68,8 @@ struct Book<'a> {
 
 impl Book<'_> {
     fn offer(&mut self, bank: &Bank, fit: Fit) {
-        let score = fit.posterior.ln_evidence - self.nothing - self.price(bank, &fit.members);
+        let price = price(bank, &fit.members, self.judgement);
+        let score = fit.posterior.ln_evidence - self.nothing - price;
         let suspects: Vec<usize> = fit
             .members
             .iter()
@@ -82,30 +83,6 @@ impl Book<'_> {
             };
             self.sets.insert(suspects, set);
         }
-    }
-
-    /// What a set costs before the data, nats.
-    fn price(&self, bank: &Bank, members: &[usize]) -> f64 {
-        let j = self.judgement;
-        let own = |m: &usize| {
-            let (suspect, member) = (bank.suspect(*m), bank.member(*m));
-            let free = match member.size {
-                Size::Free => member.columns.len().saturating_sub(1) as f64,
-                Size::Given(_) | Size::Drawn => 0.0,
-            };
-            j.name - suspect.share + (suspect.members.len() as f64).ln() + j.amount * free
-        };
-        let kin = |i: usize| {
-            let mechanism = bank.suspect(members[i]).mechanism;
-            let others = members[..i].iter();
-            others
-                .filter(|m| bank.suspect(**m).mechanism == mechanism)
-                .count() as f64
-        };
-        let kin: f64 = (0..members.len()).map(kin).sum();
-        members.iter().map(own).sum::<f64>()
-            + j.companion * members.len().saturating_sub(1) as f64
-            + j.same_mechanism * kin
     }
 
     /// The best sets with so many causes.
@@ -175,6 +152,30 @@ impl Book<'_> {
         let own = self.sets.values().filter(|s| s.suspects.len() > 1);
         best(bank, own.collect(), count)
     }
+}
+
+/// What a set costs before the data, nats.
+pub(super) fn price(bank: &Bank, members: &[usize], judgement: &Judgement) -> f64 {
+    let own = |m: &usize| {
+        let (suspect, member) = (bank.suspect(*m), bank.member(*m));
+        let free = match member.size {
+            Size::Free => member.columns.len().saturating_sub(1) as f64,
+            Size::Given(_) | Size::Drawn => 0.0,
+        };
+        let shapes = (suspect.members.len() as f64).ln();
+        judgement.name - suspect.share + shapes + judgement.amount * free
+    };
+    let kin = |i: usize| {
+        let mechanism = bank.suspect(members[i]).mechanism;
+        let others = members[..i].iter();
+        others
+            .filter(|m| bank.suspect(**m).mechanism == mechanism)
+            .count() as f64
+    };
+    let kin: f64 = (0..members.len()).map(kin).sum();
+    members.iter().map(own).sum::<f64>()
+        + judgement.companion * members.len().saturating_sub(1) as f64
+        + judgement.same_mechanism * kin
 }
 
 /// The best of some sets, and the best of those of named causes alone: a pattern must not hide the way to causes
