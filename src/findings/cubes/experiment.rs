@@ -2,7 +2,7 @@
 
 use super::patterns::PATTERNS;
 use super::{Case, EFFECTS, floor};
-use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, White};
+use crate::findings::engine::{Aspects, Blamed, Experiment, Nuisance, Remaining, Statement, White};
 use crate::findings::physics;
 use crate::findings::table;
 
@@ -51,6 +51,7 @@ impl Experiment for Case {
             suspects,
             span: self.span(),
             splits: self.splits(),
+            aspects: Aspects::default(),
         }
     }
 

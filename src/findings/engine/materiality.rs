@@ -48,12 +48,15 @@ impl<'a> Materiality<'a> {
         };
         let own = self.own_amounts(fit, at);
         let size = self.rms_of(fit, &all_of(fit), &own);
-        if fit.members.len() > 1 && size < (share * total).max(self.missed(fit, at)) {
+        if fit.members.len() > 1 && size < share * total {
             return false;
         }
         let mut part = DVector::zeros(self.statement.reading.len());
         for (member, amounts) in fit.members.iter().zip(&own) {
             part.gemv(1.0, &self.columns[member], amounts, 1.0);
+        }
+        if self.is_missed(fit, at, part.as_slice()) {
+            return false;
         }
         let columns = &bank.member(fit.members[at]).columns;
         let acts = |i: &usize| columns.iter().any(|c| c[*i] != 0.0);
@@ -63,22 +66,22 @@ impl<'a> Materiality<'a> {
         quantile(&peaks, judgement.peak_above) >= judgement.peak * noise
     }
 
-    /// The most that the laws of the others miss, noise deviations rms.
-    fn missed(&self, fit: &Fit, at: usize) -> f64 {
-        let rough = |i: &usize| self.bank.suspect(fit.members[*i]).law_error > 0.0;
-        let others: Vec<usize> = (0..fit.members.len())
-            .filter(|i| *i != at)
-            .filter(rough)
-            .collect();
+    /// Whether a part (noise deviations) may be what the law of another cause misses, in the aspect in which it is largest.
+    fn is_missed(&self, fit: &Fit, at: usize, part: &[f64]) -> bool {
+        let law = |i: &usize| self.bank.suspect(fit.members[*i]).law_error;
+        let mut others = all_of(fit);
+        others.retain(|i| *i != at && law(i) > 0.0);
         if others.is_empty() {
-            return 0.0;
+            return false;
         }
+        let aspects = &self.statement.aspects;
+        let own = aspects.sizes(part);
+        let largest = (0..own.len()).max_by(|a, b| own[*a].total_cmp(&own[*b]));
         let parts = raw_parts(self.bank, fit);
-        let size = |i: &usize| {
-            let law = self.bank.suspect(fit.members[*i]).law_error;
-            law * rms(&in_noise(self.statement, &parts[*i]))
+        let missed = |i: &usize, aspect: usize| {
+            law(i) * aspects.sizes(&in_noise(self.statement, &parts[*i]))[aspect]
         };
-        others.iter().map(size).fold(0.0, f64::max)
+        largest.is_some_and(|a| others.iter().any(|i| own[a] < missed(i, a)))
     }
 
     /// Amounts of all members that make the part of one which the others cannot take over.

@@ -16,6 +16,7 @@
 //!
 //! Every number that decides stands in [`Judgement`], with its reason.
 
+mod aspect;
 pub mod bank;
 mod choice;
 pub mod diagnosis;
@@ -36,6 +37,7 @@ pub mod verdict;
 #[cfg(test)]
 mod tests;
 
+pub use aspect::Aspects;
 pub use diagnosis::{Found, diagnose};
 pub use judgement::Judgement;
 pub use statement::{

@@ -1,5 +1,6 @@
 //! What a kind of measurement brings to its diagnosis.
 
+use super::aspect::Aspects;
 use crate::inference::gaussian::Size;
 use nalgebra::DMatrix;
 
@@ -156,6 +157,9 @@ pub struct Statement {
     pub span: Vec<Vec<f64>>,
     /// Ways to hold out rows, coarse first: the fold of every row.
     pub splits: Vec<Vec<usize>>,
+    /// What kinds of change laws make: a cause stands beside another if it is larger than what that one's law misses of
+    /// its own kind.
+    pub aspects: Aspects,
 }
 
 impl Statement {

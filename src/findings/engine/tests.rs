@@ -95,6 +95,7 @@ impl Experiment for Toy {
                 .map(|k| (0..rows).map(|i| cosine(k, i)).collect())
                 .collect(),
             splits: vec![(0..rows).map(|i| i * 40 / rows % 8).collect()],
+            aspects: Aspects::default(),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::patterns::PATTERNS;
 use super::{Case, EFFECTS};
-use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, White};
+use crate::findings::engine::{Aspects, Blamed, Experiment, Nuisance, Remaining, Statement, White};
 use crate::findings::table;
 use crate::fit::force_sensor::remainder::terms;
 
@@ -45,6 +45,7 @@ impl Experiment for Case {
             .concat(),
             span: self.span(),
             splits: self.splits(),
+            aspects: Aspects::default(),
         }
     }
 

@@ -6,7 +6,7 @@ use super::patterns::PATTERNS;
 use super::projection::{left, partial};
 use super::{EFFECTS, ripple, sensor_offset};
 use crate::findings::engine::{
-    Blamed, Experiment, Judgement, Nuisance, Remaining, Statement, Suspect,
+    Aspects, Blamed, Experiment, Judgement, Nuisance, Remaining, Statement, Suspect,
 };
 use crate::findings::load_cycle::structure::binned;
 use crate::findings::table;
@@ -105,6 +105,7 @@ impl Joint {
             suspects: self.suspects_about(about, compliance),
             span: self.span(parts),
             splits: self.splits(),
+            aspects: Aspects::default(),
         }
     }
 

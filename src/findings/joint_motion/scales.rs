@@ -7,7 +7,7 @@ use super::stiffness::Compliance;
 use crate::findings::answer::Cause;
 use crate::findings::engine::bank::Bank;
 use crate::findings::engine::unseen::gains;
-use crate::findings::engine::{Member, Nuisance, Statement};
+use crate::findings::engine::{Aspects, Member, Nuisance, Statement};
 use crate::findings::gain::Gain;
 use crate::findings::table::{Effect, Parameters};
 use crate::ground::stats::{Z95, mean};
@@ -71,6 +71,7 @@ impl Joint {
             suspects: vec![spring],
             span: Vec::new(),
             splits: self.splits(),
+            aspects: Aspects::default(),
         };
         let bank = Bank::new(&statement);
         let fit = bank.fit(&[0])?;

@@ -10,7 +10,7 @@ use crate::findings::engine::bank::Bank;
 use crate::findings::engine::rest::Span;
 use crate::findings::engine::search::{Scored, search};
 use crate::findings::engine::{
-    Blamed, Experiment, Judgement, Member, Nuisance, Remaining, Statement, Suspect,
+    Aspects, Blamed, Experiment, Judgement, Member, Nuisance, Remaining, Statement, Suspect,
 };
 use crate::fit::observation::Observation;
 use crate::ground::stats::rms;
@@ -160,6 +160,7 @@ impl<'a> Record<'a> {
             suspects,
             span: Vec::new(),
             splits: Vec::new(),
+            aspects: Aspects::default(),
         }
     }
 }

@@ -4,7 +4,7 @@ use super::noise::{Uneven, is_scatter};
 use super::patterns::PATTERNS;
 use super::uncertain::uncertain;
 use super::{Case, EFFECTS, Stated};
-use crate::findings::engine::{Blamed, Experiment, Remaining, Statement};
+use crate::findings::engine::{Aspects, Blamed, Experiment, Remaining, Statement};
 use crate::findings::physics;
 use crate::findings::table;
 
@@ -46,6 +46,7 @@ impl Experiment for Case {
             suspects: own.suspects.clone(),
             span: self.span(),
             splits: self.splits(),
+            aspects: Aspects::default(),
         }
     }
 

@@ -5,7 +5,7 @@ use super::patterns::PATTERNS;
 use super::{Case, EFFECTS};
 use crate::cutting::wave::Side;
 use crate::experiments::milling_force::RUNOUT;
-use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, White};
+use crate::findings::engine::{Aspects, Blamed, Experiment, Nuisance, Remaining, Statement, White};
 use crate::findings::table;
 use crate::sheet::number::fixed;
 use std::f64::consts::TAU;
@@ -22,6 +22,9 @@ const RUNOUT_TURN: f64 = 0.8;
 const ORDERS: usize = 8;
 /// Cuts whose structure is looked for apart.
 const APART: usize = 3;
+/// Places of a turn at which forces are one pattern, and the fewest samples of one.
+const PLACES: usize = 72;
+const IN_A_PLACE: usize = 4;
 
 impl Experiment for Case {
     fn unit(&self) -> &'static str {
@@ -66,7 +69,6 @@ impl Experiment for Case {
     }
 
     fn remaining(&self, left: &[f64]) -> Remaining {
-        const PLACES: usize = 72;
         let mut sums = vec![(0.0, 0.0); PLACES];
         let mut over_time = Vec::new();
         for cut in self.cuts() {
@@ -107,6 +109,7 @@ impl Case {
             suspects: Vec::new(),
             span: self.span(),
             splits: self.splits(),
+            aspects: self.aspects(),
         }
     }
 
@@ -196,21 +199,42 @@ impl Case {
         span
     }
 
+    /// The level of a cut, its wave over the turn of the spindle, and what changes from turn to turn.
+    fn aspects(&self) -> Aspects {
+        let cuts = self.cuts();
+        let angles = cuts
+            .iter()
+            .map(|cut| cut.present.scene.angles(&cut.present.p));
+        let angles: Vec<Vec<f64>> = angles.collect();
+        let places = |c: usize| (cuts[c].time.len() / IN_A_PLACE).clamp(1, PLACES);
+        let place = |c: usize, i: usize| {
+            let turn = angles[c][i].rem_euclid(TAU) / TAU;
+            (turn * places(c) as f64) as usize % places(c)
+        };
+        let level = |c: usize, k: usize| 3 * c + k;
+        Aspects {
+            groups: vec![
+                self.groups(|c, _, k| level(c, k)),
+                self.groups(|c, i, k| level(c, k) * PLACES + place(c, i)),
+            ],
+        }
+    }
+
+    /// The group of every row, from cut, sample and axis.
+    fn groups(&self, of: impl Fn(usize, usize, usize) -> usize) -> Vec<usize> {
+        let all = self.column(|c, i, k| of(c, i, k) as f64);
+        all.into_iter().map(|group| group as usize).collect()
+    }
+
     /// Whole cuts, whole pieces of their revolutions, then samples here and there.
     fn splits(&self) -> Vec<Vec<usize>> {
-        let fold = |of: &dyn Fn(usize, usize) -> usize| -> Vec<usize> {
-            self.column(|c, i, _| of(c, i) as f64)
-                .into_iter()
-                .map(|f| f as usize)
-                .collect()
-        };
         let turns = |c: usize, i: usize| {
             let cut = &self.cuts()[c].present.scene;
             (cut.cut.spindle_rad_s * cut.time[i] / TAU * 2.0) as usize
         };
-        let by_cut = fold(&|c, _| c % 8);
-        let by_turn = fold(&|c, i| (c + turns(c, i)) % 8);
-        let spread = fold(&|c, i| (c + i / 5) % 8);
+        let by_cut = self.groups(|c, _, _| c % 8);
+        let by_turn = self.groups(|c, i, _| (c + turns(c, i)) % 8);
+        let spread = self.groups(|c, i, _| (c + i / 5) % 8);
         match self.cuts().len() {
             0..3 => vec![by_turn, spread],
             _ => vec![by_cut, by_turn, spread],

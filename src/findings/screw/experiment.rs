@@ -2,7 +2,9 @@
 
 use super::patterns::PATTERNS;
 use super::{Case, EFFECTS, wear_zone};
-use crate::findings::engine::{Blamed, Experiment, Nuisance, Remaining, Statement, Suspect, White};
+use crate::findings::engine::{
+    Aspects, Blamed, Experiment, Nuisance, Remaining, Statement, Suspect, White,
+};
 use crate::findings::table;
 use crate::fit::screw::positions::in_mm;
 use crate::sheet::number::fixed;
@@ -33,6 +35,7 @@ impl Experiment for Case {
             suspects: self.suspects(about),
             span: self.span(),
             splits: self.splits(),
+            aspects: Aspects::default(),
         }
     }
 
