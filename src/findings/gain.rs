@@ -43,6 +43,11 @@ impl Gain {
         self
     }
 
+    /// Mean square of held-out readings that it explains.
+    pub fn explained(&self) -> f64 {
+        self.before * self.before - self.after * self.after
+    }
+
     /// Whether the interval excludes no gain at all.
     pub fn is_real(&self) -> bool {
         self.ci95_percent[0] > 0.0

@@ -123,8 +123,9 @@ pub(super) fn drop_unreal(
     bank: &Bank,
     posterior: &Posterior,
     mut set: Scored,
-    judgement: &Judgement,
+    (negligible, judgement): (f64, &Judgement),
 ) -> (Scored, Vec<Gain>) {
+    let is_small = |g: &Gain| g.explained() < negligible * negligible;
     loop {
         let gains = gains(statement, bank, &set.fit);
         let least = match gains.len() {
@@ -134,7 +135,7 @@ pub(super) fn drop_unreal(
         let unreal = gains
             .iter()
             .enumerate()
-            .filter(|(_, g)| !g.is_real() || g.reduction_percent < least);
+            .filter(|(_, g)| !g.is_real() || g.reduction_percent < least || is_small(g));
         let worst = unreal.min_by(|a, b| a.1.reduction_percent.total_cmp(&b.1.reduction_percent));
         let Some((at, _)) = worst else {
             return (set, gains);

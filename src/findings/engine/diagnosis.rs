@@ -15,6 +15,7 @@ use super::unseen;
 use super::verdict::name;
 use crate::findings::answer::{Answer, Verdict};
 use crate::findings::gain::Gain;
+use crate::ground::stats::rms;
 
 /// A finished diagnosis.
 #[derive(Debug, Clone)]
@@ -83,7 +84,8 @@ pub(super) fn about(
     let mut posterior = Posterior::of(sets, judgement.exponent(nats));
     let span = Span::of(statement);
     let nothing = nothing(&posterior).fit;
-    let weighing = Weighing::new(statement, &bank, span.as_ref(), &nothing, judgement);
+    let mut weighing = Weighing::new(statement, &bank, span.as_ref(), &nothing, judgement);
+    weighing.negligible = experiment.negligible();
     let picked = picked(experiment, &weighing, &mut posterior, story.as_ref());
     let Picked { set, gains, leaves } = picked;
     let Leaves {
@@ -168,7 +170,8 @@ fn picked(
 ) -> Picked {
     let (statement, bank, judgement) = (weighing.statement, weighing.bank, weighing.judgement);
     let real = |posterior: &Posterior, set: &Scored| {
-        drop_unreal(statement, bank, posterior, set.clone(), judgement)
+        let least = weighing.negligible;
+        drop_unreal(statement, bank, posterior, set.clone(), (least, judgement))
     };
     let mut chosen = possible(bank, posterior, choose(posterior, judgement));
     let (mut set, mut gains) = real(posterior, &chosen);
@@ -182,10 +185,37 @@ fn picked(
     }
     let leaves = weighing.leaves(&set, story);
     let kept = Picked { set, gains, leaves };
-    match kept.leaves.rest.is_left || !experiment.has_rough_laws() {
-        true => needed(weighing, posterior, &chosen, &kept).unwrap_or(kept),
-        false => kept,
+    if experiment.has_rough_laws() {
+        return match kept.leaves.rest.is_left {
+            true => needed(weighing, posterior, &chosen, &kept).unwrap_or(kept),
+            false => kept,
+        };
     }
+    let kept = outweighed(weighing, posterior, kept);
+    needed(weighing, posterior, &chosen, &kept).unwrap_or(kept)
+}
+
+/// Without companions that explain less of the unseen readings than is left of them beyond the noise, where something is: it may
+/// be they that stand for it.
+fn outweighed(weighing: &Weighing, posterior: &Posterior, mut kept: Picked) -> Picked {
+    let noise = rms(weighing.statement.noise.spread());
+    while kept.leaves.rest.is_left && kept.set.suspects.len() > 1 {
+        let each = kept.gains.iter().enumerate();
+        let least = each.min_by(|a, b| a.1.explained().total_cmp(&b.1.explained()));
+        let Some((at, gain)) = least else { break };
+        if gain.explained() >= gain.after.powi(2) - noise * noise {
+            break;
+        }
+        let mut suspects = kept.set.suspects.clone();
+        suspects.remove(at);
+        let Some(set) = posterior.set(&suspects).cloned() else {
+            break;
+        };
+        let gains = unseen::gains(weighing.statement, weighing.bank, &set.fit);
+        let leaves = weighing.leaves(&set, None);
+        kept = Picked { set, gains, leaves };
+    }
+    kept
 }
 
 /// The set as it was chosen, where nothing is left beside it, and all that was dropped is probable and neither lowers nor
@@ -206,8 +236,10 @@ fn needed(
     let gains = unseen::gains(weighing.statement, bank, &chosen.fit);
     let changes_nothing =
         |gain: &Gain| !gain.is_real() && gain.reduction_percent > -judgement.companion_gain;
+    let least = weighing.negligible.powi(2);
     let mut each = chosen.suspects.iter().zip(&gains);
-    let all = each.all(|(s, gain)| !is_dropped(s) || changes_nothing(gain));
+    let all =
+        each.all(|(s, gain)| !is_dropped(s) || changes_nothing(gain) && gain.explained() >= least);
     if !all || !chosen.suspects.iter().any(is_dropped) {
         return None;
     }

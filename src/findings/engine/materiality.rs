@@ -48,15 +48,12 @@ impl<'a> Materiality<'a> {
         };
         let own = self.own_amounts(fit, at);
         let size = self.rms_of(fit, &all_of(fit), &own);
-        if fit.members.len() > 1 && size < share * total {
+        if fit.members.len() > 1 && size < (share * total).max(self.missed(fit, at)) {
             return false;
         }
         let mut part = DVector::zeros(self.statement.reading.len());
         for (member, amounts) in fit.members.iter().zip(&own) {
             part.gemv(1.0, &self.columns[member], amounts, 1.0);
-        }
-        if self.is_missed(fit, at, part.as_slice()) {
-            return false;
         }
         let columns = &bank.member(fit.members[at]).columns;
         let acts = |i: &usize| columns.iter().any(|c| c[*i] != 0.0);
@@ -66,22 +63,22 @@ impl<'a> Materiality<'a> {
         quantile(&peaks, judgement.peak_above) >= judgement.peak * noise
     }
 
-    /// Whether a part (noise deviations) may be what the law of another cause misses, in the aspect in which it is largest.
-    fn is_missed(&self, fit: &Fit, at: usize, part: &[f64]) -> bool {
+    /// The most that the laws of the others miss of the kind of this one, noise deviations rms.
+    fn missed(&self, fit: &Fit, at: usize) -> f64 {
         let law = |i: &usize| self.bank.suspect(fit.members[*i]).law_error;
         let mut others = all_of(fit);
         others.retain(|i| *i != at && law(i) > 0.0);
         if others.is_empty() {
-            return false;
+            return 0.0;
         }
-        let aspects = &self.statement.aspects;
-        let own = aspects.sizes(part);
-        let largest = (0..own.len()).max_by(|a, b| own[*a].total_cmp(&own[*b]));
         let parts = raw_parts(self.bank, fit);
-        let missed = |i: &usize, aspect: usize| {
-            law(i) * aspects.sizes(&in_noise(self.statement, &parts[*i]))[aspect]
+        let sizes = |i: usize| {
+            let part = in_noise(self.statement, &parts[i]);
+            self.statement.aspects.sizes(&part)
         };
-        largest.is_some_and(|a| others.iter().any(|i| own[a] < missed(i, a)))
+        let own = sizes(at);
+        let missed = |i: &usize| law(i) * alike(&own, &sizes(*i));
+        others.iter().map(missed).fold(0.0, f64::max)
     }
 
     /// Amounts of all members that make the part of one which the others cannot take over.
@@ -159,6 +156,17 @@ impl<'a> Materiality<'a> {
             }
         }
     }
+}
+
+/// Size of another part as far as it is of the aspects of which the own one is; sizes: rms in every aspect.
+fn alike(own: &[f64], other: &[f64]) -> f64 {
+    let square = |x: &f64| x * x;
+    let all: f64 = own.iter().map(square).sum();
+    let each = own
+        .iter()
+        .zip(other)
+        .map(|(own, other)| (own * other).powi(2));
+    (each.sum::<f64>() / all.max(f64::MIN_POSITIVE)).sqrt()
 }
 
 fn all_of(fit: &Fit) -> Vec<usize> {
