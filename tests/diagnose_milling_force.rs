@@ -224,4 +224,19 @@ fn a_sensor_that_rings_is_named_with_its_frequency() {
     is_named(&found, "sensor_resonance");
     let hz = found.answer.causes[0].parameters[0].1;
     assert!((hz / 1330.0 - 1.0).abs() < 0.02, "{hz}");
+    // the noise that is told is what stays beside it, not what the first statement still held of it
+    let told = found.answer.discrepancy;
+    assert!(told.noise_rms < 1.5 * NOISE, "{}", told.noise_rms);
+    assert!(told.rms > 5.0 * NOISE, "{}", told.rms);
+}
+
+/// An offset that is smaller than what a resonance's law misses is none of what it misses: no resonance shifts a mean.
+#[test]
+fn an_offset_beside_a_sensor_that_rings_is_named() {
+    let mut bench = Bench::new(3);
+    bench.ring = Some([1330.0, 0.06, 1.0]);
+    let found = bench.found(|r| r[3] += 8.0);
+    let mut named: Vec<&str> = found.answer.causes.iter().map(|c| c.effect).collect();
+    named.sort_unstable();
+    assert_eq!(named, ["sensor_offset", "sensor_resonance"]);
 }

@@ -283,3 +283,16 @@ pub(super) fn in_noise(statement: &Statement, raw: &[f64]) -> Vec<f64> {
         .map(|(v, s)| v / s)
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::alike;
+
+    #[test]
+    fn what_a_law_misses_counts_in_the_aspects_that_both_have() {
+        assert_eq!(alike(&[3.0, 0.0], &[0.0, 50.0]), 0.0);
+        assert_eq!(alike(&[0.0, 3.0], &[7.0, 50.0]), 50.0);
+        let mixed = alike(&[3.0, 4.0], &[10.0, 50.0]);
+        assert!((mixed - (0.36_f64 * 100.0 + 0.64 * 2500.0).sqrt()).abs() < 1e-12);
+    }
+}
