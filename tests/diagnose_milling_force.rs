@@ -235,7 +235,7 @@ fn a_sensor_that_rings_is_named_with_its_frequency() {
 fn an_offset_beside_a_sensor_that_rings_is_named() {
     let mut bench = Bench::new(3);
     bench.ring = Some([1330.0, 0.06, 1.0]);
-    let found = bench.found(|r| r[3] += 8.0);
+    let found = bench.found(|r| r[3] += 3.0);
     let mut named: Vec<&str> = found.answer.causes.iter().map(|c| c.effect).collect();
     named.sort_unstable();
     assert_eq!(named, ["sensor_offset", "sensor_resonance"]);
