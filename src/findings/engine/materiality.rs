@@ -158,14 +158,17 @@ impl<'a> Materiality<'a> {
     }
 }
 
-/// Size of another part as far as it is of the aspects of which the own one is; sizes: rms in every aspect.
+/// Size of another part as far as its error can be of the aspects of which the own one is; sizes: rms in every aspect. What is
+/// wrong of a level may be so over the turn as well; a wave has no level, and neither is a change.
 fn alike(own: &[f64], other: &[f64]) -> f64 {
+    let last = other.len().saturating_sub(1);
     let square = |x: &f64| x * x;
+    let seen = |aspect: usize| match aspect == last {
+        true => square(&other[aspect]),
+        false => other[..=aspect].iter().map(square).sum(),
+    };
     let all: f64 = own.iter().map(square).sum();
-    let each = own
-        .iter()
-        .zip(other)
-        .map(|(own, other)| (own * other).powi(2));
+    let each = own.iter().enumerate().map(|(a, own)| square(own) * seen(a));
     (each.sum::<f64>() / all.max(f64::MIN_POSITIVE)).sqrt()
 }
 
@@ -294,5 +297,7 @@ mod tests {
         assert_eq!(alike(&[0.0, 3.0], &[7.0, 50.0]), 50.0);
         let mixed = alike(&[3.0, 4.0], &[10.0, 50.0]);
         assert!((mixed - (0.36_f64 * 100.0 + 0.64 * 2500.0).sqrt()).abs() < 1e-12);
+        assert_eq!(alike(&[0.0, 3.0, 0.0], &[40.0, 30.0, 9.0]), 50.0);
+        assert_eq!(alike(&[3.0], &[8.0]), 8.0);
     }
 }
