@@ -123,19 +123,17 @@ pub(super) fn drop_unreal(
     bank: &Bank,
     posterior: &Posterior,
     mut set: Scored,
-    (negligible, judgement): (f64, &Judgement),
+    judgement: &Judgement,
 ) -> (Scored, Vec<Gain>) {
-    let is_small = |g: &Gain| g.explained() < negligible * negligible;
     loop {
         let gains = gains(statement, bank, &set.fit);
         let least = match gains.len() {
             1 => 0.0,
             _ => judgement.companion_gain,
         };
-        let unreal = gains
-            .iter()
-            .enumerate()
-            .filter(|(_, g)| !g.is_real() || g.reduction_percent < least || is_small(g));
+        let unreal = gains.iter().enumerate().filter(|(_, g)| {
+            !g.is_real() || g.reduction_percent < least || judgement.is_negligible(g)
+        });
         let worst = unreal.min_by(|a, b| a.1.reduction_percent.total_cmp(&b.1.reduction_percent));
         let Some((at, _)) = worst else {
             return (set, gains);
@@ -148,16 +146,7 @@ pub(super) fn drop_unreal(
             .collect::<Vec<_>>();
         set = match (posterior.set(&suspects), bank.fit(&members)) {
             (Some(less), _) => less.clone(),
-            (None, Some(fit)) => {
-                let price = price(bank, &members, judgement);
-                let gained =
-                    fit.posterior.ln_evidence - nothing(posterior).fit.posterior.ln_evidence;
-                Scored {
-                    suspects,
-                    fit,
-                    score: gained - price,
-                }
-            }
+            (None, Some(fit)) => Scored::of(bank, fit, &nothing(posterior).fit, judgement),
             (None, None) => nothing(posterior),
         };
     }

@@ -84,8 +84,7 @@ pub(super) fn about(
     let mut posterior = Posterior::of(sets, judgement.exponent(nats));
     let span = Span::of(statement);
     let nothing = nothing(&posterior).fit;
-    let mut weighing = Weighing::new(statement, &bank, span.as_ref(), &nothing, judgement);
-    weighing.negligible = experiment.negligible();
+    let weighing = Weighing::new(statement, &bank, span.as_ref(), &nothing, judgement);
     let picked = picked(experiment, &weighing, &mut posterior, story.as_ref());
     let Picked { set, gains, leaves } = picked;
     let Leaves {
@@ -170,8 +169,7 @@ fn picked(
 ) -> Picked {
     let (statement, bank, judgement) = (weighing.statement, weighing.bank, weighing.judgement);
     let real = |posterior: &Posterior, set: &Scored| {
-        let least = weighing.negligible;
-        drop_unreal(statement, bank, posterior, set.clone(), (least, judgement))
+        drop_unreal(statement, bank, posterior, set.clone(), judgement)
     };
     let mut chosen = possible(bank, posterior, choose(posterior, judgement));
     let (mut set, mut gains) = real(posterior, &chosen);
@@ -196,9 +194,13 @@ fn picked(
 }
 
 /// Without companions that explain less of the unseen readings than is left of them beyond the noise, where something is: it may
-/// be they that stand for it.
+/// be they that stand for it. Where deviations are only relative to one another, what is beyond the noise is not known.
 fn outweighed(weighing: &Weighing, posterior: &Posterior, mut kept: Picked) -> Picked {
-    let noise = rms(weighing.statement.noise.spread());
+    let noise = &weighing.statement.noise;
+    if noise.rows() == 0.0 {
+        return kept;
+    }
+    let noise = rms(noise.spread());
     while kept.leaves.rest.is_left && kept.set.suspects.len() > 1 {
         let each = kept.gains.iter().enumerate();
         let least = each.min_by(|a, b| a.1.explained().total_cmp(&b.1.explained()));
@@ -236,10 +238,9 @@ fn needed(
     let gains = unseen::gains(weighing.statement, bank, &chosen.fit);
     let changes_nothing =
         |gain: &Gain| !gain.is_real() && gain.reduction_percent > -judgement.companion_gain;
-    let least = weighing.negligible.powi(2);
     let mut each = chosen.suspects.iter().zip(&gains);
-    let all =
-        each.all(|(s, gain)| !is_dropped(s) || changes_nothing(gain) && gain.explained() >= least);
+    let all = each
+        .all(|(s, gain)| !is_dropped(s) || changes_nothing(gain) && !judgement.is_negligible(gain));
     if !all || !chosen.suspects.iter().any(is_dropped) {
         return None;
     }

@@ -1,5 +1,6 @@
 //! Every number that decides a verdict, once, with its reason.
 
+use crate::findings::gain::Gain;
 use serde::Serialize;
 
 /// What the engine asks of causes before it names them.
@@ -46,6 +47,9 @@ pub struct Judgement {
     /// `tests/judge`, two of `tests/blind_milling_force.rs`), so neither judges this number. A cause that raises it by more
     /// is not named however probable it is (`diagnosis`, `needed`).
     pub companion_gain: f64,
+    /// Rms of unseen readings, in their unit, that a cause must explain: less may as well be what the present simulation misses
+    /// anyway. 0 where a kind says nothing of it.
+    pub negligible: f64,
     /// Highest probability that is stated: no generator has shown more (F).
     pub certain: f64,
     /// A law may miss nature by this share of its own size before something else is called left.
@@ -65,6 +69,11 @@ pub struct Judgement {
 }
 
 impl Judgement {
+    /// Whether a gain is too small to blame anybody for it.
+    pub fn is_negligible(&self, gain: &Gain) -> bool {
+        self.negligible > 0.0 && gain.explained() < self.negligible.powi(2)
+    }
+
     /// Exponent of probabilities; `explained`: half the squares, in noise deviations, that the best set
     /// explains, where its laws are only nearly right.
     pub fn exponent(&self, explained: Option<f64>) -> f64 {
@@ -93,6 +102,7 @@ impl Default for Judgement {
             group_carries: 1.0,
             companion_needed: 0.7,
             companion_gain: 1.5,
+            negligible: 0.0,
             certain: 0.985,
             formula_error: 0.05,
             left_nats: 6.0,

@@ -17,8 +17,6 @@ pub(super) struct Weighing<'a> {
     pub judgement: &'a Judgement,
     /// What the present simulation misses, with the nuisances at their most probable: per row.
     pub missed: Vec<f64>,
-    /// Rms that no cause may explain less of, in the unit of the readings.
-    pub negligible: f64,
     /// Rms of what is missed, noise deviations.
     whole: f64,
 }
@@ -50,7 +48,6 @@ impl<'a> Weighing<'a> {
             span,
             judgement,
             missed: Vec::new(),
-            negligible: 0.0,
             whole: 0.0,
         };
         own.missed = own.beside(nothing).0;

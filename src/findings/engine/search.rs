@@ -18,6 +18,19 @@ pub struct Scored {
     pub score: f64,
 }
 
+impl Scored {
+    /// A fit with its evidence over that of no cause, less the price.
+    pub(super) fn of(bank: &Bank, fit: Fit, nothing: &Fit, judgement: &Judgement) -> Self {
+        let gained = fit.posterior.ln_evidence - nothing.posterior.ln_evidence;
+        let members = fit.members.iter();
+        Self {
+            suspects: members.map(|m| bank.entries[*m].suspect).collect(),
+            score: gained - price(bank, &fit.members, judgement),
+            fit,
+        }
+    }
+}
+
 /// Bases that are continued, by the number of causes that they hold: from the ablations of the prototype
 /// (house note "families"), where a wider beam found nothing more.
 const CONTINUED: [usize; 4] = [1, 7, 3, 2];
@@ -39,7 +52,7 @@ pub fn search(bank: &mut Bank, judgement: &Judgement) -> Vec<Scored> {
     };
     let mut book = Book {
         judgement,
-        nothing: nothing.posterior.ln_evidence,
+        nothing: nothing.clone(),
         sets: BTreeMap::new(),
     };
     book.offer(bank, nothing);
@@ -61,27 +74,17 @@ pub fn search(bank: &mut Bank, judgement: &Judgement) -> Vec<Scored> {
 
 struct Book<'a> {
     judgement: &'a Judgement,
-    nothing: f64,
+    nothing: Fit,
     /// The best fit of every set of suspects.
     sets: BTreeMap<Vec<usize>, Scored>,
 }
 
 impl Book<'_> {
     fn offer(&mut self, bank: &Bank, fit: Fit) {
-        let price = price(bank, &fit.members, self.judgement);
-        let score = fit.posterior.ln_evidence - self.nothing - price;
-        let suspects: Vec<usize> = fit
-            .members
-            .iter()
-            .map(|m| bank.entries[*m].suspect)
-            .collect();
-        if self.sets.get(&suspects).is_none_or(|old| old.score < score) {
-            let set = Scored {
-                suspects: suspects.clone(),
-                fit,
-                score,
-            };
-            self.sets.insert(suspects, set);
+        let set = Scored::of(bank, fit, &self.nothing, self.judgement);
+        let old = self.sets.get(&set.suspects);
+        if old.is_none_or(|old| old.score < set.score) {
+            self.sets.insert(set.suspects.clone(), set);
         }
     }
 

@@ -231,11 +231,6 @@ pub trait Experiment: Sync {
     fn has_rough_laws(&self) -> bool {
         false
     }
-    /// Rms, in the unit of the readings, below which what a cause explains of them may as well be what the present simulation
-    /// misses anyway.
-    fn negligible(&self) -> f64 {
-        0.0
-    }
     /// Whether what a set leaves scatters from reading to reading and no more: then nothing beyond the set is
     /// asked for. Kinds whose readings have no neighbours cannot say.
     fn is_scatter(&self, _left: &[f64]) -> bool {

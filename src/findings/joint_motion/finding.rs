@@ -97,7 +97,7 @@ pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
 /// it leaves: what it misses may well be something else altogether, and gain as much.
 fn keep_the_surer(answer: &mut Answer) {
     if answer.verdict == Verdict::UnknownCause {
-        let is_surer = |gain: &Gain| gain.before > 2.0_f64.sqrt() * gain.after;
+        let is_surer = |gain: &Gain| gain.explained() > gain.after.powi(2);
         answer.causes.retain(|c| is_surer(&c.gain));
         answer.groups.retain(|g| is_surer(&g.gain));
     }

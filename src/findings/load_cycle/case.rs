@@ -122,9 +122,7 @@ impl<'a> Case<'a> {
 
     /// A gain that chance and a coarse lattice of readings do not explain.
     pub(super) fn is_real(&self, gain: &Gain) -> bool {
-        let lifted = (gain.before * gain.before - gain.after * gain.after)
-            .max(0.0)
-            .sqrt();
+        let lifted = gain.explained().max(0.0).sqrt();
         gain.is_real() && self.step.is_none_or(|step| lifted > HALF_STEP * step)
     }
 

@@ -23,10 +23,7 @@ const RUNOUT_TURN: f64 = 0.8;
 const ORDERS: usize = 8;
 /// Cuts whose structure is looked for apart.
 const APART: usize = 3;
-/// Share of itself that no law of a cutting force comes nearer to nature. Two clean files of seeds 481 to 483 of `tests/judge` had
-/// a cause that explained 0.0003 and 0.0006 of the force; the least true one explained 0.017.
-const LAW: f64 = 1e-3;
-/// Places of a turn at which forces are one pattern, and the fewest samples of one.
+/// Places of a turn at which forces are one pattern, and the fewest samples of one: a choice, no other values were tried.
 const PLACES: usize = 72;
 const IN_A_PLACE: usize = 4;
 
@@ -51,10 +48,6 @@ impl Experiment for Case {
             },
             _ => super::anew::about(self, about),
         }
-    }
-
-    fn negligible(&self) -> f64 {
-        LAW * rms(&self.column(|c, i, k| self.simulated(c, i)[k]))
     }
 
     fn parameters(&self, blamed: &Blamed) -> Vec<(&'static str, f64, &'static str)> {
@@ -105,6 +98,11 @@ impl Experiment for Case {
 }
 
 impl Case {
+    /// Rms of the simulated forces, N.
+    pub fn force_rms(&self) -> f64 {
+        rms(&self.column(|c, i, k| self.simulated(c, i)[k]))
+    }
+
     /// The statement without anybody to blame.
     pub(super) fn statement(&self) -> Statement {
         Statement {
