@@ -21,6 +21,7 @@ struct Bench {
     done: Vec<Pass>,
     truth: [f64; 6],
     ring: Option<[f64; 3]>,
+    bandwidth_hz: Option<f64>,
 }
 
 impl Bench {
@@ -51,6 +52,7 @@ impl Bench {
             said,
             truth: NOMINAL,
             ring: None,
+            bandwidth_hz: Some(2500.0),
         }
     }
 
@@ -62,7 +64,7 @@ impl Bench {
             &self.truth,
             &Recording {
                 ring: self.ring,
-                ..recording()
+                ..self.recording()
             },
             &mut Random::new(4),
         )
@@ -81,23 +83,23 @@ impl Bench {
             k[0], k[1], k[2], k[3], k[4], k[5]
         );
         let text =
-            csv(&self.cutter, &self.said, &recording(), rows).replace("cut,time_s", &nominal);
+            csv(&self.cutter, &self.said, &self.recording(), rows).replace("cut,time_s", &nominal);
         let bytes = text.len() as u64;
         let table = Table::from_reader("cuts.csv".as_ref(), text.as_bytes(), bytes).unwrap();
         let case = Case::new(MillingForce::from_table(table).unwrap());
         diagnose(&case, &case.judgement())
     }
-}
 
-fn recording() -> Recording {
-    Recording {
-        rate_hz: 20_000.0,
-        turns: 5.0,
-        bandwidth_hz: Some(2500.0),
-        noise: NOISE,
-        colour: 0.0,
-        clipped: true,
-        ring: None,
+    fn recording(&self) -> Recording {
+        Recording {
+            rate_hz: 20_000.0,
+            turns: 5.0,
+            bandwidth_hz: self.bandwidth_hz,
+            noise: NOISE,
+            colour: 0.0,
+            clipped: true,
+            ring: None,
+        }
     }
 }
 
@@ -239,4 +241,20 @@ fn an_offset_beside_a_sensor_that_rings_is_named() {
     let mut named: Vec<&str> = found.answer.causes.iter().map(|c| c.effect).collect();
     named.sort_unstable();
     assert_eq!(named, ["sensor_offset", "sensor_resonance"]);
+}
+
+/// Straight teeth enter and leave at once and nothing spreads it: the record shows where they leave, so a width that is wrong turns
+/// the tooth, and no slope says so.
+#[test]
+fn a_width_by_straight_teeth_is_named() {
+    let mut bench = Bench::new(2);
+    (bench.cutter.helix, bench.bandwidth_hz) = (0.0, None);
+    bench.said.remove(0);
+    bench.done = bench.said.clone();
+    bench.done[1..]
+        .iter_mut()
+        .for_each(|pass| pass.width += 0.35);
+    let found = bench.found(|_| ());
+    let named: Vec<&str> = found.answer.causes.iter().map(|c| c.effect).collect();
+    assert_eq!(named, ["width_of_cut"], "{:?}", found.answer.verdict);
 }

@@ -32,6 +32,8 @@ pub const WIDTH: usize = 11;
 /// Place of the share of the ray before the border of the stock that counts as chip.
 pub const BORDER: usize = 12;
 
+/// Teeth are straight below this lag along the edge of one cut, rad.
+const STRAIGHT: f64 = 2e-3;
 /// Fewest samples of a revolution that is low-passed, and how many there are to an oscillation at the corner.
 const GRID: usize = 1440;
 const PER_OSCILLATION: f64 = 32.0;
@@ -97,6 +99,12 @@ impl CutScene {
             true => self.ideal(p),
             false => self.filtered(p),
         }
+    }
+
+    /// Whether the force jumps: teeth that are straight, and nothing that spreads their entry.
+    pub fn jumps(&self) -> bool {
+        let lag = self.tool.helix_rad.tan().abs() * self.cut.depth_m / self.tool.radius_m;
+        self.is_direct() && lag < STRAIGHT
     }
 
     /// Whether the file holds the force itself.

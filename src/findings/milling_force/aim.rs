@@ -132,16 +132,15 @@ impl Aim {
     /// at the slope, or at the best of some amounts: where the force jumps, no slope says where to go.
     pub fn secant(&self, case: &Case, direction: &[f64], most: f64, starts: &[f64]) -> Vec<f64> {
         let slope = case.along(direction);
-        let nothing = vec![0.0; slope.len()];
         let tried = starts
             .iter()
-            .map(|start| self.reached(case, direction, *start, &nothing));
+            .map(|start| self.reached(case, direction, *start, &slope));
         let better = |a: (f64, Vec<f64>), b: (f64, Vec<f64>)| if b.0 > a.0 { b } else { a };
         let best = starts
             .iter()
             .zip(tried)
             .map(|(start, column)| (self.worth(&column, *start), column));
-        let mut best = best.fold((0.0, slope), better);
+        let mut best = best.fold((0.0, slope.clone()), better);
         if best.1.iter().all(|x| *x == 0.0) {
             return best.1;
         }

@@ -95,7 +95,10 @@ impl Anew {
         for _ in 0..ROUNDS {
             let nothing = vec![0.0; case.column(|_, _, _| 0.0).len()];
             let uncertain = all.aim().uncertain(&all, 0.0, &nothing);
-            (0..places.cuts).for_each(|c| turned[places.phase(c)] += uncertain[places.phase(c)]);
+            for c in 0..places.cuts {
+                let (at, most) = (places.phase(c), FARTHEST * all.turn(c));
+                turned[at] = (turned[at] + uncertain[at]).clamp(-most, most);
+            }
             if !blamed.iter().any(misses_much) {
                 follow(case, &uncertain, &mut followed, &mut turned);
             }

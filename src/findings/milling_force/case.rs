@@ -1,5 +1,6 @@
 //! A milling-force file as its diagnosis sees it.
 
+mod jumps;
 mod samples;
 
 use super::aim::Aim;
@@ -29,6 +30,8 @@ pub struct CutSamples {
     pub time: Vec<f64>,
     /// First of its samples among those of all cuts.
     pub first: usize,
+    /// How well the angle of tooth 1 is known from where the force jumps, rad; infinite: nothing jumps.
+    pub turn: f64,
 }
 
 /// What does not change while causes are tried.
@@ -250,11 +253,15 @@ impl Case {
         self.aim.get_or_init(|| Aim::new(self, self.loose()))
     }
 
-    /// What a step of the vector adds, all of it.
+    /// What a step of the vector adds, all of it. The speeds of the records are in the scenes already: a stated one that is
+    /// wrong adds what its slope says.
     pub(super) fn step(&self, to: &[f64]) -> Vec<f64> {
         let (places, cuts) = (self.places(), self.cuts());
-        let there: Vec<f64> = self.offset.iter().zip(to).map(|(o, d)| o + d).collect();
-        let acts = |c: usize| places.of_cut(c).any(|place| to[place] != 0.0);
+        let mut still = to.to_vec();
+        (0..places.cuts).for_each(|c| still[places.speed(c)] = 0.0);
+        let each = self.offset.iter().zip(&still);
+        let there: Vec<f64> = each.map(|(o, d)| o + d).collect();
+        let acts = |c: usize| places.of_cut(c).any(|place| still[place] != 0.0);
         let one = |c: usize| {
             acts(c).then(|| {
                 let (scene, p) = cuts[c].present.moved(self.setting(c, &there));
@@ -263,10 +270,13 @@ impl Case {
             })
         };
         let moved: Vec<Option<Vec<V3>>> = (0..cuts.len()).into_par_iter().map(one).collect();
-        self.column(|c, i, k| match &moved[c] {
+        let by_speed = self.along(&places.of_every_cut(Places::speed, |c| to[places.speed(c)]));
+        let mut added = self.column(|c, i, k| match &moved[c] {
             Some(force) => force[i][k] - self.simulated(c, i)[k],
             None => 0.0,
-        })
+        });
+        added.iter_mut().zip(by_speed).for_each(|(a, s)| *a += s);
+        added
     }
 
     /// Measured less simulated and less what is known, with the speeds of the records as what is stated.
@@ -284,6 +294,19 @@ impl Case {
     pub(super) fn runout(&self) -> [f64; 2] {
         let stated = &self.cuts()[0].present.p;
         [0, 1].map(|k| stated[RUNOUT + k] + self.offset[RUNOUT + k])
+    }
+
+    /// How well the angle of tooth 1 of a cut is known before the slopes of its force, rad: a sensor that rings shows a jump late.
+    pub(super) fn turn(&self, cut: usize) -> f64 {
+        match self.sensor.resonant {
+            Some(_) => f64::INFINITY,
+            None => self.cuts()[cut].turn,
+        }
+    }
+
+    /// Whether the force of a cut jumps.
+    pub(super) fn jumps(&self) -> bool {
+        self.cuts().iter().any(|c| c.present.scene.jumps())
     }
 
     /// Revolutions of the spindle in the samples of a cut, on average.

@@ -19,9 +19,7 @@ pub(super) const WIDTH: Effect<Case> = Effect {
         let is_slot = |c: usize| case.cuts()[c].present.scene.cut.side == Side::Slot;
         let cuts: Vec<usize> = (0..case.cuts().len()).filter(|c| !is_slot(*c)).collect();
         let stated = |c: usize| case.cuts()[c].present.scene.cut.width_m;
-        let jumps = !case.cuts().iter().all(|c| c.present.scene.low_pass);
-        let starts: &[f64] = if jumps { &STARTS } else { &[] };
-        place(case, &cuts, Places::width, &stated, starts)
+        place(case, &cuts, Places::width, &stated, &starts(case))
     },
     parameters: |case, blamed| told(case, blamed, Places::width, "width_error"),
     would_tell: "measure the stock before and after the cut",
@@ -43,8 +41,23 @@ pub(super) const DEPTH: Effect<Case> = Effect {
     would_tell: "measure the depth of the slot",
 };
 
-/// Errors of a width from which it is sought where nothing spreads the entry of straight teeth, m.
+/// Errors of a width from which it is sought where nothing spreads the entry of the teeth, m ...
 const STARTS: [f64; 6] = [-8e-4, -4e-4, -1.5e-4, 1.5e-4, 4e-4, 8e-4];
+/// ... and where they are straight: this far apart, m, and so many on either side. A tooth that leaves at once a degree too late
+/// outweighs what its entry gains.
+const STEP: f64 = 5e-5;
+const STEPS: i32 = 20;
+
+/// Errors from which a width is sought, m: none where all is filtered.
+fn starts(case: &Case) -> Vec<f64> {
+    let steps = (1..=STEPS).flat_map(|k| [-1.0, 1.0].map(|side| side * f64::from(k) * STEP));
+    match case.cuts().iter().all(|c| c.present.scene.low_pass) {
+        true => Vec::new(),
+        false if case.jumps() => steps.collect(),
+        false => STARTS.to_vec(),
+    }
+}
+
 /// No cut is farther from what is stated, m.
 const MOST: f64 = 3e-3;
 

@@ -138,7 +138,7 @@ impl Case {
             .map(|j| loose(j, self.coefficient_spread(j)))
             .collect();
         for (c, cut) in self.cuts().iter().enumerate() {
-            all.push(loose(places.phase(c), f64::INFINITY));
+            all.push(loose(places.phase(c), self.turn(c)));
             all.push(loose(places.speed(c), SPEED));
             if cut.present.scene.cut.side != Side::Slot {
                 all.push(loose(places.width(c), WIDTH_SPREAD));

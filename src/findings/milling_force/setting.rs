@@ -6,7 +6,7 @@
 use crate::cutting::wave::Side;
 use crate::experiments::milling_force::{CutScene, PHASE, RUNOUT, SPEED, UNKNOWNS, WIDTH};
 use crate::experiments::resonance::Resonant;
-use crate::ground::spatial::V3;
+use crate::ground::spatial::{V3, add, scale};
 
 /// Shape of a cause of the process: this, then the direction of every amount in the vector.
 pub(super) const PROCESS: f64 = 1.0;
@@ -146,7 +146,11 @@ impl Present {
             .map(|j| offset[places.chipped(j)])
             .collect();
         let most = 2.0 * scene.tool.radius_m;
+        let stated = reach(&scene, p[WIDTH]);
         p[WIDTH] = (p[WIDTH] + offset[places.width(cut)]).clamp(1e-6, most);
+        if scene.jumps() {
+            p[PHASE] += reach(&scene, p[WIDTH]) - stated;
+        }
         scene.cut.depth_m = (scene.cut.depth_m + offset[places.depth(cut)]).max(1e-6);
         (scene, p)
     }
@@ -175,6 +179,8 @@ impl Present {
         slopes.extend((0..places.teeth).map(|j| of_teeth(places.chipped(j))));
         slopes.push(match scene.cut.side {
             Side::Slot => nothing(),
+            // no sample is asked on which side of a jump it stands
+            _ if scene.jumps() => wider(&scene, &p, &at.slopes),
             _ => stepped(places.width(cut), -STEPS[1]),
         });
         slopes.push(stepped(places.depth(cut), STEPS[2]));
@@ -190,6 +196,27 @@ impl Present {
             force: at.force,
             slopes,
         }
+    }
+}
+
+/// Slope of the force over the width where it jumps.
+fn wider(scene: &CutScene, p: &[f64; UNKNOWNS], slopes: &[Vec<V3>]) -> Vec<V3> {
+    let turn = (reach(scene, p[WIDTH] + STEPS[1]) - reach(scene, p[WIDTH])) / STEPS[1];
+    let each = slopes[WIDTH].iter().zip(&slopes[PHASE]);
+    each.map(|(w, phase)| add(*w, scale(turn, *phase)))
+        .collect()
+}
+
+/// Angle of a tooth where its chip is thick and the force jumps, rad, but for a constant: the record shows the jump, so a width
+/// that is wrong turns the tooth.
+fn reach(scene: &CutScene, width_m: f64) -> f64 {
+    let reach = (1.0 - width_m / scene.tool.radius_m)
+        .clamp(-1.0, 1.0)
+        .acos();
+    match scene.cut.side {
+        Side::Slot => 0.0,
+        Side::Up => reach,
+        Side::Down => -reach,
     }
 }
 

@@ -1,12 +1,12 @@
 //! The samples of a record that are compared, and how well they are known.
 
 use super::CutSamples;
+use super::jumps::{placed, steady};
 use crate::cutting::LINEAR_EDGE;
 use crate::experiments::milling_force::{BANDWIDTH, PHASE, RUNOUT, SPEED, WIDTH};
 use crate::findings::milling_force::direction::Direction;
 use crate::findings::milling_force::setting::Present;
 use crate::fit::cut_force::{Account, CutFit};
-use crate::ground::spatial::V3;
 use crate::ground::stats::{median, rms};
 use crate::measurement::milling_force::{Facts, MillingForce};
 
@@ -89,47 +89,16 @@ pub(super) fn samples(
                 speed: whole - 1.0,
             },
             first,
+            turn: f64::INFINITY,
         };
-        cut.only(&steady(&cut));
+        if cut.present.scene.jumps() {
+            (cut.present.p[PHASE], cut.turn) = placed(&cut);
+        }
+        cut.only(&steady(&cut, file.facts.runout_m.unwrap_or(0.0)));
         first += cut.time.len();
         cut
     };
     account.cuts.iter().enumerate().map(&mut one).collect()
-}
-
-/// How well the angle of a jump is known, rad, and the width of the cut, m.
-const BESIDE: [f64; 2] = [4e-3, 5e-5];
-/// Share of the range of a force from which such a shift changes it by a jump.
-const JUMP: f64 = 0.1;
-
-/// Samples that do not stand beside a jump of the simulated force (straight teeth that enter or leave at
-/// once, and nothing that spreads it): those say only that the jump is thereabouts.
-fn steady(cut: &CutSamples) -> Vec<bool> {
-    let present = &cut.present;
-    let at = |place: usize, by: f64| {
-        let mut p = present.p;
-        p[place] += by;
-        present.scene.force(&p)
-    };
-    let here = present.scene.force(&present.p);
-    let least = [0, 1, 2].map(|k| {
-        let own = here.iter().map(|f| f[k]);
-        let (low, high) = own.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
-        JUMP * (high - low)
-    });
-    let [turn, width] = BESIDE;
-    let beside = [
-        (PHASE, turn),
-        (PHASE, -turn),
-        (WIDTH, width),
-        (WIDTH, -width),
-    ]
-    .map(|(place, by)| at(place, by));
-    let holds = |i: usize| {
-        let still = |b: &Vec<V3>| (0..3).all(|k| (b[i][k] - here[i][k]).abs() <= least[k]);
-        beside.iter().all(still)
-    };
-    (0..here.len()).map(holds).collect()
 }
 
 impl CutSamples {

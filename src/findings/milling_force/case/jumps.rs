@@ -1,0 +1,216 @@
+//! Straight teeth enter and leave at once, and nothing spreads it: where a force jumps, no slope says where to go.
+
+use super::CutSamples;
+use crate::cutting::wave::Side;
+use crate::experiments::milling_force::{PHASE, Predicted, RUNOUT, WIDTH};
+use crate::ground::spatial::V3;
+use nalgebra::{Matrix6, Vector6};
+use std::f64::consts::{PI, TAU};
+
+/// How far from where a fit of slopes left it the angle of the tooth is sought, rad, in how many steps to either side; then
+/// closer, in steps of as many parts of the first.
+const FARTHEST: f64 = 0.16;
+const STEPS: i32 = 32;
+const CLOSER: i32 = 5;
+/// Steps to one side in which the sample is sought that sees another force at once, and what share of the range that is.
+const FINE: i32 = 80;
+const SWITCH: f64 = 0.5;
+/// No angle is known better, rad.
+const LEAST: f64 = 2e-3;
+/// How well the angle of a jump is known, rad, and the width of the cut, m.
+const BESIDE: [f64; 2] = [4e-3, 5e-5];
+/// Share of the range of a force that a shift changes if it is a jump; of straight teeth beyond what its slope says, since an
+/// edge alone makes small ones.
+const JUMP: f64 = 0.1;
+const SMALL: f64 = 0.05;
+/// So near to where the chip is nothing a tooth may scrape or not, rad. No other number was tried.
+const SCRAPING: f64 = 0.1;
+
+/// The angle of tooth 1 at which the jumps are where the record has them, whatever the coefficients, and its standard deviation.
+pub(super) fn placed(cut: &CutSamples) -> (f64, f64) {
+    let from = cut.present.p[PHASE];
+    let step = FARTHEST / f64::from(STEPS);
+    let about = |middle: f64, step: f64, count: i32| {
+        let each = (-count..=count).map(|k| middle + f64::from(k) * step);
+        let tried = each.map(|phase| (misfit(cut, phase), phase));
+        tried
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .map_or(middle, |best| best.1)
+    };
+    let near = about(from, step, STEPS);
+    let best = about(near, step / f64::from(CLOSER), CLOSER);
+    let [low, high] = [-1.0, 1.0].map(|side| best + side * still(cut, best, side));
+    // it stays between two samples where what is uncertain goes as far as two deviations
+    (0.5 * (low + high), (0.25 * (high - low)).max(LEAST))
+}
+
+/// How far the tooth may turn to one side until a sample sees another force at once, rad.
+fn still(cut: &CutSamples, phase: f64, side: f64) -> f64 {
+    let scene = &cut.present.scene;
+    let at = |turn: f64| {
+        let mut p = cut.present.p;
+        p[PHASE] = phase + side * turn;
+        scene.force(&p)
+    };
+    let mut before = at(0.0);
+    let least = range(&before).map(|r| SWITCH * r);
+    let step = FARTHEST / f64::from(FINE);
+    let jumped = |k: &i32| {
+        let now = at(f64::from(*k) * step);
+        let mut each = now.iter().zip(&before);
+        let any = each.any(|(a, b)| (0..3).any(|k| (a[k] - b[k]).abs() > least[k]));
+        before = now;
+        any
+    };
+    let first = (1..=FINE).find(jumped).unwrap_or(FINE);
+    f64::from(first - 1) * step
+}
+
+/// Range of a force, by axis.
+fn range(force: &[V3]) -> V3 {
+    [0, 1, 2].map(|k| {
+        let own = force.iter().map(|f| f[k]);
+        let (low, high) = own.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
+        high - low
+    })
+}
+
+/// Sum of squares that any six coefficients leave.
+fn misfit(cut: &CutSamples, phase: f64) -> f64 {
+    let mut p = cut.present.p;
+    p[PHASE] = phase;
+    let Predicted { slopes, .. } = cut.present.scene.predict(&p);
+    let (mut inner, mut right, mut sum) = (Matrix6::zeros(), Vector6::zeros(), 0.0);
+    for (i, measured) in cut.measured.iter().enumerate() {
+        for k in 0..3 {
+            let row = Vector6::from_fn(|j, _| slopes[j][i][k]);
+            inner += row * row.transpose();
+            right += row * measured[k];
+            sum += measured[k] * measured[k];
+        }
+    }
+    let held = 1e-9 * inner.diagonal().max();
+    (0..6).for_each(|j| inner[(j, j)] += held.max(f64::MIN_POSITIVE));
+    let solved = inner.cholesky().map(|root| root.solve(&right));
+    solved.map_or(sum, |amounts| sum - amounts.dot(&right))
+}
+
+/// Samples that do not stand beside a jump of the simulated force: those say only that the jump is thereabouts. Nor where straight
+/// teeth begin or end to scrape: a few µm of their radii move that by degrees. `runout_m`: as stated.
+pub(super) fn steady(cut: &CutSamples, runout_m: f64) -> Vec<bool> {
+    let present = &cut.present;
+    let here = present.scene.predict(&present.p);
+    let jumps = present.scene.jumps();
+    let (sloped, share) = if jumps { (1.0, SMALL) } else { (0.0, JUMP) };
+    let least = range(&here.force).map(|r| share * r);
+    let [turn, width] = BESIDE;
+    let mut known = vec![(PHASE, turn), (WIDTH, width)];
+    if jumps {
+        known.extend([(RUNOUT, runout_m), (RUNOUT + 1, runout_m)]);
+    }
+    let both = known
+        .into_iter()
+        .flat_map(|(place, by)| [(place, by), (place, -by)]);
+    let beside: Vec<(usize, f64, Vec<V3>)> = both
+        .map(|(place, by)| {
+            let mut p = present.p;
+            p[place] += by;
+            (place, sloped * by, present.scene.force(&p))
+        })
+        .collect();
+    let angles = present.scene.angles(&present.p);
+    let holds = |i: usize| {
+        let still = |(place, by, there): &(usize, f64, Vec<V3>)| {
+            let slope = &here.slopes[*place][i];
+            let beyond = |k: usize| there[i][k] - here.force[i][k] - by * slope[k];
+            (0..3).all(|k| beyond(k).abs() <= least[k])
+        };
+        !(jumps && scrapes(cut, angles[i])) && beside.iter().all(still)
+    };
+    (0..here.force.len()).map(holds).collect()
+}
+
+/// Whether a straight tooth stands where its chip begins or ends at nothing, when tooth 1 is at this angle.
+fn scrapes(cut: &CutSamples, angle: f64) -> bool {
+    let scene = &cut.present.scene;
+    let borders: &[f64] = match scene.cut.side {
+        Side::Up => &[0.0],
+        Side::Down => &[PI],
+        Side::Slot => &[0.0, PI],
+    };
+    let pitch = TAU / scene.tool.teeth as f64;
+    let near = |border: &f64| {
+        let away = (angle - border).rem_euclid(pitch);
+        away.min(pitch - away) < SCRAPING
+    };
+    borders.iter().any(near)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cutting::tool::Tool;
+    use crate::cutting::wave::Cut;
+    use crate::experiments::milling_force::{CutScene, UNKNOWNS};
+    use crate::findings::milling_force::setting::Present;
+
+    const PHASE_RAD: f64 = 0.43;
+
+    /// Straight teeth, and a start that is `off` from where tooth 1 stood.
+    fn samples(off: f64) -> CutSamples {
+        let scene = CutScene {
+            tool: Tool::square(8e-3, 2, 0.0),
+            cut: Cut {
+                spindle_rad_s: 600.0,
+                feed_m_s: 0.02,
+                depth_m: 2e-3,
+                width_m: 5e-3,
+                side: Side::Up,
+            },
+            time: (0..700).map(|i| 9.3e-5 * f64::from(i)).collect(),
+            low_pass: false,
+            resonant: None,
+            shorter: Vec::new(),
+            chipped: Vec::new(),
+            chipped_to_m: 0.0,
+        };
+        let mut p = [0.0; UNKNOWNS];
+        p[..6].copy_from_slice(&[900e6, 300e6, 100e6, 15e3, 20e3, 2e3]);
+        (p[PHASE], p[WIDTH]) = (PHASE_RAD, scene.cut.width_m);
+        let mut other = p;
+        (other[0], other[3]) = (1.2 * p[0], 0.8 * p[3]);
+        let measured = scene.force(&other);
+        p[PHASE] += off;
+        CutSamples {
+            measured,
+            time: scene.time.clone(),
+            present: Present {
+                scene,
+                p,
+                speed: 0.0,
+            },
+            first: 0,
+            turn: f64::INFINITY,
+        }
+    }
+
+    #[test]
+    fn the_tooth_is_placed_by_its_jumps_whatever_the_coefficients() {
+        for off in [-0.11, 0.002, 0.14] {
+            let (phase, spread) = placed(&samples(off));
+            let away = phase - PHASE_RAD;
+            assert!(
+                away.abs() < 3.0 * spread && spread < 0.02,
+                "{off}: {away} of {spread}"
+            );
+        }
+    }
+
+    #[test]
+    fn samples_beside_a_jump_alone_are_left_out() {
+        let cut = samples(0.0);
+        let kept = steady(&cut, 0.0);
+        let out = kept.iter().filter(|k| !**k).count();
+        assert!((1..140).contains(&out), "{out} of {}", kept.len());
+    }
+}
