@@ -45,8 +45,6 @@ pub struct Disc {
 
 /// Largest angle of the surface normal and of the lag within a disc, rad.
 const FINE: f64 = 0.03;
-/// Share of a disc that is not divided from it.
-const THIN: f64 = 1e-6;
 
 impl Tool {
     /// A square end without runout.
@@ -128,16 +126,6 @@ impl Tool {
             lag_rad: self.lag_rad(z_m),
             lag_width_rad: self.lag_rad(height_m).abs(),
         }
-    }
-
-    /// The two parts of a disc of the shaft below and above a height; none where that lies not within.
-    pub fn divided(&self, disc: &Disc, z_m: f64) -> Option<[Disc; 2]> {
-        let low = disc.z_m - 0.5 * disc.height_m;
-        let high = low + disc.height_m;
-        let apart = THIN * disc.height_m;
-        let within = disc.normal[0] == 1.0 && z_m > low + apart && z_m < high - apart;
-        let part = |low: f64, high: f64| self.disc(0.5 * (low + high), high - low, 1.0);
-        within.then(|| [part(low, z_m), part(z_m, high)])
     }
 
     /// Radius at height z above the tip without runout, m.

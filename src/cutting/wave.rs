@@ -76,22 +76,21 @@ pub struct Wave<'a, S: Scalar> {
     steady: Steady<S>,
 }
 
-/// Sine and cosine of the angles by which the teeth stand ahead of tooth 1 at the tip, in a disc.
-fn lags(tool: &Tool, disc: &Disc) -> Vec<[f64; 2]> {
-    let ahead = |tooth| <[f64; 2]>::from(tool.tooth_angle(0.0, tooth, disc).sin_cos());
-    (0..tool.teeth).map(ahead).collect()
-}
-
 impl<'a, S: Scalar> Wave<'a, S> {
     /// A cut by a tool whose runout (parts along tooth 1 and a quarter turn on, m) and width (m) are
     /// given apart from what the tool and the cut say.
     pub fn new(tool: &'a Tool, cut: &Cut, runout: [S; 2], width: S) -> Self {
         let discs = tool.discs(cut.depth_m);
         let all = |disc: &Disc| (0..tool.teeth).map(|j| tool.tip(disc, j, runout)).collect();
+        let ahead = |disc: &Disc, j: usize| {
+            let (sin, cos) = tool.tooth_angle(0.0, j, disc).sin_cos();
+            [sin, cos]
+        };
+        let lags = |disc: &Disc| (0..tool.teeth).map(|j| ahead(disc, j)).collect();
         Self {
             tool,
             tips: discs.iter().map(all).collect(),
-            lags: discs.iter().map(|disc| lags(tool, disc)).collect(),
+            lags: discs.iter().map(lags).collect(),
             discs,
             steady: Steady {
                 feed_per_radian: cut.feed_per_radian(),
@@ -111,27 +110,12 @@ impl<'a, S: Scalar> Wave<'a, S> {
     /// The same with teeth shorter by these lengths (m; none given: unchanged) from the tip to a height (m).
     #[must_use]
     pub fn shorter(mut self, by: &[f64], height_m: f64) -> Self {
-        if !by.is_empty() {
-            self.divide(height_m);
-        }
         for (disc, tips) in self.discs.iter().zip(&mut self.tips) {
             for (tip, by) in tips.iter_mut().zip(by).filter(|_| disc.z_m < height_m) {
                 tip.radius += S::constant(-by);
             }
         }
         self
-    }
-
-    /// Divides the disc of the shaft through which a height goes, where straight teeth are one disc: those of others are
-    /// thin enough.
-    fn divide(&mut self, height_m: f64) {
-        let [whole] = self.discs[..] else { return };
-        let Some(parts) = self.tool.divided(&whole, height_m) else {
-            return;
-        };
-        self.lags = parts.iter().map(|disc| lags(self.tool, disc)).collect();
-        self.tips = vec![self.tips[0].clone(); parts.len()];
-        self.discs = parts.to_vec();
     }
 
     /// The sums when tooth 1 stands at `spindle` (rad) at the tip. `blur` (rad) is the least angle over
@@ -263,7 +247,6 @@ mod tests {
 
     /// Mean forces of `machining-and-planning` 3.5: N = 2, a = 2 mm, c = 0.1 mm, slot, half up, half down.
     const AL7075: [f64; 6] = [1319.41, 788.83, 48.75, 19.65, 26.77, 2.05];
-    const AL7075_SI: [f64; 6] = [1319.41e6, 788.83e6, 48.75e6, 19.65e3, 26.77e3, 2.05e3];
     const MEANS: [(Side, [f64; 3]); 3] = [
         (Side::Slot, [-112.9676, 156.9602, 10.3070]),
         (Side::Up, [-110.9915, 36.3285, 5.1535]),
@@ -298,23 +281,6 @@ mod tests {
                     );
                 }
             }
-        }
-    }
-
-    #[test]
-    fn straight_teeth_that_are_chipped_to_half_the_depth_are_half_sound() {
-        let (tool, cut) = large(0.0, Side::Up);
-        let force = |by: &[f64], height_m: f64| {
-            let wave = Wave::new(&tool, &cut, [0.0; 2], cut.width_m).shorter(by, height_m);
-            force(&wave.basis(1.1, 0.0), &AL7075_SI)
-        };
-        let short = [3e-5, 0.0];
-        let [sound, whole] = [force(&[], 1.0), force(&short, 1.0)];
-        let half = force(&short, 0.5 * cut.depth_m);
-        for k in 0..3 {
-            let mean = 0.5 * (sound[k] + whole[k]);
-            assert!((half[k] - mean).abs() < 1e-9 * mean.abs(), "{k}: {half:?}");
-            assert!((sound[k] - whole[k]).abs() > 0.01 * mean.abs());
         }
     }
 
