@@ -143,3 +143,16 @@ fn uses_are_found_in_every_spelling() {
     assert!(!may_use("ground", "fit") && !may_use("signal", "measurement"));
     assert!(may_use("report", "sheet") && !may_use("report", "cli"));
 }
+
+/// Lines above which a file holds more than one noun.
+const LONGEST: usize = 310;
+
+#[test]
+fn no_file_is_longer_than_one_noun() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = Vec::new();
+    sources(&root, &mut files);
+    let lines = |file: &PathBuf| std::fs::read_to_string(file).unwrap().lines().count();
+    files.retain(|file| lines(file) > LONGEST);
+    assert!(files.is_empty(), "split {files:#?}");
+}

@@ -2,6 +2,7 @@
 //! of the base, jointly (source 002, section 2.6, whose equations 12 to 16 hold misprints: statics is
 //! written anew here).
 
+mod descents;
 pub mod fitted;
 pub mod model;
 pub mod next;
