@@ -1,13 +1,14 @@
-//! Takes the evidence: `cargo run --release --example evidence [SEED] [CASES]` runs every blind suite and
-//! every suite of intervals with many cases on seeds of its own, and writes `docs/evidence.md`: command,
+//! Takes the evidence: `cargo run --release --example evidence [SEED] [CASES]` runs every blind suite, every judge and
+//! every suite of intervals with many cases on seeds of its own, and writes `docs/evidence.md`: command, date,
 //! commit, rates and matrices as the suites print them. The suites of `cargo test` hold fixed seeds.
 
 use std::process::Command;
 
-/// What is run: the suite, the variables that ask for more cases, and what it shows.
+/// What is run: the suite, the variable that asks for more cases, how many for each one asked, and what it shows.
 struct Suite {
     test: &'static str,
     cases: &'static str,
+    /// 0: as many as the suite has by itself.
     times: u64,
     shows: &'static str,
 }
@@ -15,67 +16,109 @@ struct Suite {
 /// Every suite; a new one is one line.
 const SUITES: &[Suite] = &[
     Suite {
-        test: "blind",
-        cases: "IDENT_BLIND_CASES",
-        times: 2,
-        shows: "Load cycles that hide a cause",
-    },
-    Suite {
-        test: "blind_workspace",
-        cases: "IDENT_BLIND_ROBOT_CASES",
-        times: 1,
-        shows: "Force steps at nine points that hide a cause",
-    },
-    Suite {
-        test: "blind_hammer",
-        cases: "IDENT_BLIND_ROBOT_CASES",
-        times: 1,
-        shows: "Hammer tests that hide a cause",
-    },
-    Suite {
-        test: "diagnose_joint_motion",
+        test: "blind::",
         cases: "IDENT_BLIND_CASES",
         times: 1,
-        shows: "Joint motions that hide a cause",
+        shows: "Load cycles that hide a cause, by our own generator",
     },
     Suite {
-        test: "damping_robots",
+        test: "judge_load_cycle::",
+        cases: "IDENT_JUDGE_CASES",
+        times: 5,
+        shows: "Load cycles by a judge who had not read the program",
+    },
+    Suite {
+        test: "stranger::",
+        cases: "IDENT_STRANGER_CASES",
+        times: 5,
+        shows: "Load cycles by other laws again",
+    },
+    Suite {
+        test: "blind_workspace::",
         cases: "IDENT_BLIND_ROBOT_CASES",
         times: 1,
-        shows: "Dampings of robots by other formulas: intervals and modes",
+        shows: "Force steps at nine points that hide a cause, by our own generator",
     },
     Suite {
-        test: "damping_coverage",
-        cases: "IDENT_COVERAGE_CAMPAIGNS",
+        test: "judge_workspace::",
+        cases: "IDENT_JUDGE_CASES",
+        times: 12,
+        shows: "Force steps by a judge with robots, habits and formulas of its own",
+    },
+    Suite {
+        test: "blind_hammer::",
+        cases: "IDENT_BLIND_ROBOT_CASES",
         times: 1,
-        shows: "Dampings of the example's robot: intervals",
+        shows: "Hammer tests that hide a cause, by our own generator",
     },
     Suite {
-        test: "force_sensor",
-        cases: "IDENT_COVERAGE_TESTS",
-        times: 13,
-        shows: "Force sensors: intervals",
+        test: "judge_hammer::hammers_of",
+        cases: "IDENT_JUDGE_CASES",
+        times: 4,
+        shows: "Hammer tests by a judge of its own",
     },
     Suite {
-        test: "cubes",
-        cases: "IDENT_COVERAGE_TESTS",
-        times: 7,
-        shows: "Measuring cubes: intervals",
+        test: "diagnose_joint_motion::",
+        cases: "IDENT_BLIND_CASES",
+        times: 1,
+        shows: "Joint motions that hide a cause, by our own generator",
     },
     Suite {
-        test: "judge_instruments",
+        test: "judge_joint_motion::",
+        cases: "IDENT_JUDGE_CASES",
+        times: 6,
+        shows: "Joint motions by a judge of other motions and laws",
+    },
+    Suite {
+        test: "judge_instruments::",
         cases: "IDENT_JUDGE_CASES",
         times: 3,
         shows: "Screws, force sensors, cutting forces and cubes by a judge of the physics alone",
     },
     Suite {
-        test: "milled_part",
-        cases: "IDENT_PART_CASES",
-        times: 1,
-        shows: "Milled parts of plants that are not the model",
+        test: "blind_milling_force::",
+        cases: "IDENT_BLIND_CASES",
+        times: 0,
+        shows: "Cutting forces that hide a cause, by our own generator",
     },
     Suite {
-        test: "compensate_interval",
+        test: "judge_part::",
+        cases: "IDENT_JUDGE_CASES",
+        times: 2,
+        shows: "Milled parts by a judge of its own",
+    },
+    Suite {
+        test: "damping_robots::",
+        cases: "IDENT_BLIND_ROBOT_CASES",
+        times: 1,
+        shows: "Dampings of robots by other formulas: intervals and modes",
+    },
+    Suite {
+        test: "damping_coverage::",
+        cases: "IDENT_COVERAGE_CAMPAIGNS",
+        times: 1,
+        shows: "Dampings of the example's robot: intervals",
+    },
+    Suite {
+        test: "stiffness::intervals_cover",
+        cases: "IDENT_COVERAGE_SEEDS",
+        times: 6,
+        shows: "Load cycles: intervals of stiffness",
+    },
+    Suite {
+        test: "force_sensor::",
+        cases: "IDENT_COVERAGE_TESTS",
+        times: 13,
+        shows: "Force sensors: intervals",
+    },
+    Suite {
+        test: "cubes::",
+        cases: "IDENT_COVERAGE_TESTS",
+        times: 7,
+        shows: "Measuring cubes: intervals",
+    },
+    Suite {
+        test: "compensate_interval::",
         cases: "IDENT_COVERAGE_PLANTS",
         times: 12,
         shows: "Compensated parts: intervals of what is left",
@@ -89,9 +132,10 @@ fn main() {
     let seed = number(words.next(), 1);
     let cases = number(words.next(), 16);
     let mut page = format!(
-        "# Evidence\n\nWritten by `cargo run --release --example evidence {seed} {cases}` at commit {}. Every block is what \
-         the suite printed; rates from our own generators are upper bounds for data by strangers.\n",
-        commit()
+        "# Evidence\n\nWritten by `cargo run --release --example evidence {seed} {cases}` on commit {} of {}. Every block \
+         is what the suite printed; rates from our own generators are upper bounds for data by strangers.\n",
+        asked(&["rev-parse", "--short", "HEAD"]),
+        asked(&["show", "-s", "--format=%cs", "HEAD"]),
     );
     for suite in SUITES {
         eprintln!("{} ...", suite.test);
@@ -100,62 +144,46 @@ fn main() {
     }
 }
 
-fn commit() -> String {
-    let asked = Command::new("git")
-        .args(["rev-parse", "--short", "HEAD"])
-        .output();
-    let text = asked.map(|out| String::from_utf8_lossy(&out.stdout).trim().to_string());
+/// What git answers.
+fn asked(words: &[&str]) -> String {
+    let out = Command::new("git").args(words).output();
+    let text = out.map(|out| String::from_utf8_lossy(&out.stdout).trim().to_string());
     text.unwrap_or_else(|_| "unknown".into())
 }
 
 fn chapter(suite: &Suite, seed: u64, cases: u64) -> String {
-    let count = (cases * suite.times).to_string();
-    let typed = format!(
-        "IDENT_BLIND_SEED={seed} {}={count} cargo test --release --test suite {}:: -- --nocapture",
-        suite.cases, suite.test
-    );
-    let run = Command::new("cargo")
-        .args(["test", "--release", "--test", "suite"])
-        .arg(format!("{}::", suite.test))
-        .args(["--", "--nocapture"])
-        .env("IDENT_BLIND_SEED", seed.to_string())
-        .env(suite.cases, &count)
-        .output();
-    let said = run.map(|out| {
-        format!(
-            "{}{}",
-            String::from_utf8_lossy(&out.stderr),
-            String::from_utf8_lossy(&out.stdout)
-        )
-    });
+    let seed = seed.to_string();
+    let mut variables = vec![
+        ("IDENT_BLIND_SEED", seed.clone()),
+        ("IDENT_STRANGER_SEED", seed),
+    ];
+    if suite.times > 0 {
+        variables.push((suite.cases, (cases * suite.times).to_string()));
+    }
+    let words = ["test", "--test", "suite", suite.test, "--", "--nocapture"];
+    let typed: Vec<String> = variables.iter().map(|(k, v)| format!("{k}={v}")).collect();
+    let typed = format!("{} cargo {}", typed.join(" "), words.join(" "));
+    let run = Command::new("cargo").args(words).envs(variables).output();
+    let said = run.map(|out| String::from_utf8_lossy(&out.stdout).into_owned());
     let said = said.unwrap_or_else(|error| format!("could not be run: {error}"));
     format!("\n## {}\n\n`{typed}`\n\n{}", suite.shows, tables(&said))
 }
 
+/// How the harness begins lines of its own, and suites those of single cases.
+const PASSED_OVER: [&str; 6] = ["running ", "test ", "failures:", "successes:", "note:", "#"];
+
 /// Rows of matrices as a table, the rates as they stand; single cases and the harness's own lines left out.
 fn tables(said: &str) -> String {
-    let rows: Vec<&str> = said.lines().filter(|l| l.starts_with("| ")).collect();
-    let rates = [
-        "right",
-        "clean:",
-        "singles",
-        "pairs",
-        "cases",
-        "single,",
-        "gain intervals",
-        "true cause",
-        "intervals",
-        "hold",
-        "seconds",
-    ];
     let told = |line: &&str| {
-        !line.starts_with('|')
-            && rates.iter().any(|r| line.contains(r))
-            && line.split(':').next().is_some_and(|head| {
-                head.parse::<u64>().is_err() && !head.ends_with(char::is_numeric)
-            })
+        let head = line.split(':').next().unwrap_or("");
+        !line.trim().is_empty()
+            && !PASSED_OVER.iter().any(|own| line.starts_with(own))
+            && !head.ends_with(char::is_numeric)
     };
-    let rates: Vec<&str> = said.lines().filter(told).collect();
+    let (rows, rates): (Vec<&str>, Vec<&str>) = said
+        .lines()
+        .filter(told)
+        .partition(|line| line.starts_with("| "));
     let table = match rows.is_empty() {
         true => String::new(),
         false => format!("| hidden | answers |\n|---|---|\n{}\n\n", rows.join("\n")),
