@@ -58,6 +58,40 @@ fn a_model_with_its_tilts_is_sufficient() {
     assert!(limits.iter().any(|l| hidden(&l)), "{limits:?}");
 }
 
+/// The readings at the largest force of every cycle, and no others.
+fn one_force(text: String) -> String {
+    let kept = |line: &&str| {
+        line.starts_with('#') || line.starts_with("point") || line.contains(",750.0,")
+    };
+    let mut seen = std::collections::BTreeSet::new();
+    let first = |line: &&str| match line.split_once(",750.0,") {
+        Some((cycle, _)) => seen.insert(cycle.to_string()),
+        None => true,
+    };
+    let lines: Vec<&str> = text.lines().filter(kept).filter(first).collect();
+    lines.join("\n")
+}
+
+#[test]
+fn one_force_a_cycle_counts_from_the_unloaded_robot() {
+    let (folder, file) = campaign(one_force);
+    let typed = ["diagnose", file.to_str().unwrap(), "--json"];
+    let answer = document(&ident(&typed, folder.path()));
+    assert_eq!(answer["verdict"], "sufficient", "{answer:#}");
+    assert!(answer["discrepancy"]["rms"].as_f64().unwrap() > 1e-7);
+    assert!(answer["discrepancy"]["noise_rms"].as_f64().unwrap() > 1e-7);
+    let (folder, file) = campaign(|text| bare(one_force(text)));
+    without_tilt(folder.path());
+    let typed = ["diagnose", file.to_str().unwrap(), "--json"];
+    let answer = document(&ident(&typed, folder.path()));
+    let causes = answer["causes"].as_array().unwrap();
+    assert!(!causes.is_empty(), "{answer:#}");
+    assert!(
+        causes.iter().all(|c| c["effect"] == "missing_tilt"),
+        "{causes:#?}"
+    );
+}
+
 #[test]
 fn missing_tilts_are_found_placed_and_carried_on() {
     let (folder, file) = campaign(bare);

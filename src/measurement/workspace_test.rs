@@ -1,6 +1,8 @@
 //! Kind `workspace`: force steps at the tool, at several points and in several directions
 //! (source 000, section 3.3: nine points, x, y and z, force and sensor at the tool).
 
+mod unloaded;
+
 use super::front::Front;
 use super::table::{Cells, Table};
 use crate::ground::problem::{Outcome, Problem};
@@ -53,8 +55,11 @@ pub struct WorkspaceTest {
     pub sha256: String,
     /// Its facts.
     pub facts: Facts,
-    /// The steps, in the order of the file.
+    /// The steps, in the order of the file; cycle by cycle, each after the unloaded robot, where
+    /// [`WorkspaceTest::from_unloaded`].
     pub steps: Vec<Step>,
+    /// Whether the file holds one force a cycle only, so that displacements count from the unloaded robot.
+    pub from_unloaded: bool,
     /// Data rows of the file.
     pub rows: usize,
     /// Rows left out because point, direction, force or every displacement was empty.
@@ -89,13 +94,15 @@ impl WorkspaceTest {
             )
             .at_line(table.first_line));
         }
+        let counted = unloaded::with_unloaded(&steps);
         Ok(Self {
             left_out: table.rows - steps.len(),
+            from_unloaded: counted.is_some(),
+            steps: counted.unwrap_or(steps),
             rows: table.rows,
             sha256: table.sha256,
             path: table.path,
             facts,
-            steps,
         })
     }
 

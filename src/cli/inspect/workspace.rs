@@ -82,6 +82,12 @@ fn lines(test: &WorkspaceTest, setups: &[Setup]) -> Vec<String> {
         facts.joint_angles.first().map_or(0, Vec::len),
         setups.len()
     ));
+    if test.from_unloaded {
+        lines.push(
+            "one force in every cycle: displacements count from the unloaded robot, a step at 0 N"
+                .into(),
+        );
+    }
     lines.extend((0..3).filter_map(|d| direction_line(d, setups)));
     let percent = |x: Option<f64>| x.map_or("not stated".into(), |x| format!("{:.2} %", 100.0 * x));
     lines.push(format!(

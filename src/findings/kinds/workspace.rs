@@ -19,6 +19,10 @@ use crate::sheet::number::significant;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
+/// What is said where one force a cycle was read.
+const FROM_UNLOADED: &str =
+    "One force was read in every cycle: displacements count from the unloaded robot.";
+
 /// A test with its robot and what was found.
 pub(super) struct Workspace {
     pub(super) test: WorkspaceTest,
@@ -108,10 +112,10 @@ impl Diagnosed for Workspace {
     }
 
     fn remarks(&self) -> Vec<String> {
+        let counted = self.test.from_unloaded.then(|| FROM_UNLOADED.to_string());
         let said = self.unseen();
-        said.map(|said| said.replacen('w', "W", 1))
-            .into_iter()
-            .collect()
+        let said = said.map(|said| said.replacen('w', "W", 1));
+        counted.into_iter().chain(said).collect()
     }
 
     fn more(&self) -> Map<String, Value> {

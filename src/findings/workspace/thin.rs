@@ -39,6 +39,7 @@ pub fn thinned(test: &WorkspaceTest) -> Option<(WorkspaceTest, Doubt)> {
         sha256: test.sha256.clone(),
         rows: test.rows,
         left_out: test.left_out,
+        from_unloaded: test.from_unloaded,
     };
     Some((thin, doubt))
 }

@@ -17,6 +17,9 @@ fn look(on: &Loaded) -> Said {
         return vec![(Weight::Fatal, "the force never changes".into())];
     }
     let none = |s: &&crate::fit::force_steps::Setup| s.lines.iter().all(Option::is_none);
+    if on.setups.iter().all(|s| none(&s)) {
+        return vec![(Weight::Fatal, "no set-up holds a change of force".into())];
+    }
     match on.setups.iter().any(|s| none(&s)) {
         true => vec![(
             Weight::Odd,
