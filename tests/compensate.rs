@@ -123,8 +123,21 @@ fn measuring_while_cutting_leaves_about_half_at_the_exit_and_the_pilot_force_tak
 
 #[test]
 fn the_written_path_planned_again_is_the_corrected_one() {
+    the_written_path_runs_as_corrected("2.0");
+}
+
+#[test]
+fn a_path_that_stops_at_its_corners_stops_nowhere_else_when_corrected() {
+    the_written_path_runs_as_corrected("0.0");
+}
+
+fn the_written_path_runs_as_corrected(blend_radius_mm: &str) {
     let folder = tempfile::tempdir().unwrap();
-    let (planned, setup) = ready(&job(folder.path(), CORNER, 1500.0, ""));
+    let path = job(folder.path(), CORNER, 1500.0, "");
+    let stated = std::fs::read_to_string(&path).unwrap();
+    let asked = format!("blend_radius_mm = {blend_radius_mm}");
+    std::fs::write(&path, stated.replace("blend_radius_mm = 2.0", &asked)).unwrap();
+    let (planned, setup) = ready(&path);
     let (found, ..) = judged("ideal-force", &planned, &setup, &setup, Support::Static);
     let text = text(
         &planned.plan,

@@ -21,6 +21,7 @@ fn to(x: f64, y: f64, z: f64) -> Move {
         rapid: false,
         shape: Shape::Line,
         blend: None,
+        own_blend: None,
         spindle: None,
         station: None,
         line: 0,

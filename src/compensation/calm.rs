@@ -23,7 +23,7 @@ pub fn calm(planned: &Planned) -> Outcome<Option<Planned>> {
         true => Move {
             rapid: false,
             feed: feed.or(one.feed),
-            blend: if next.rapid { one.blend } else { Some(0.0) },
+            own_blend: if next.rapid { one.own_blend } else { Some(0.0) },
             ..*one
         },
     });

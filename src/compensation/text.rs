@@ -1,18 +1,23 @@
-//! A corrected path as a CSV of kind `path`, dense enough that its corners need no blends.
+//! A corrected path as a CSV of kind `path`: points so dense that the chords follow it, run through without a stop
+//! wherever the programmed path does not stop.
 
 use super::correction::Correction;
 use crate::ground::spatial::{add, cross, norm, sub};
 use crate::ground::units::DEGREE;
 use crate::path::build::Part;
+use crate::path::corner::{Corner, Passage};
 use crate::path::quaternion::angles;
 use crate::planning::Plan;
 use crate::planning::plan::Row;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// Largest turn between chords over their length: what keeps them this near to the corrected path, m.
 const FINE: f64 = 1e-6;
 /// Farthest points, m.
 const FAR: f64 = 1e-3;
+/// Where chords are asked to be rounded before a point, m: half of the longest.
+const JOINT: f64 = 0.5 * FAR;
 
 /// The file's text. `inputs`: path and SHA-256 of every file that it rests on, the job first.
 pub fn text(
@@ -37,11 +42,25 @@ pub fn text(
         let _ = writeln!(out, "#   {{ path = {path}, sha256 = {hash} }},");
     }
     out.push_str("# ]\n");
-    out.push_str("x_mm,y_mm,z_mm,a_deg,b_deg,c_deg,feed_mm_min,rapid,s_mm\n");
-    for row in chosen(plan, correction) {
-        line(&mut out, plan, row, correction);
+    out.push_str("x_mm,y_mm,z_mm,a_deg,b_deg,c_deg,feed_mm_min,rapid,blend_mm,s_mm\n");
+    let rows = chosen(plan, correction);
+    let stops = stops(plan, &rows);
+    for (i, row) in rows.into_iter().enumerate() {
+        let blend = if stops.contains(&i) { 0.0 } else { JOINT };
+        line(&mut out, plan, row, correction, blend);
     }
     out
+}
+
+/// The rows that stand where the programmed path stops.
+fn stops(plan: &Plan, rows: &[&Row]) -> BTreeSet<usize> {
+    let stop = |corner: &&Corner| corner.passage == Passage::Stop;
+    let corners = plan.path.corners.iter().filter(stop);
+    let nearest = |corner: &Corner| {
+        let away = |i: &usize| (rows[*i].s - corner.begin).abs();
+        (0..rows.len()).min_by(|a, b| away(a).total_cmp(&away(b)))
+    };
+    corners.filter_map(nearest).collect()
 }
 
 /// Rows whose chords follow the corrected path.
@@ -76,7 +95,7 @@ fn bends(a: [f64; 3], b: [f64; 3], rows: &[Row], i: usize, correction: &Correcti
     norm(cross(ab, bc)) > FINE * norm(add(ab, bc)).max(1e-9)
 }
 
-fn line(out: &mut String, plan: &Plan, row: &Row, correction: &Correction) {
+fn line(out: &mut String, plan: &Plan, row: &Row, correction: &Correction, blend: f64) {
     let place = add(row.point, correction.at(row.s)).map(|x| 1e3 * x + 0.0);
     let turned = angles(&row.orientation.matrix()).map(|a| a / DEGREE + 0.0);
     for x in place {
@@ -87,7 +106,8 @@ fn line(out: &mut String, plan: &Plan, row: &Row, correction: &Correction) {
     }
     let (rapid, feed) = element(plan, row.s);
     let feed = feed.map_or(String::new(), |f| format!("{:.3}", f * 60e3));
-    let _ = writeln!(out, "{feed},{},{:.6}", u8::from(rapid), 1e3 * row.s);
+    let (rapid, blend, s) = (u8::from(rapid), 1e3 * blend, 1e3 * row.s);
+    let _ = writeln!(out, "{feed},{rapid},{blend:.3},{s:.6}");
 }
 
 /// Whether the piece at an arc length is a rapid motion, and its feed, m/s.

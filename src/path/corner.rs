@@ -47,15 +47,14 @@ pub struct Corner {
 }
 
 impl Corner {
-    /// Judges the corner between two elements. `asked`: the blend radius of the job, m, before which
-    /// that of the file gives way; `halted`: the tool turns on the spot there.
+    /// Judges the corner between two elements. `asked`: the blend radius of the job, m, see [`Element::asked_blend`]; `halted`: the tool turns on the spot there.
     pub fn between(before: &Element, after: &Element, asked: Option<f64>, halted: bool) -> Self {
         let length = before.curve.length();
         let (end, start) = (before.curve.end(length), after.curve.end(0.0));
         let angle = norm(cross(end.tangent, start.tangent)).atan2(dot(end.tangent, start.tangent));
         let asked = match before.rapid && !after.rapid {
             true => 0.0,
-            false => asked.or(before.blend).unwrap_or(0.0),
+            false => before.asked_blend(asked),
         };
         let room = 0.5 * length.min(after.curve.length());
         let straight = before.curve.is_line() && after.curve.is_line();

@@ -26,8 +26,18 @@ pub struct Element {
     pub rapid: bool,
     /// Where the blend to the next element begins, m from the corner, if the file says so.
     pub blend: Option<f64>,
+    /// The same for this corner alone, m: before what the job says.
+    pub own_blend: Option<f64>,
     /// Line of the file that ends there.
     pub line: usize,
+}
+
+impl Element {
+    /// Where the blend to the next element is asked to begin, m from the corner: as the file says of this corner alone,
+    /// else as the job says (`job`), else as the file says of all.
+    pub fn asked_blend(&self, job: Option<f64>) -> f64 {
+        self.own_blend.or(job).or(self.blend).unwrap_or(0.0)
+    }
 }
 
 /// The elements of a path and the turns on the spot between them.
@@ -124,6 +134,7 @@ fn of_moves(toolpath: &Toolpath, holding: &Holding) -> Programme {
                 feed: step.feed,
                 rapid: step.rapid,
                 blend: step.blend,
+                own_blend: step.own_blend,
                 line: step.line,
             }),
             None => programme.stay(ends, step.line),
@@ -180,6 +191,7 @@ fn of_curve(nurbs: &Nurbs, holding: &Holding) -> Programme {
             feed: nurbs.feed,
             rapid: false,
             blend: None,
+            own_blend: None,
             line: nurbs.lines.last().copied().unwrap_or(1),
         })
     });

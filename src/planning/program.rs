@@ -172,8 +172,7 @@ impl Writer<'_> {
 
     /// The blend distance asked for, m.
     fn joint(&self, element: &Element) -> f64 {
-        let asked = self.plan.path.blend_radius.or(element.blend);
-        asked.unwrap_or(0.0)
+        element.asked_blend(self.plan.path.blend_radius)
     }
 
     /// The turn about the spindle to state at the arc length `s` (m), rad. After a stop it is that of the

@@ -74,9 +74,8 @@ impl Draft {
 /// Refuses a feed, an approximation distance or a spindle speed that no machine has.
 fn possible(next: &Move) -> Outcome<()> {
     let feed = next.feed.is_none_or(|feed| FEEDS.contains(&feed));
-    let blend = next
-        .blend
-        .is_none_or(|blend| (0.0..=FARTHEST).contains(&blend));
+    let mut blends = next.blend.iter().chain(&next.own_blend);
+    let blend = blends.all(|blend| (0.0..=FARTHEST).contains(blend));
     let spindle = next.spindle.is_none_or(|speed| speed.abs() <= SPINDLE);
     let what = match (feed, blend, spindle) {
         (true, true, true) => return Ok(()),
@@ -111,6 +110,7 @@ impl Move {
             rapid: false,
             shape: Shape::Line,
             blend: None,
+            own_blend: None,
             spindle: None,
             station: None,
             line,

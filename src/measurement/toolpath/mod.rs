@@ -64,6 +64,8 @@ pub struct Move {
     /// Distance from the end point at which a blend to the next move begins, m; 0: exact stop;
     /// `None`: the file does not say, the job does.
     pub blend: Option<f64>,
+    /// The same for this point alone, m: it goes before what the job says. `None`: nothing special about it.
+    pub own_blend: Option<f64>,
     /// Speed of the spindle, rad/s, positive clockwise seen from the spindle (M3), 0 when stopped;
     /// `None`: not stated so far.
     pub spindle: Option<f64>,

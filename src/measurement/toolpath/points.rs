@@ -61,6 +61,7 @@ struct Columns<'a> {
     feed: Option<&'a [f64]>,
     rapid: Option<&'a [f64]>,
     weight: Option<&'a [f64]>,
+    blend: Option<&'a [f64]>,
     station: Option<&'a [f64]>,
 }
 
@@ -74,7 +75,7 @@ enum Turn<'a> {
 
 /// Columns of the kind by their stems.
 const STEMS: &[&str] = &[
-    "x", "y", "z", "a", "b", "c", "i", "j", "k", "feed", "rapid", "weight", "s", "point",
+    "x", "y", "z", "a", "b", "c", "i", "j", "k", "feed", "rapid", "weight", "blend", "s", "point",
 ];
 
 impl<'a> Columns<'a> {
@@ -85,7 +86,7 @@ impl<'a> Columns<'a> {
             .iter()
             .find(|c| !STEMS.contains(&c.stem.as_str()))
         {
-            let remedy = "a path has `x_mm,y_mm,z_mm`, then `a_deg,b_deg,c_deg` or `i,j,k`, `feed_mm_min`, `rapid`, `weight`, `s_mm`";
+            let remedy = "a path has `x_mm,y_mm,z_mm`, then `a_deg,b_deg,c_deg` or `i,j,k`, `feed_mm_min`, `rapid`, `weight`, `blend_mm`, `s_mm`";
             let problem = Problem::new("is a column that a path does not have", remedy);
             return Err(problem.in_column(&column.name).at_line(header));
         }
@@ -112,6 +113,7 @@ impl<'a> Columns<'a> {
             feed: column(table, "feed", Some(Dimension::Speed))?,
             rapid: column(table, "rapid", None)?,
             weight: column(table, "weight", None)?,
+            blend: column(table, "blend", Some(Dimension::Length))?,
             station: column(table, "s", Some(Dimension::Length))?,
         })
     }
@@ -131,6 +133,7 @@ impl<'a> Columns<'a> {
         Ok(Move {
             feed,
             rapid: rapid(cell(self.rapid))?,
+            own_blend: cell(self.blend),
             station: cell(self.station),
             ..Move::line(to, self.turn.at(row, before)?, line)
         })
