@@ -21,6 +21,9 @@ const SPEED: f64 = 0.02;
 const TURNS: f64 = 2.5;
 /// Samples that are looked at.
 const SAMPLES: usize = 20_000;
+/// A force whose mean is above so many times its scatter is steady: three teeth and more in a full slot add up to one, and
+/// nothing is there to repeat.
+const STEADY: f64 = 3.0;
 /// Times the stated noise that a channel along the axis must have to be judged.
 const SEEN: f64 = 5.0;
 
@@ -56,7 +59,7 @@ impl Cutting<'_> {
     }
 }
 
-/// Largest correlation of a channel with itself about one turn on; none where the record is too short.
+/// Largest correlation of a channel with itself about one turn on; none where the record is too short or the force steady.
 fn repeats(record: &Record, k: usize, turn: f64) -> Option<f64> {
     let n = record.time.len().min(SAMPLES);
     let step = (record.time[n - 1] - record.time[0]) / (n - 1) as f64;
@@ -66,6 +69,10 @@ fn repeats(record: &Record, k: usize, turn: f64) -> Option<f64> {
     }
     let middle = record.force[..n].iter().map(|f| f[k]).sum::<f64>() / n as f64;
     let own: Vec<f64> = record.force[..n].iter().map(|f| f[k] - middle).collect();
+    let scatter = (own.iter().map(|x| x * x).sum::<f64>() / n as f64).sqrt();
+    if middle.abs() > STEADY * scatter {
+        return None;
+    }
     let (from, to) = (
         ((1.0 - SPEED) * lag) as usize,
         ((1.0 + SPEED) * lag) as usize + 1,
