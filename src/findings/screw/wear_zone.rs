@@ -30,6 +30,9 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     would_tell: "measure at more targets in and beside the zone",
 };
 
+/// Widest zone, half width over half of the travel, and none has its middle outside: where most of the travel is worn there is
+/// no zone, but a lead that changes.
+const WIDEST: f64 = 0.6;
 /// Half widths over half of the travel.
 const WIDTHS: [f64; 6] = [0.05, 0.08, 0.14, 0.22, 0.33, 0.5];
 /// Steepness of the ends: 2 is a bell, 8 nearly a box.
@@ -46,6 +49,9 @@ pub(super) fn about(case: &Case, shape: &[f64]) -> Vec<Member> {
     for shift in SHIFTS {
         for stretch in STRETCHES {
             let place = centre + shift * width;
+            if width * stretch > WIDEST * case.half || place.abs() > case.half {
+                continue;
+            }
             let steep = STEEPER.map(|s| member(case, place, width * stretch, power * s));
             members.extend(steep);
         }
