@@ -150,9 +150,10 @@ impl<S: Scalar> Steady<S> {
 #[inline]
 fn left_by<S: Scalar>(q: f64, [sin, cos]: [S; 2], turn: S, radius: S) -> S {
     let lean = radius + cos * q;
-    let first = cos * turn * q / lean;
+    let over = S::constant(1.0) / lean;
+    let first = cos * turn * q * over;
     // R sin ε = q (turn - ε) cos φ; sin ε to third order, exact to ε⁵
-    let angle = first + radius * first * first * first / 6.0 / lean;
+    let angle = first + radius * over * first * first * first * (1.0 / 6.0);
     let behind = (turn - angle) * q;
     let square = angle * angle;
     let fall = square * 0.5 - square * square / 24.0;

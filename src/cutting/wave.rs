@@ -122,7 +122,7 @@ impl<'a, S: Scalar> Wave<'a, S> {
     /// which an entry or exit is spread: the distance of the samples if the wave is to be filtered.
     pub fn basis(&self, spindle: S, blur: f64) -> Basis<S> {
         let mut sums = [[S::constant(0.0); 3]; 6];
-        let [sin, cos] = [spindle.sin(), spindle.cos()];
+        let [sin, cos] = spindle.sin_cos();
         let plain = [sin.value(), cos.value()];
         for ((disc, tips), lags) in self.discs.iter().zip(&self.tips).zip(&self.lags) {
             let lag = disc.lag_width_rad;
@@ -166,7 +166,7 @@ impl<'a, S: Scalar> Wave<'a, S> {
         if share.value() < 1.0 && lag > 0.0 {
             // the middle of that part of the edge that is in
             let further = (-share + 1.0) * (0.5 * lag * bite.side);
-            let ([sin, cos], [s, c]) = (direction, [further.sin(), further.cos()]);
+            let ([sin, cos], [s, c]) = (direction, further.sin_cos());
             direction = [sin * c + cos * s, cos * c - sin * s];
             bite = self.steady.bite(direction, tooth, tips);
         }

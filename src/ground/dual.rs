@@ -39,6 +39,12 @@ pub trait Scalar:
         let v = self.value();
         self.chain(v.cos(), -v.sin())
     }
+    /// Sine and cosine at the price of one.
+    #[inline]
+    fn sin_cos(self) -> [Self; 2] {
+        let (sin, cos) = self.value().sin_cos();
+        [self.chain(sin, cos), self.chain(cos, -sin)]
+    }
     /// Natural exponential.
     #[inline]
     fn exp(self) -> Self {
@@ -121,12 +127,14 @@ impl<const N: usize> Dual<N> {
         Self { re: value, eps }
     }
 
+    /// A loop: arrays mapped by closures are calls of functions where little is optimised.
     #[inline]
-    fn zip(self, other: Self, re: f64, f: impl Fn(f64, f64) -> f64) -> Self {
-        Self {
-            re,
-            eps: std::array::from_fn(|i| f(self.eps[i], other.eps[i])),
+    fn zip(mut self, other: Self, re: f64, f: impl Fn(f64, f64) -> f64) -> Self {
+        self.re = re;
+        for i in 0..N {
+            self.eps[i] = f(self.eps[i], other.eps[i]);
         }
+        self
     }
 }
 
@@ -143,11 +151,12 @@ impl<const N: usize> Scalar for Dual<N> {
         self.re
     }
     #[inline]
-    fn chain(self, f: f64, slope: f64) -> Self {
-        Self {
-            re: f,
-            eps: self.eps.map(|e| e * slope),
+    fn chain(mut self, f: f64, slope: f64) -> Self {
+        self.re = f;
+        for e in &mut self.eps {
+            *e *= slope;
         }
+        self
     }
 }
 
@@ -185,8 +194,8 @@ impl<const N: usize> Div for Dual<N> {
     type Output = Self;
     #[inline]
     fn div(self, o: Self) -> Self {
-        let q = self.re / o.re;
-        self.zip(o, q, |a, b| (a - q * b) / o.re)
+        let (q, over) = (self.re / o.re, 1.0 / o.re);
+        self.zip(o, q, |a, b| (a - q * b) * over)
     }
 }
 impl<const N: usize> Neg for Dual<N> {
