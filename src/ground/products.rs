@@ -12,9 +12,28 @@ pub fn tr_mul<'a, 'b>(
 ) -> DMatrix<f64> {
     let (a, b) = (a.into(), b.into());
     match a.ncols() > WIDE && b.ncols() > WIDE {
-        true => a.transpose() * b,
+        true => turned(a) * b,
         false => a.tr_mul(&b),
     }
+}
+
+/// Columns that are turned together: their entries lie beside one another in a turned matrix.
+const TOGETHER: usize = 8;
+
+/// aᵀ.
+fn turned(a: DMatrixView<f64>) -> DMatrix<f64> {
+    let (rows, columns) = a.shape();
+    let mut turned = vec![0.0; rows * columns];
+    for first in (0..columns).step_by(TOGETHER) {
+        let count = TOGETHER.min(columns - first);
+        let group: Vec<_> = (first..first + count).map(|j| a.column(j)).collect();
+        let group: Vec<&[f64]> = group.iter().map(|c| c.as_slice()).collect();
+        for (i, row) in turned.chunks_exact_mut(columns).enumerate() {
+            let places = row[first..first + count].iter_mut();
+            places.zip(&group).for_each(|(to, column)| *to = column[i]);
+        }
+    }
+    DMatrix::from_vec(columns, rows, turned)
 }
 
 /// aᵀa.
