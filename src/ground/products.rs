@@ -1,6 +1,6 @@
 //! Products of columns.
 
-use nalgebra::{DMatrix, DMatrixView};
+use nalgebra::{Cholesky, DMatrix, DMatrixView, Dyn};
 
 /// Columns from which a product by blocks is worth turning its first factor.
 const WIDE: usize = 5;
@@ -42,9 +42,37 @@ pub fn gram<'a>(a: impl Into<DMatrixView<'a, f64>>) -> DMatrix<f64> {
     tr_mul(a, a)
 }
 
+/// L⁻¹ of the root L of a matrix LLᵀ, column by column: the inverse of the matrix is its product with its own transpose, of
+/// which an entry of the diagonal is the square of a column.
+pub fn inverse_root(root: &Cholesky<f64, Dyn>) -> DMatrix<f64> {
+    let l = root.l_dirty();
+    let n = l.nrows();
+    let mut inverse = DMatrix::identity(n, n);
+    for (j, mut column) in inverse.column_iter_mut().enumerate() {
+        let x = column.as_mut_slice();
+        for k in j..n {
+            let factor = l.column(k);
+            let factor = factor.as_slice();
+            x[k] /= factor[k];
+            let (own, below) = x[k..].split_at_mut(1);
+            let below = below.iter_mut().zip(&factor[k + 1..]);
+            below.for_each(|(x, l)| *x -= l * own[0]);
+        }
+    }
+    inverse
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_inverse_of_a_root_makes_the_inverse() {
+        let of = DMatrix::from_fn(4, 4, |i, j| if i == j { 5.0 } else { 0.3 * (i + j) as f64 });
+        let root = inverse_root(&of.clone().cholesky().unwrap());
+        let off = root.tr_mul(&root) * of - DMatrix::identity(4, 4);
+        assert!(off.abs().max() < 1e-12);
+    }
 
     #[test]
     fn wide_and_narrow_products_are_those_of_dots() {

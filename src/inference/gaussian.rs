@@ -5,6 +5,7 @@
 //! expectation and maximisation: MacKay 1992; Tipping 2001). With σ² integrated out the evidence is
 //! Student's: ln E = −(n+ν)/2 · ln((ν+Q)/(ν+n)) − ½ ln det(I + A GA), Q what the blocks leave of |y|².
 
+use crate::ground::products::inverse_root;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// Products of the columns of all blocks with one another and with the reading.
@@ -104,9 +105,8 @@ pub fn update(
 
 /// The size of every column.
 fn each_of(blocks: &[(usize, Size)], sizes: &[f64]) -> Vec<f64> {
-    let each = blocks.iter().zip(sizes);
-    each.flat_map(|(block, size)| std::iter::repeat_n(*size, block.0))
-        .collect()
+    let each = |(block, size): (&(usize, Size), &f64)| vec![*size; block.0];
+    blocks.iter().zip(sizes).flat_map(each).collect()
 }
 
 fn first(size: Size) -> f64 {
@@ -121,7 +121,7 @@ fn first(size: Size) -> f64 {
 fn grown(solved: &Solved, reading: &Reading, blocks: &[(usize, Size)], old: &[f64]) -> Vec<f64> {
     let mut at = 0;
     let mut sizes = old.to_vec();
-    let (mean, root) = (solved.mean(), solved.inverse_root());
+    let (mean, root) = (solved.mean(), inverse_root(&solved.root));
     let noise_variance = reading.noise_variance(solved.left);
     for (size, (count, kind)) in sizes.iter_mut().zip(blocks) {
         let own = at..at + count;
@@ -180,25 +180,6 @@ impl Solved {
         DVector::from_fn(self.scale.len(), |i, _| self.scale[i] * self.amounts[i])
     }
 
-    /// L⁻¹ of the root L, column by column; the inverse is its product with its own transpose, of which an entry of the
-    /// diagonal is the square of a column.
-    fn inverse_root(&self) -> DMatrix<f64> {
-        let (n, l) = (self.scale.len(), self.root.l_dirty());
-        let mut inverse = DMatrix::identity(n, n);
-        for (j, mut column) in inverse.column_iter_mut().enumerate() {
-            let x = column.as_mut_slice();
-            for k in j..n {
-                let factor = l.column(k);
-                let factor = factor.as_slice();
-                x[k] /= factor[k];
-                let (own, below) = x[k..].split_at_mut(1);
-                let below = below.iter_mut().zip(&factor[k + 1..]);
-                below.for_each(|(x, l)| *x -= l * own[0]);
-            }
-        }
-        inverse
-    }
-
     fn ln_evidence(&self, reading: &Reading) -> f64 {
         let diagonal = self.root.l_dirty().diagonal();
         // half of ln det, that is of twice the sum over the root
@@ -213,8 +194,8 @@ fn with_sizes(
     sizes: &[f64],
 ) -> Option<Posterior> {
     let solved = Solved::of(products, reading, each_of(blocks, sizes))?;
-    let root = solved.inverse_root();
-    let inverse = root.tr_mul(&root);
+    let inverse = inverse_root(&solved.root);
+    let inverse = inverse.tr_mul(&inverse);
     let (n, scale) = (solved.scale.len(), &solved.scale);
     Some(Posterior {
         mean: solved.mean(),
