@@ -1,6 +1,6 @@
 //! Products of columns.
 
-use nalgebra::{DMatrix, DMatrixView};
+use nalgebra::{Cholesky, DMatrix, DMatrixView, Dyn};
 
 /// Columns from which a product by blocks is worth turning its first factor.
 const WIDE: usize = 5;
@@ -12,9 +12,28 @@ pub fn tr_mul<'a, 'b>(
 ) -> DMatrix<f64> {
     let (a, b) = (a.into(), b.into());
     match a.ncols() > WIDE && b.ncols() > WIDE {
-        true => a.transpose() * b,
+        true => turned(a) * b,
         false => a.tr_mul(&b),
     }
+}
+
+/// Columns that are turned together: their entries lie beside one another in a turned matrix.
+const TOGETHER: usize = 8;
+
+/// aᵀ.
+fn turned(a: DMatrixView<f64>) -> DMatrix<f64> {
+    let (rows, columns) = a.shape();
+    let mut turned = vec![0.0; rows * columns];
+    for first in (0..columns).step_by(TOGETHER) {
+        let count = TOGETHER.min(columns - first);
+        let group: Vec<_> = (first..first + count).map(|j| a.column(j)).collect();
+        let group: Vec<&[f64]> = group.iter().map(|c| c.as_slice()).collect();
+        for (i, row) in turned.chunks_exact_mut(columns).enumerate() {
+            let places = row[first..first + count].iter_mut();
+            places.zip(&group).for_each(|(to, column)| *to = column[i]);
+        }
+    }
+    DMatrix::from_vec(columns, rows, turned)
 }
 
 /// aᵀa.
@@ -23,9 +42,37 @@ pub fn gram<'a>(a: impl Into<DMatrixView<'a, f64>>) -> DMatrix<f64> {
     tr_mul(a, a)
 }
 
+/// L⁻¹ of the root L of a matrix LLᵀ, column by column: the inverse of the matrix is its product with its own transpose, of
+/// which an entry of the diagonal is the square of a column.
+pub fn inverse_root(root: &Cholesky<f64, Dyn>) -> DMatrix<f64> {
+    let l = root.l_dirty();
+    let n = l.nrows();
+    let mut inverse = DMatrix::identity(n, n);
+    for (j, mut column) in inverse.column_iter_mut().enumerate() {
+        let x = column.as_mut_slice();
+        for k in j..n {
+            let factor = l.column(k);
+            let factor = factor.as_slice();
+            x[k] /= factor[k];
+            let (own, below) = x[k..].split_at_mut(1);
+            let below = below.iter_mut().zip(&factor[k + 1..]);
+            below.for_each(|(x, l)| *x -= l * own[0]);
+        }
+    }
+    inverse
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_inverse_of_a_root_makes_the_inverse() {
+        let of = DMatrix::from_fn(4, 4, |i, j| if i == j { 5.0 } else { 0.3 * (i + j) as f64 });
+        let root = inverse_root(&of.clone().cholesky().unwrap());
+        let off = root.tr_mul(&root) * of - DMatrix::identity(4, 4);
+        assert!(off.abs().max() < 1e-12);
+    }
 
     #[test]
     fn wide_and_narrow_products_are_those_of_dots() {

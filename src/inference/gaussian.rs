@@ -5,6 +5,7 @@
 //! expectation and maximisation: MacKay 1992; Tipping 2001). With σ² integrated out the evidence is
 //! Student's: ln E = −(n+ν)/2 · ln((ν+Q)/(ν+n)) − ½ ln det(I + A GA), Q what the blocks leave of |y|².
 
+use crate::ground::products::inverse_root;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// Products of the columns of all blocks with one another and with the reading.
@@ -95,12 +96,17 @@ pub fn update(
 ) -> Option<Posterior> {
     let mut sizes: Vec<f64> = blocks.iter().map(|b| first(b.1)).collect();
     let free = blocks.iter().any(|b| !matches!(b.1, Size::Given(_)));
-    let mut found = with_sizes(products, reading, blocks, &sizes)?;
     for _ in 0..if free { STEPS } else { 0 } {
-        sizes = grown(&found, blocks);
-        found = with_sizes(products, reading, blocks, &sizes)?;
+        let solved = Solved::of(products, reading, each_of(blocks, &sizes))?;
+        sizes = grown(&solved, reading, blocks, &sizes);
     }
-    Some(found)
+    with_sizes(products, reading, blocks, &sizes)
+}
+
+/// The size of every column.
+fn each_of(blocks: &[(usize, Size)], sizes: &[f64]) -> Vec<f64> {
+    let each = |(block, size): (&(usize, Size), &f64)| vec![*size; block.0];
+    blocks.iter().zip(sizes).flat_map(each).collect()
 }
 
 fn first(size: Size) -> f64 {
@@ -112,14 +118,17 @@ fn first(size: Size) -> f64 {
 
 /// One step: a² ← (|m|²/σ² + tr V)/p for the free blocks; for drawn ones |m|²/σ² over the number of amounts
 /// that the data fix (MacKay 1992), which arrives sooner where they fix few of many.
-fn grown(found: &Posterior, blocks: &[(usize, Size)]) -> Vec<f64> {
+fn grown(solved: &Solved, reading: &Reading, blocks: &[(usize, Size)], old: &[f64]) -> Vec<f64> {
     let mut at = 0;
-    let mut sizes = found.sizes.clone();
+    let mut sizes = old.to_vec();
+    let (mean, root) = (solved.mean(), inverse_root(&solved.root));
+    let noise_variance = reading.noise_variance(solved.left);
     for (size, (count, kind)) in sizes.iter_mut().zip(blocks) {
         let own = at..at + count;
         at += count;
-        let left: f64 = own.clone().map(|i| found.covariance[(i, i)]).sum();
-        let moved = own.map(|i| found.mean[i] * found.mean[i]).sum::<f64>() / found.noise_variance;
+        let variance = |i: usize| solved.scale[i].powi(2) * root.column(i).norm_squared();
+        let left: f64 = own.clone().map(variance).sum();
+        let moved = own.map(|i| mean[i] * mean[i]).sum::<f64>() / noise_variance;
         let square = match kind {
             Size::Given(_) => continue,
             Size::Free => (moved + left) / (*count).max(1) as f64,
@@ -184,10 +193,9 @@ fn with_sizes(
     blocks: &[(usize, Size)],
     sizes: &[f64],
 ) -> Option<Posterior> {
-    let each = blocks.iter().zip(sizes);
-    let scale = each.flat_map(|(block, size)| std::iter::repeat_n(*size, block.0));
-    let solved = Solved::of(products, reading, scale.collect())?;
-    let inverse = solved.root.inverse();
+    let solved = Solved::of(products, reading, each_of(blocks, sizes))?;
+    let inverse = inverse_root(&solved.root);
+    let inverse = inverse.tr_mul(&inverse);
     let (n, scale) = (solved.scale.len(), &solved.scale);
     Some(Posterior {
         mean: solved.mean(),

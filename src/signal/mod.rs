@@ -34,5 +34,6 @@ pub mod pulse;
 pub mod smooth;
 pub mod spectrum;
 pub mod stabilisation;
+pub mod steps;
 pub mod trigger;
 pub mod window;

@@ -13,7 +13,7 @@ use nalgebra::DVector;
 pub(super) struct Weighing<'a> {
     pub statement: &'a Statement,
     pub bank: &'a Bank<'a>,
-    pub span: Option<&'a Span>,
+    pub span: Option<&'a Span<'a>>,
     pub judgement: &'a Judgement,
     /// What the present simulation misses, with the nuisances at their most probable: per row.
     pub missed: Vec<f64>,
@@ -38,7 +38,7 @@ impl<'a> Weighing<'a> {
     pub fn new(
         statement: &'a Statement,
         bank: &'a Bank,
-        span: Option<&'a Span>,
+        span: Option<&'a Span<'a>>,
         nothing: &Fit,
         judgement: &'a Judgement,
     ) -> Self {

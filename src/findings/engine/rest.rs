@@ -3,6 +3,7 @@
 
 use super::bank::{Bank, Fit};
 use super::judgement::Judgement;
+use super::materiality::in_noise;
 use super::statement::Statement;
 use crate::ground::products::gram;
 use crate::ground::stats::{quantile, rms};
@@ -57,18 +58,19 @@ const GRANTED: f64 = 0.15;
 const TIMES: [f64; 9] = [1.5, 2.3, 3.5, 5.0, 8.0, 12.0, 20.0, 50.0, 150.0];
 
 /// The generic columns of a statement, of one noise deviation rms together.
-pub struct Span {
+pub struct Span<'a> {
+    statement: &'a Statement,
     /// Whitened.
     columns: DMatrix<f64>,
     /// Their products with one another.
     gram: DMatrix<f64>,
-    /// Row by row, in noise deviations of a reading.
-    rows: DMatrix<f64>,
+    /// By which they were multiplied.
+    scale: f64,
 }
 
-impl Span {
+impl<'a> Span<'a> {
     /// `None` where the kind states none.
-    pub fn of(statement: &Statement) -> Option<Self> {
+    pub fn of(statement: &'a Statement) -> Option<Self> {
         let white = |c: &Vec<f64>| DVector::from_vec(statement.noise.whiten(c));
         let columns: Vec<DVector<f64>> = statement.span.iter().map(white).collect();
         let square: f64 = columns.iter().map(DVector::norm_squared).sum();
@@ -76,21 +78,17 @@ impl Span {
             return None;
         }
         let scale = (statement.reading.len() as f64 / square).sqrt();
-        let plain = |c: &Vec<f64>| {
-            let each = c.iter().zip(statement.noise.spread());
-            DVector::from_iterator(c.len(), each.map(|(v, s)| v / s))
-        };
-        let rows: Vec<DVector<f64>> = statement.span.iter().map(plain).collect();
         let columns = DMatrix::from_columns(&columns) * scale;
         Some(Self {
             gram: gram(&columns),
             columns,
-            rows: DMatrix::from_columns(&rows) * scale,
+            statement,
+            scale,
         })
     }
 
     /// A set with generic structure of any size beside it.
-    fn beside<'a>(&'a self, bank: &'a Bank, fit: &Fit) -> Beside<'a> {
+    fn beside<'b>(&'b self, bank: &'b Bank, fit: &Fit) -> Beside<'b> {
         let own = fit.members.iter().zip(&fit.posterior.sizes);
         Beside {
             products: bank.beside(&fit.members, (&self.columns, &self.gram)),
@@ -114,11 +112,16 @@ impl Span {
         self.greatest(bank, fit, &TIMES.map(|times| GRANTED * times))
     }
 
-    /// What amounts of the columns, the set's before them, make of the readings.
+    /// What amounts of the columns, the set's before them, make of the readings, in noise deviations of one.
     fn structure(&self, amounts: &DVector<f64>) -> Vec<f64> {
-        let count = self.rows.ncols();
+        let count = self.columns.ncols();
         let own = amounts.rows(amounts.len() - count, count);
-        (&self.rows * own).as_slice().to_vec()
+        let mut sum = vec![0.0; self.columns.nrows()];
+        for (column, amount) in self.statement.span.iter().zip(own.iter()) {
+            let each = sum.iter_mut().zip(column);
+            each.for_each(|(s, c)| *s += self.scale * amount * c);
+        }
+        in_noise(self.statement, &sum)
     }
 
     /// What is left beside a set.

@@ -7,7 +7,7 @@
 
 mod growth;
 
-use crate::findings::engine::Noise;
+use crate::findings::engine::{Noise, White};
 use crate::findings::load_cycle::families::View;
 use crate::ground::stats::{mean, median, rms};
 use crate::signal::colour::Colour;
@@ -215,26 +215,31 @@ impl Coloured {
 }
 
 impl Coloured {
+    /// Cosine coefficients of a column, each reading in its own deviation.
+    pub fn waves(&self, column: &[f64]) -> Vec<f64> {
+        let each = column.iter().zip(&self.spread);
+        let mut own: Vec<f64> = each.map(|(c, s)| c / s).collect();
+        self.cosine.transform(&mut own);
+        own
+    }
+
+    /// The noise of such coefficients: independent.
+    pub fn of_waves(&self) -> White {
+        White {
+            spread: self.colour.clone(),
+            rows: self.rows,
+        }
+    }
+
     /// Power of a residual over the frequency, each reading in its own deviation.
     pub fn spectrum(&self, residual: &[f64]) -> Vec<f64> {
-        let mut own: Vec<f64> = residual
-            .iter()
-            .zip(&self.spread)
-            .map(|(r, s)| r / s)
-            .collect();
-        self.cosine.transform(&mut own);
-        own.iter().map(|c| c * c).collect()
+        self.waves(residual).iter().map(|c| c * c).collect()
     }
 }
 
 impl Noise for Coloured {
     fn whiten(&self, column: &[f64]) -> Vec<f64> {
-        let mut out: Vec<f64> = column
-            .iter()
-            .zip(&self.spread)
-            .map(|(c, s)| c / s)
-            .collect();
-        self.cosine.transform(&mut out);
+        let mut out = self.waves(column);
         out.iter_mut().zip(&self.colour).for_each(|(o, c)| *o /= c);
         out
     }

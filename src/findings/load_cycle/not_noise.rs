@@ -4,6 +4,7 @@ use super::families::View;
 use super::noise::{Coloured, MEDIAN, above_neighbours, differences, is_one_sided, windows};
 use crate::ground::stats::median;
 use crate::signal::outliers;
+use crate::signal::steps::{sharpest, steps, window};
 
 /// A coloured noise so many times the scatter of neighbouring readings is a word for what nobody has explained:
 /// clean 1/f noise reaches about 2 (load cycles of `tests/judge`, seeds 1 to 3).
@@ -11,6 +12,11 @@ const SWOLLEN: f64 = 3.5;
 /// Isolated changes of level that are no noise: coloured noise swallows a structure with many kinks, its
 /// differences do not.
 const JUMPS: usize = 5;
+/// The same of changes between the means of several rows, away from turning points, where laws of loops are wrong.
+const LEVELS: usize = 4;
+/// Robust deviations from which a change is none of noise, whatever its colour: noise of any colour changes by normal
+/// amounts over any number of rows.
+const FAR: f64 = 6.0;
 /// Nats by which a spectrum that rises must be better than one that falls, and the least amplitude of what
 /// rises, deviations of one reading.
 const RISING: (f64, f64) = (16.0, 2.0);
@@ -20,6 +26,7 @@ const FIRST: usize = 6;
 /// Whether a residual holds what no noise makes, whatever its colour.
 pub fn is_no_noise(residual: &[f64], noise: &Coloured, view: &View) -> bool {
     jumps(residual, view) >= JUMPS
+        || levels(residual, noise, view) >= LEVELS
         || is_one_sided(residual, &windows(residual))
         || is_rising(residual, noise, view)
         || above_neighbours(residual, &noise.spread) > SWOLLEN
@@ -28,7 +35,6 @@ pub fn is_no_noise(residual: &[f64], noise: &Coloured, view: &View) -> bool {
 /// Isolated changes of level in a residual that are far above the noise of its differences. A wild reading
 /// goes and comes back at once; where the load jumps, timing alone makes one.
 fn jumps(residual: &[f64], view: &View) -> usize {
-    const FAR: f64 = 6.0;
     let own = differences(residual);
     let spread = outliers::robust_std(&own);
     let far = |i: usize| own[i].abs() > FAR * spread && spread > 0.0;
@@ -37,6 +43,24 @@ fn jumps(residual: &[f64], view: &View) -> usize {
     (1..own.len().saturating_sub(1))
         .filter(|i| far(*i) && calm(i - 1) && calm(i + 1) && !moved(*i))
         .count()
+}
+
+/// Isolated changes of level between the means of several rows.
+fn levels(residual: &[f64], noise: &Coloured, view: &View) -> usize {
+    let each = residual.iter().zip(&noise.spread);
+    let own: Vec<f64> = each.map(|(r, s)| r / s).collect();
+    let (mut steps, wide) = (steps(&own), window(own.len()));
+    let spread = outliers::robust_std(&steps);
+    let straight = |i: usize| {
+        let (from, to) = (i.saturating_sub(wide), (i + wide).min(own.len() - 1));
+        view.half_cycle[from] == view.half_cycle[to]
+    };
+    for (i, step) in steps.iter_mut().enumerate() {
+        if step.abs() <= FAR * spread || !straight(i) {
+            *step = 0.0;
+        }
+    }
+    sharpest(&steps, LEVELS).len()
 }
 
 /// Whether the spectrum rises with the frequency: noise is even or falls, an oscillation rises above what

@@ -82,10 +82,11 @@ impl<'a> Record<'a> {
             let leading = self.leading();
             let residual = self.residual(&leading[0]);
             let plain = self.noise.with_deviations(&residual, &self.view);
+            let mut waves = self.in_waves(&plain, &leading);
             let best = TINTS
                 .iter()
                 .map(|tint| plain.tinted(*tint).with_lines(&residual, &self.view))
-                .map(|noise| (self.evidence(&noise, &leading), noise))
+                .map(|noise| (evidence(&mut waves, &noise, &leading), noise))
                 .max_by(|a, b| a.0.total_cmp(&b.0));
             if let Some((_, noise)) = best {
                 self.noise = noise;
@@ -112,27 +113,18 @@ impl<'a> Record<'a> {
         leading
     }
 
-    /// Greatest evidence of some sets under a noise, their prices paid; structure of unknown make may
-    /// stand beside the first and the empty one, or it would be taken for colour.
-    fn evidence(&self, noise: &Coloured, sets: &[(Vec<Member>, f64)]) -> f64 {
+    /// Some sets and coarse structure as cosine coefficients, each reading in its own deviation: they are the same under
+    /// every colour.
+    fn in_waves(&self, noise: &Coloured, sets: &[(Vec<Member>, f64)]) -> Statement {
         let members = sets.iter().flat_map(|set| &set.0);
-        let mut statement = self.stated(noise, members.map(anonymous).collect());
-        statement.span.clone_from(&self.coarse);
-        let (generic, bank) = (Span::of(&statement), Bank::new(&statement));
-        let last = sets.len().saturating_sub(1);
-        let mut first = 0;
-        let mut best = f64::NEG_INFINITY;
-        for (k, (members, price)) in sets.iter().enumerate() {
-            let own: Vec<usize> = (first..first + members.len()).collect();
-            first += members.len();
-            let Some(fit) = bank.fit(&own) else { continue };
-            let span = generic.as_ref().filter(|_| k == 0 || k == last);
-            let structured = span.map_or(f64::NEG_INFINITY, |span| {
-                span.greatest(&bank, &fit, &STRUCTURED.0) - STRUCTURED.1
-            });
-            best = best.max(fit.posterior.ln_evidence.max(structured) - price);
-        }
-        best - noise.ln_size()
+        let mut all = self.stated(noise, members.map(anonymous).collect());
+        all.span.clone_from(&self.coarse);
+        let members = all.suspects.iter_mut().flat_map(|s| &mut s.members);
+        let nuisances = all.nuisances.iter_mut().map(|n| &mut n.column);
+        let columns = members.flat_map(|m| &mut m.columns).chain(nuisances);
+        let columns = columns.chain(&mut all.span).chain([&mut all.reading]);
+        columns.for_each(|c| *c = noise.waves(c));
+        all
     }
 
     /// What the spring and a set leave of the readings.
@@ -163,6 +155,27 @@ impl<'a> Record<'a> {
             aspects: Aspects::default(),
         }
     }
+}
+
+/// Greatest evidence of some sets under a noise, their prices paid; structure of unknown make may stand beside the first
+/// and the empty one, or it would be taken for colour. `waves`: the sets as [`Record::in_waves`] has them.
+fn evidence(waves: &mut Statement, noise: &Coloured, sets: &[(Vec<Member>, f64)]) -> f64 {
+    waves.noise = Box::new(noise.of_waves());
+    let (generic, bank) = (Span::of(waves), Bank::new(waves));
+    let last = sets.len().saturating_sub(1);
+    let mut first = 0;
+    let mut best = f64::NEG_INFINITY;
+    for (k, (members, price)) in sets.iter().enumerate() {
+        let own: Vec<usize> = (first..first + members.len()).collect();
+        first += members.len();
+        let Some(fit) = bank.fit(&own) else { continue };
+        let span = generic.as_ref().filter(|_| k == 0 || k == last);
+        let structured = span.map_or(f64::NEG_INFINITY, |span| {
+            span.greatest(&bank, &fit, &STRUCTURED.0) - STRUCTURED.1
+        });
+        best = best.max(fit.posterior.ln_evidence.max(structured) - price);
+    }
+    best - noise.ln_size()
 }
 
 /// A column of which nothing is known.

@@ -8,6 +8,7 @@
 mod constant;
 mod delay;
 mod even;
+mod jumps;
 mod law;
 mod linear_memory;
 mod odd;

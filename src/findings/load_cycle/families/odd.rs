@@ -72,6 +72,14 @@ fn soft_zone(view: &View) -> Shapes {
     for m in geometric(0.07, 0.72, 22) {
         shapes.positive(view, &view.over_load(|u| clip(u, m)));
     }
+    // contacts that come to bear one after the other: no edge, but nothing is left of it at the largest load
+    for m in geometric(0.08, 0.4, 8) {
+        shapes.positive(view, &view.over_load(|u| (u / m).tanh()));
+        shapes.positive(
+            view,
+            &view.over_load(|u| u.signum() * (1.0 - (-u.abs() / m).exp())),
+        );
+    }
     for m in [0.12, 0.2, 0.32, 0.5] {
         let about: Vec<f64> = [0.6, 0.8, 1.0, 1.25, 1.55].map(|f| f * m).to_vec();
         let clips: Vec<Vec<f64>> = about

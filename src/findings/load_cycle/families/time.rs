@@ -11,7 +11,7 @@ pub const THERMAL_DRIFT: Family = Family {
     members: drift,
 };
 
-/// A jump at a free place.
+/// A jump at a free place, or two.
 pub const SLIP: Family = Family {
     cause: "slip",
     mechanism: "time",
@@ -51,9 +51,15 @@ fn slip(view: &View) -> Shapes {
     let n = view.rows();
     let places = PLACES.min(n.saturating_sub(6));
     for k in 0..places {
-        let at = 3 + k * (n - 6) / places.max(1);
-        let jump: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i >= at))).collect();
+        shapes.one(view, &view.since(3 + k * (n - 6) / places.max(1)));
+    }
+    // where the reading jumps it may have slipped at once, or at two of these instants
+    for (k, at) in view.jumps.iter().enumerate() {
+        let jump = view.since(*at);
         shapes.one(view, &jump);
+        for second in &view.jumps[k + 1..] {
+            shapes.free(view, &[jump.clone(), view.since(*second)]);
+        }
     }
     shapes
 }

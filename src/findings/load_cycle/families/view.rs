@@ -1,5 +1,6 @@
 //! A record as the families see it: load, time and turning points in natural units.
 
+use super::jumps::jumps;
 use crate::fit::observation::Observation;
 use crate::signal::play::play;
 
@@ -24,6 +25,8 @@ pub struct View {
     /// Share of the band of the rows, averaged as they are, that is the lower quarter of the readings' own:
     /// what oscillates above is folded mains, below something that moves.
     pub slow: f64,
+    /// Rows before which the reading jumps most, whatever the load does.
+    pub jumps: Vec<usize>,
 }
 
 /// Share of the larger side that the smaller must reach for a load to count as two-sided.
@@ -50,11 +53,13 @@ impl View {
         };
         let first = data.scene.time.first().copied().unwrap_or(0.0);
         let t = data.scene.time.iter();
+        let t: Vec<f64> = t.map(|t| (t - first) / data.scene.duration).collect();
         let (low, high) = u
             .iter()
             .fold((0.0_f64, 0.0_f64), |(l, h), v| (l.min(*v), h.max(*v)));
         Self {
-            t: t.map(|t| (t - first) / data.scene.duration).collect(),
+            jumps: jumps(&u, &t, &data.reading),
+            t,
             period: data.scene.period / data.scene.duration,
             half_cycle: half_cycles(&data.cycles.turning, u.len()),
             two_sided: high.min(-low) > OTHER_SIDE * high.max(-low),
@@ -99,6 +104,13 @@ impl View {
     /// A function of time.
     pub fn over_time(&self, f: impl Fn(f64) -> f64) -> Vec<f64> {
         self.t.iter().map(|t| f(*t)).collect()
+    }
+
+    /// One from a row on, nought before.
+    pub fn since(&self, row: usize) -> Vec<f64> {
+        (0..self.rows())
+            .map(|i| f64::from(u8::from(i >= row)))
+            .collect()
     }
 
     /// The load behind a play of this half width: it follows once the play is taken up (from rest in its
