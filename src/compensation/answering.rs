@@ -4,6 +4,10 @@
 //! With the elastic coordinates x of the robot at a pose, M ẍ + D ẋ + K x = −M_q q̈ while the drives move
 //! by q, the tip moves by r + J x: T(ω) = 1 + ω² J (K + jωD − ω²M)⁻¹ M_q J_q⁻¹. What is left is passed
 //! through the regularised inverse of T below the pace at which the controller can still command.
+//!
+//! Where a mode answers thirty times and more, its inverse is right only where its frequency is: half a hertz beside it the
+//! tip answers with the other sign, and learning drives the swing that it should take away. The inverse is the one that
+//! leaves least on average over how well frequencies are known, L = (E[TᴴT] + c)⁻¹ E[T]ᴴ: whatever the frequency, E|1 − TL|² is below 1.
 
 use crate::ground::problem::Outcome;
 use crate::ground::spatial::{V3, rotate};
@@ -28,6 +32,12 @@ const PADDED: usize = 1024;
 const LEARNED_HZ: [f64; 2] = [14.0, 26.0];
 /// What the inverse of T gives away to stay calm where the tip hardly answers.
 const CALM: f64 = 0.05;
+/// Relative standard deviation of a frequency of the robot at a place: modes move by a hundredth or two within a piece, and the
+/// cut holds the tool. With none, learning without taking anything back diverges on the example's first square (0.65, 0.40,
+/// 0.59, 1.2, 2.7 mm), with 0.01 it stays, with 0.02 it falls to 0.16 mm; 0.04 learns too slowly.
+const DETUNED: f64 = 0.02;
+/// Places, in standard deviations, at which the average over frequencies is taken.
+const NODES: [f64; 9] = [-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0];
 
 /// What to command so that the tip answers with `wanted` (one vector per [`STEP_S`] from the begin of the
 /// motion, m, workpiece frame).
@@ -115,12 +125,26 @@ fn inverses(setup: &Setup, chain: &Chain, joints: &[f64]) -> Outcome<Vec<Matrix3
     let bins = (LEARNED_HZ[1] * STEP_S * PADDED as f64).floor() as usize;
     let inverse = |bin: usize| {
         let hz = bin as f64 / (STEP_S * PADDED as f64);
-        let t = robot.transfer(TAU * hz);
-        let square = t.adjoint() * t + Matrix3::identity() * C::from(CALM * share(hz));
-        let solved = square.try_inverse().map(|s| s * t.adjoint());
+        let (mean, square) = detuned(&robot, TAU * hz);
+        let square = square + Matrix3::identity() * C::from(CALM * share(hz));
+        let solved = square.try_inverse().map(|s| s * mean.adjoint());
         solved.unwrap_or_else(Matrix3::identity) * C::from(passed(hz))
     };
     Ok((0..=bins).map(inverse).collect())
+}
+
+/// E[T] and E[TᴴT] over how well frequencies are known.
+fn detuned(robot: &Commanded, omega: f64) -> (Matrix3<C>, Matrix3<C>) {
+    let weights = NODES.map(|z| (-0.5 * z * z).exp());
+    let all: f64 = weights.iter().sum();
+    let (mut mean, mut square) = (Matrix3::zeros(), Matrix3::zeros());
+    for (z, weight) in NODES.into_iter().zip(weights) {
+        let own = robot.transfer(omega * (1.0 + DETUNED * z));
+        let weight = C::from(weight / all);
+        mean += own * weight;
+        square += own.adjoint() * own * weight;
+    }
+    (mean, square)
 }
 
 /// Regularised only where masses matter.

@@ -73,12 +73,7 @@ impl Correction {
 
     /// The same, smooth enough to be a correction.
     pub(super) fn smoothed(&self, samples: &[(f64, V3)]) -> Vec<V3> {
-        self.blended(&self.resampled(samples), SMOOTH)
-    }
-
-    /// Values at its stations smoothed by a bell of this standard deviation (m).
-    pub(super) fn blended(&self, values: &[V3], width_m: f64) -> Vec<V3> {
-        smoothed(values, width_m / self.step_m)
+        smoothed(&self.resampled(samples), SMOOTH / self.step_m)
     }
 
     /// Largest correction, m, and its arc length, m.

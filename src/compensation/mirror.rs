@@ -1,6 +1,6 @@
 //! The mirror: what the simulation leaves is taken away, again and again (source 004). The cut answers a
 //! correction, at some places more strongly than it should: what grew there is taken back, and half as much
-//! is tried, while the other places go on.
+//! is tried, while the other places go on; where that gains, twice as much is tried again.
 
 use super::answering::{STEP_S, command};
 use super::correction::Correction;
@@ -12,46 +12,40 @@ use crate::ground::problem::Outcome;
 use crate::ground::spatial::{V3, add, scale, sub};
 use crate::process::setup::Support;
 use crate::process::way::normal_part;
-use rayon::prelude::*;
 
-/// Most rounds of trials.
-const ROUNDS: usize = 5;
+/// Most trials: a choice for time.
+const ROUNDS: usize = 9;
 /// Change of the correction, against the largest deviation, at which it stands still.
 const STILL: f64 = 1e-2;
 /// The same where it is said that the mirror has converged: swings never stand quite still.
 const SETTLED: f64 = 5e-2;
 /// A round that lowers neither the largest deviation nor the root mean square by this share gains nothing ...
 const GAIN: f64 = 0.03;
-/// ... and after so many of them the best is kept.
-const PATIENCE: usize = 2;
+/// ... and after so many of them the best is kept: what is taken back and tried by half takes a few.
+const PATIENCE: usize = 4;
 /// Share of what is left that is taken away at once where masses swing.
 const CAREFUL: f64 = 0.9;
 
 /// What the simulation leaves is mirrored: straight where springs alone carry the tool; where robot and cut
-/// are coupled in time, through the inverse of how the tip answers a command; the whole of a step and half of it
-/// beside each other. The best of the corrections is kept.
+/// are coupled in time, through the inverse of how the tip answers a command. The best of the corrections is kept.
 pub(super) fn mirror(task: &Task, none: Correction) -> Outcome<Search> {
     let mut best = Best::of(none.clone());
     let mut places: Option<Places> = None;
-    let mut trials = vec![none];
+    let mut tried = none;
     let mut last_change_m = f64::INFINITY;
     let mut idle = 0;
     for round in 1..=ROUNDS {
-        let milled = trials.par_iter().map(|tried| mill(task, tried));
-        let milled = milled.collect::<Outcome<Vec<_>>>()?;
-        let gained = best.with(trials.iter().zip(&milled));
+        let trial = mill(task, &tried)?;
+        let gained = best.with(&tried, &trial);
         idle = if gained { 0 } else { idle + 1 };
         let still = last_change_m <= STILL * best.first_m;
         if still || idle >= PATIENCE || round == ROUNDS {
             break;
         }
-        for (tried, trial) in trials.iter().zip(&milled) {
-            places = Some(Places::next(places.take(), tried, trial));
-        }
-        if let Some(places) = &places {
-            trials = places.candidates().to_vec();
-            last_change_m = places.step_m();
-        }
+        let next = Places::next(places.take(), &tried, &trial);
+        tried = next.candidate();
+        last_change_m = next.step_m();
+        places = Some(next);
     }
     Ok(Search {
         converged: last_change_m <= SETTLED * best.first_m,
@@ -82,20 +76,18 @@ impl Best {
         }
     }
 
-    /// Takes trials; whether they gain.
-    fn with<'a>(&mut self, trials: impl Iterator<Item = (&'a Correction, &'a Trial)>) -> bool {
+    /// Takes a trial; whether it gains.
+    fn with(&mut self, tried: &Correction, trial: &Trial) -> bool {
         let before = self.least;
-        for (tried, trial) in trials {
-            let size = Size::of(&trial.stations);
-            if self.milled == 0 {
-                self.first_m = size.max_m;
-            }
-            if size.max_m < self.least[0] {
-                self.correction = tried.clone();
-            }
-            self.least = [self.least[0].min(size.max_m), self.least[1].min(size.rms_m)];
-            self.milled += 1;
+        let size = Size::of(&trial.stations);
+        if self.milled == 0 {
+            self.first_m = size.max_m;
         }
+        if size.max_m < self.least[0] {
+            self.correction = tried.clone();
+        }
+        self.least = [self.least[0].min(size.max_m), self.least[1].min(size.rms_m)];
+        self.milled += 1;
         let mut pairs = self.least.iter().zip(before);
         pairs.any(|(now, before)| *now < (1.0 - GAIN) * before)
     }

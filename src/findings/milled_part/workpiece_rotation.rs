@@ -5,6 +5,7 @@ use crate::findings::engine::Member;
 use crate::findings::table::{Effect, Place};
 use crate::ground::spatial::{V3, add, cross, dot, scale, sub};
 use crate::inference::gaussian::Size;
+use crate::measurement::job::Stock;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "workpiece_rotation",
@@ -26,22 +27,34 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     would_tell: "probe the datum faces of the workpiece at both ends",
 };
 
-/// About z alone, and about all axes, through the middle of what was probed.
+/// About z alone, and about all axes. Nobody states what stayed where it was: what was probed (its middle: an alignment to
+/// it), the block (clamped by its middle), or the frame of the job (its orientation is wrong).
 fn members(case: &Case) -> Vec<Member> {
-    let count = case.stations.len() as f64;
-    let middle = case
-        .stations
-        .iter()
-        .fold([0.0; 3], |sum, s| add(sum, scale(1.0 / count, s.tip)));
-    let about = |k: usize| {
+    let about = |k: usize, still: V3| {
         let axis: V3 = std::array::from_fn(|i| f64::from(u8::from(i == k)));
-        case.column(|s, row| dot(row.across, cross(axis, sub(s.tip, middle))))
+        case.column(|s, row| dot(row.across, cross(axis, sub(s.tip, still))))
     };
-    let member = |axes: &[usize]| Member {
-        columns: axes.iter().map(|k| about(*k)).collect(),
+    let member = |(axes, still): (&[usize], V3)| Member {
+        columns: axes.iter().map(|k| about(*k, still)).collect(),
         size: Size::Free,
         positive: None,
         shape: vec![-1.0],
     };
-    vec![member(&[2]), member(&[0, 1, 2])]
+    let forms: [&[usize]; 2] = [&[2], &[0, 1, 2]];
+    let places = pivots(case).into_iter();
+    places
+        .flat_map(|still| forms.map(|axes| member((axes, still))))
+        .collect()
+}
+
+/// Where a workpiece may be held while it is turned, m.
+fn pivots(case: &Case) -> Vec<V3> {
+    let count = case.stations.len() as f64;
+    let each = case.stations.iter();
+    let probed = each.fold([0.0; 3], |sum, s| add(sum, scale(1.0 / count, s.tip)));
+    let mut all = vec![probed, [0.0; 3]];
+    if let Some(Stock::Box { min, max }) = &case.planned.job.workpiece.stock {
+        all.push(scale(0.5, add(*min, *max)));
+    }
+    all
 }
