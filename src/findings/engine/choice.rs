@@ -4,7 +4,7 @@
 use super::bank::Bank;
 use super::judgement::Judgement;
 use super::materiality::{Materiality, amounts};
-use super::posterior::Posterior;
+use super::posterior::{Posterior, without};
 use super::rest::Span;
 use super::search::{Scored, price};
 use super::statement::Statement;
@@ -82,10 +82,10 @@ pub(super) fn choose(posterior: &Posterior, judgement: &Judgement) -> Scored {
         else {
             break;
         };
-        let Some(less) = without(posterior, &set, weakest) else {
+        let Some(less) = posterior.set(&without(&set.suspects, weakest)) else {
             break;
         };
-        set = less;
+        set = less.clone();
     }
     set
 }
@@ -105,16 +105,6 @@ pub(super) fn plain(posterior: &Posterior, is_scatter: impl Fn(&Scored) -> bool)
     };
     let found = (1..=PLAIN).filter_map(of_size).find(|s| is_scatter(s));
     found.cloned()
-}
-
-fn without(posterior: &Posterior, set: &Scored, suspect: usize) -> Option<Scored> {
-    let rest: Vec<usize> = set
-        .suspects
-        .iter()
-        .copied()
-        .filter(|s| *s != suspect)
-        .collect();
-    posterior.set(&rest).cloned()
 }
 
 /// The set less causes that gain nothing on unseen rows, and the gains of all others.

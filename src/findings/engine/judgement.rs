@@ -64,6 +64,8 @@ pub struct Judgement {
     pub noise_beyond: f64,
     /// Above this share of the misfit's rms what is left is the story, and the named causes are not.
     pub not_the_story: f64,
+    /// ... unless a cause surely lowers the error of unseen readings by more than so many percent.
+    pub of_the_story_percent: f64,
     /// Largest set of causes.
     pub largest: usize,
 }
@@ -110,6 +112,7 @@ impl Default for Judgement {
             left_share: 0.15,
             noise_beyond: f64::INFINITY,
             not_the_story: 0.5,
+            of_the_story_percent: 100.0,
             largest: 4,
         }
     }

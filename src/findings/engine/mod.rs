@@ -9,7 +9,7 @@
 //! 2. [`search`]: the evidence of sets of causes, singles by a rank-one scan, then partners, then the
 //!    subsets of what leads;
 //! 3. [`materiality`]: a cause must be of a size that matters before it takes part in the choice;
-//! 4. `posterior`: probabilities of sets and of causes, tempered, and who can stand in for whom;
+//! 4. [`posterior`]: probabilities of sets and of causes, tempered, and who can stand in for whom ([`rivals`]);
 //! 5. [`unseen`]: the gain on rows that were not fitted;
 //! 6. [`rest`]: whether structure is left that no named cause makes;
 //! 7. [`verdict`]: causes, groups, the verdict.
@@ -25,8 +25,9 @@ pub mod judgement;
 mod leaves;
 pub mod materiality;
 mod nuisances;
-mod posterior;
+pub mod posterior;
 pub mod rest;
+pub mod rivals;
 mod rounds;
 pub mod search;
 pub mod statement;

@@ -2,32 +2,56 @@
 
 use super::search::Scored;
 use crate::ground::stats::log_sum_exp;
+use std::collections::HashMap;
+
+/// A set of causes that was weighed.
+pub trait Weighed {
+    /// The suspects, ascending.
+    fn suspects(&self) -> &[usize];
+    /// Evidence over that of no cause, less the prices, nats.
+    fn score(&self) -> f64;
+}
+
+impl Weighed for Scored {
+    fn suspects(&self) -> &[usize] {
+        &self.suspects
+    }
+
+    fn score(&self) -> f64 {
+        self.score
+    }
+}
 
 /// Sets with their probabilities, best first.
 #[derive(Debug, Clone)]
-pub struct Posterior {
+pub struct Posterior<S = Scored> {
     /// The sets.
-    pub sets: Vec<(Scored, f64)>,
+    pub sets: Vec<(S, f64)>,
+    /// Where each stands.
+    index: HashMap<Vec<usize>, usize>,
     temper: f64,
 }
 
-impl Posterior {
+impl<S: Weighed> Posterior<S> {
     /// Of sets, best first: the empty one is among them. `temper`: exponent of their probabilities.
-    pub fn of(sets: Vec<Scored>, temper: f64) -> Self {
-        let total = log_sum_exp(sets.iter().map(|s| temper * s.score));
-        let probable = |s: Scored| {
-            let p = (temper * s.score - total).exp();
+    pub fn of(sets: Vec<S>, temper: f64) -> Self {
+        let total = log_sum_exp(sets.iter().map(|s| temper * s.score()));
+        let probable = |s: S| {
+            let p = (temper * s.score() - total).exp();
             (s, p)
         };
+        let sets: Vec<(S, f64)> = sets.into_iter().map(probable).collect();
+        let place = |(i, s): (usize, &(S, f64))| (s.0.suspects().to_vec(), i);
         Self {
-            sets: sets.into_iter().map(probable).collect(),
+            index: sets.iter().enumerate().map(place).collect(),
+            sets,
             temper,
         }
     }
 
     /// Keeps the sets with at most so many causes; all, where none is left.
     pub fn keep_up_to(&mut self, causes: usize) {
-        let kept = |s: (Scored, f64)| (s.0.suspects.len() <= causes).then_some(s.0);
+        let kept = |s: (S, f64)| (s.0.suspects().len() <= causes).then_some(s.0);
         if causes > 0 {
             let sets = std::mem::take(&mut self.sets);
             *self = Self::of(sets.into_iter().filter_map(kept).collect(), self.temper);
@@ -36,35 +60,41 @@ impl Posterior {
 
     /// Probability that a suspect is at work.
     pub fn inclusion(&self, suspect: usize) -> f64 {
-        let holding = self.sets.iter().filter(|s| s.0.suspects.contains(&suspect));
-        holding.map(|s| s.1).sum::<f64>().min(1.0)
+        let holds = |s: &&(S, f64)| s.0.suspects().contains(&suspect);
+        self.sets
+            .iter()
+            .filter(holds)
+            .map(|s| s.1)
+            .sum::<f64>()
+            .min(1.0)
     }
 
     /// The set of exactly these suspects, ascending.
-    pub fn set(&self, suspects: &[usize]) -> Option<&Scored> {
-        let own = self.sets.iter().find(|s| s.0.suspects == suspects);
-        own.map(|s| &s.0)
+    pub fn set(&self, suspects: &[usize]) -> Option<&S> {
+        self.index.get(suspects).map(|at| &self.sets[*at].0)
+    }
+
+    /// Odds of one set against another.
+    pub fn odds(&self, set: &S, against: &S) -> f64 {
+        (self.temper * (set.score() - against.score())).exp()
     }
 
     /// Who can take the place of one suspect of a set, with the odds against it, best first.
-    pub fn stand_ins(&self, set: &Scored, suspect: usize) -> Vec<(usize, f64)> {
-        let rest: Vec<usize> = set
-            .suspects
-            .iter()
-            .copied()
-            .filter(|s| *s != suspect)
-            .collect();
-        let swapped = |other: &Scored| {
-            let extra: Vec<usize> = other
-                .suspects
-                .iter()
-                .copied()
-                .filter(|s| !rest.contains(s))
-                .collect();
-            let same = other.suspects.len() == set.suspects.len() && extra.len() == 1;
-            (same && extra[0] != suspect)
-                .then(|| (extra[0], (self.temper * (other.score - set.score)).exp()))
+    pub fn stand_ins(&self, set: &S, suspect: usize) -> Vec<(usize, f64)> {
+        let rest = without(set.suspects(), suspect);
+        let swapped = |other: &S| {
+            let all = other.suspects();
+            let mut extra = all.iter().copied().filter(|s| !rest.contains(s));
+            let other_one = extra.next().filter(|s| *s != suspect)?;
+            let same = all.len() == set.suspects().len() && extra.next().is_none();
+            same.then(|| (other_one, self.odds(other, set)))
         };
         self.sets.iter().filter_map(|s| swapped(&s.0)).collect()
     }
+}
+
+/// Suspects less one.
+pub fn without(suspects: &[usize], suspect: usize) -> Vec<usize> {
+    let others = suspects.iter().copied().filter(|s| *s != suspect);
+    others.collect()
 }

@@ -4,6 +4,7 @@ use super::bank::Bank;
 use super::judgement::Judgement;
 use super::posterior::Posterior;
 use super::rest::Rest;
+use super::rivals::{Rivals, runners_up};
 use super::search::Scored;
 use super::statement::{Blamed, Experiment};
 use crate::findings::answer::{Cause, Group, Verdict};
@@ -18,8 +19,33 @@ pub struct Named {
     pub groups: Vec<Group>,
 }
 
-/// Most members of a group: beyond, the data tell nothing.
-const LARGEST_GROUP: usize = 6;
+impl Named {
+    /// Adds what cannot be told apart: effects with their sites, the named one first.
+    pub fn group(&mut self, members: Vec<(&'static str, String)>, would_tell: String, gain: Gain) {
+        self.groups.push(Group {
+            would_tell,
+            effects: members.iter().map(|m| m.0).collect(),
+            sites: members.into_iter().map(|m| m.1).collect(),
+            gain,
+        });
+    }
+
+    /// The causes that gain most first.
+    pub fn sorted(mut self) -> Self {
+        let by_gain = |a: &Cause, b: &Cause| {
+            let gains = [b, a].map(|cause| cause.gain.reduction_percent);
+            gains[0].total_cmp(&gains[1])
+        };
+        self.causes.sort_by(by_gain);
+        self
+    }
+
+    /// Whether a cause surely makes a good part of the error.
+    fn carries(&self, judgement: &Judgement) -> bool {
+        let surely = |c: &Cause| c.gain.ci95_percent[0] > judgement.of_the_story_percent;
+        self.causes.iter().any(surely)
+    }
+}
 
 /// Names the causes of a set; `gains` and `blamed` in the order of its suspects.
 pub fn name(
@@ -31,74 +57,35 @@ pub fn name(
     judgement: &Judgement,
 ) -> Named {
     let mut named = Named::default();
+    let is_named = |s: usize| bank.suspects[s].named;
+    let place = |s: usize| (bank.suspects[s].effect, bank.suspects[s].site.clone());
     for (at, suspect) in set.suspects.iter().enumerate() {
+        if !is_named(*suspect) {
+            continue;
+        }
+        let rivals = Rivals::of(posterior, set, *suspect, is_named, judgement);
+        if !rivals.open.is_empty() {
+            let members = std::iter::once(*suspect).chain(rivals.open);
+            let members: Vec<(&'static str, String)> = members.map(place).collect();
+            let would_tell = experiment.would_tell(&members);
+            named.group(members, would_tell, gains[at]);
+            continue;
+        }
         let own = &bank.suspects[*suspect];
-        if !own.named {
-            continue;
-        }
-        let mut rivals = posterior.stand_ins(set, *suspect);
-        rivals.retain(|r| r.1 > judgement.ambiguous && bank.suspects[r.0].named);
-        rivals.truncate(LARGEST_GROUP - 1);
-        let total: f64 = 1.0 + rivals.iter().map(|r| r.1).sum::<f64>();
-        rivals.truncate(carrying(&rivals, judgement.group_carries * total));
-        if !rivals.is_empty() {
-            let members = std::iter::once(*suspect).chain(rivals.iter().map(|r| r.0));
-            let members = members.map(|s| (bank.suspects[s].effect, bank.suspects[s].site.clone()));
-            let rivals: Vec<(&'static str, String)> = members.collect();
-            named.groups.push(Group {
-                would_tell: experiment.would_tell(&rivals),
-                effects: rivals.iter().map(|r| r.0).collect(),
-                sites: rivals.into_iter().map(|r| r.1).collect(),
-                gain: gains[at],
-            });
-            continue;
-        }
-        let probability = (posterior.inclusion(*suspect) / total).min(judgement.certain);
+        let runners_up = runners_up(posterior, set, *suspect, is_named).into_iter();
+        let told =
+            runners_up.map(|(s, p)| (bank.suspects[s].effect, bank.suspects[s].site.clone(), p));
         named.causes.push(Cause {
             effect: own.effect,
             site: own.site.clone(),
-            probability,
+            probability: rivals.probability(posterior, judgement),
             summary: own.summary,
-            alternatives: alternatives(bank, posterior, set, *suspect),
+            alternatives: told.collect(),
             parameters: experiment.parameters(&blamed[at]),
             gain: gains[at],
         });
     }
-    let by_gain = |a: &Cause, b: &Cause| {
-        b.gain
-            .reduction_percent
-            .total_cmp(&a.gain.reduction_percent)
-    };
-    named.causes.sort_by(by_gain);
-    named
-}
-
-/// How many rivals, best first, carry so much together with the named cause, whose odds are one.
-fn carrying(rivals: &[(usize, f64)], wanted: f64) -> usize {
-    let before = |i: &usize| 1.0 + rivals[..*i].iter().map(|r| r.1).sum::<f64>();
-    (0..rivals.len())
-        .take_while(|i| before(i) < wanted - 1e-12)
-        .count()
-}
-
-/// Runners-up with their probability against the named cause.
-fn alternatives(
-    bank: &Bank,
-    posterior: &Posterior,
-    set: &Scored,
-    suspect: usize,
-) -> Vec<(&'static str, String, f64)> {
-    let mut rivals = posterior.stand_ins(set, suspect);
-    rivals.retain(|r| bank.suspects[r.0].named);
-    let told = rivals.iter().take(3).filter(|r| r.1 > 1e-3);
-    told.map(|(s, odds)| {
-        (
-            bank.suspects[*s].effect,
-            bank.suspects[*s].site.clone(),
-            odds / (1.0 + odds),
-        )
-    })
-    .collect()
+    named.sorted()
 }
 
 /// The verdict.
@@ -107,7 +94,9 @@ pub fn verdict(named: &Named, rest: &Rest, judgement: &Judgement) -> Verdict {
     match (nothing, rest.is_left) {
         (true, true) => Verdict::UnknownCause,
         (true, false) => Verdict::Sufficient,
-        (false, true) if rest.share > judgement.not_the_story => Verdict::UnknownCause,
+        (false, true) if rest.share > judgement.not_the_story && !named.carries(judgement) => {
+            Verdict::UnknownCause
+        }
         (false, true) => Verdict::PartlyExplained,
         (false, false) if named.causes.is_empty() => Verdict::CannotTell,
         (false, false) => Verdict::Explained,

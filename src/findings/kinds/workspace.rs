@@ -5,7 +5,7 @@ use super::{Diagnosed, Source};
 use crate::experiments::workspace::fits;
 use crate::findings::belief::Belief;
 use crate::findings::sentence::spoken;
-use crate::findings::workspace::{Limit, WorkspaceDiagnosis, diagnose};
+use crate::findings::workspace::{Limit, WorkspaceDiagnosis, diagnose, judgement};
 use crate::findings::{Answer, Verdict};
 use crate::fit::force_steps::Setup;
 use crate::fit::validation::mean_and_max;
@@ -135,6 +135,8 @@ impl Diagnosed for Workspace {
             "stiffness_error_at_unseen_points".into(),
             Value::Array(errors),
         );
+        let judgement = serde_json::to_value(judgement()).unwrap_or_default();
+        map.insert("judgement".into(), judgement);
         map
     }
 }

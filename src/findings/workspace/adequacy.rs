@@ -1,5 +1,6 @@
 //! Is anything left that the noise does not explain?
 
+use crate::findings::engine::rest::Rest;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// What is left after a set of causes.
@@ -96,8 +97,18 @@ impl Adequacy {
         self.wander > WANDER
     }
 
+    /// As it is judged; `strange`: a pattern that no cause of the library has stands beside them.
+    pub fn rest(&self, strange: bool) -> Rest {
+        Rest {
+            nats: -self.p_value().max(f64::MIN_POSITIVE).ln(),
+            share: self.share.sqrt(),
+            is_left: self.is_left() || strange,
+            scatter: None,
+        }
+    }
+
     /// Probability that chance leaves so much.
-    pub fn p_value(&self) -> f64 {
+    fn p_value(&self) -> f64 {
         match self.is_bent() {
             true => self.levels.min(self.shape),
             false => self.slopes,

@@ -2,15 +2,18 @@
 
 use super::beyond::Beyond;
 use super::columns::Columns;
+use super::diagnosis::judgement;
 use super::field::{Field, Springs};
 use super::patterns::Scene;
-use super::posterior::Posterior;
-use super::search::{Set, search};
+use super::search::search;
 use super::seats::Seats;
+use super::set::Set;
 use super::smooth::{norm, smooth};
 use super::weights::weigh;
 use crate::experiments::drive_law::{Law, STOP};
 use crate::experiments::workspace::Response;
+use crate::findings::engine::Judgement;
+use crate::findings::engine::posterior::Posterior;
 use crate::fit::force_shapes::Shapes;
 use crate::fit::weighing::Weighing;
 use crate::ground::spatial::{M3, V3};
@@ -46,7 +49,8 @@ pub(super) struct Case<'a> {
     pub(super) readings: DVector<f64>,
     /// The columns of all seats.
     pub(super) columns: Columns,
-    pub(super) posterior: Posterior,
+    pub(super) posterior: Posterior<Set>,
+    pub(super) judgement: Judgement,
     pub(super) levels: usize,
 }
 
@@ -136,7 +140,8 @@ impl<'a> Case<'a> {
         let prior = seats.columns.iter().map(|c| c.prior).collect();
         let low = seats.columns.iter().map(|c| c.low).collect();
         let field = Field::new(&readings, &columns, &springs, (prior, low));
-        let posterior = Posterior::new(search(&seats, &field));
+        let judgement = judgement();
+        let posterior = Posterior::of(search(&seats, &field), judgement.temper);
         Self {
             test,
             scene,
@@ -148,6 +153,7 @@ impl<'a> Case<'a> {
             readings,
             columns,
             posterior,
+            judgement,
             levels,
         }
     }

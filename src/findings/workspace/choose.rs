@@ -2,15 +2,14 @@
 //! were not fitted.
 
 use super::case::Case;
-use super::search::Set;
 use super::seats::Seat;
+use super::set::Set;
 use super::unseen::{Rows, fitted, gain, held_out};
+use crate::findings::engine::posterior::without;
 use crate::fit::force_shapes::Level;
 use crate::ground::spatial::M3;
 use std::collections::BTreeMap;
 
-/// Probability of a cause (it or any other in its stead) against none, below which it is not named.
-const NEEDED: f64 = 0.72;
 /// Sets looked through for one whose causes all gain.
 const SETS: usize = 80;
 /// A set with less than this share of the best one's probability is no explanation.
@@ -54,33 +53,22 @@ impl Case<'_> {
         self.is_needed(set, seat) && self.helps(set, seat)
     }
 
-    /// The set less one seat, its other seats in the same forms.
+    /// The set less one seat; one that was not compared has its other seats in the same forms.
     pub(super) fn without(&self, set: &Set, seat: usize) -> Set {
-        let keep: Vec<usize> = (0..set.seats.len())
-            .filter(|i| set.seats[*i] != seat)
-            .collect();
-        let seats: Vec<usize> = keep.iter().map(|i| set.seats[*i]).collect();
-        let known = self.posterior.sets.iter().find(|(s, _)| s.seats == seats);
-        known.map_or_else(
-            || Set {
-                forms: keep.iter().map(|i| set.forms[*i]).collect(),
-                seats,
-                ..set.clone()
-            },
-            |(known, _)| known.clone(),
-        )
+        if let Some(known) = self.posterior.set(&without(&set.seats, seat)) {
+            return known.clone();
+        }
+        let each = set.forms.iter().copied();
+        let forms: Vec<usize> = each.filter(|f| self.seats.forms[*f].seat != seat).collect();
+        Set::of(&self.seats, &self.field, &forms)
     }
 
+    /// Whether it, or any other in its stead, is probable enough against none.
     fn is_needed(&self, set: &Set, seat: usize) -> bool {
-        let rest: Vec<usize> = set.seats.iter().copied().filter(|s| *s != seat).collect();
-        let without = self.posterior.of(&rest);
-        let others = self.posterior.stand_ins(&set.seats, seat);
-        let others: f64 = others
-            .iter()
-            .map(|(_, s, _)| self.posterior.of(&s.seats))
-            .sum();
-        let with = self.posterior.of(&set.seats) + others;
-        with > NEEDED * (with + without)
+        let others = self.posterior.stand_ins(set, seat);
+        let with = 1.0 + others.iter().map(|other| other.1).sum::<f64>();
+        let without = self.posterior.odds(&self.without(set, seat), set);
+        with > self.judgement.companion_needed * (with + without)
     }
 
     /// Whether a seat helps: the set without it against the set, on data left out. What shows at one point

@@ -13,10 +13,10 @@ mod limits;
 mod name;
 mod next;
 mod patterns;
-mod posterior;
 mod remains;
 mod search;
 mod seats;
+mod set;
 mod smooth;
 mod strangers;
 mod thin;
@@ -24,5 +24,5 @@ mod told;
 mod unseen;
 mod weights;
 
-pub use diagnosis::{WorkspaceDiagnosis, diagnose};
+pub use diagnosis::{WorkspaceDiagnosis, diagnose, judgement};
 pub use limits::Limit;

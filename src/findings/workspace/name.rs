@@ -2,28 +2,32 @@
 
 use super::case::Case;
 use super::next::{Known, Suspect, would_tell};
-use super::search::Set;
-use crate::findings::answer::{Candidate, Cause, Group};
-
-/// Candidates that cannot be told apart hold the cause with this probability.
-const SURE: f64 = 0.86;
+use super::set::Set;
+use crate::findings::answer::{Candidate, Cause};
+use crate::findings::engine::posterior::without;
+use crate::findings::engine::rivals::{Rivals, runners_up};
+use crate::findings::engine::verdict::Named;
 
 impl Case<'_> {
-    pub(super) fn name(&self, chosen: &Set) -> (Vec<Cause>, Vec<Group>) {
-        let (mut causes, mut groups) = (Vec::new(), Vec::new());
-        for seat in chosen
-            .seats
-            .iter()
-            .filter(|s| !self.seats.seats[**s].stranger)
-        {
-            let known = |s: usize| !self.seats.seats[s].stranger;
-            let rivals = self.posterior.rivals(&chosen.seats, *seat, (SURE, known));
+    pub(super) fn name(&self, chosen: &Set) -> Named {
+        let mut named = Named::default();
+        let is_named = |s: usize| !self.seats.seats[s].stranger;
+        for seat in chosen.seats.iter().filter(|s| is_named(**s)) {
+            let rivals = Rivals::of(&self.posterior, chosen, *seat, is_named, &self.judgement);
             let gain = self.told_gain(chosen, *seat);
             let own = &self.seats.seats[*seat];
-            causes.push(Cause {
+            if !rivals.open.is_empty() {
+                let members = std::iter::once(seat).chain(&rivals.open);
+                let places = members.map(|s| self.seats.seats[*s].place()).collect();
+                let would_tell = self.would_tell(chosen, *seat, &rivals.open);
+                named.group(places, would_tell, gain);
+                continue;
+            }
+            let inclusion = self.posterior.inclusion(*seat);
+            named.causes.push(Cause {
                 effect: own.cause.card().name,
                 site: own.site.clone(),
-                probability: self.posterior.inclusion(*seat),
+                probability: inclusion.min(self.judgement.certain),
                 summary: own.cause.card().summary,
                 alternatives: self.alternatives(chosen, *seat),
                 parameters: own.cause.said(
@@ -33,39 +37,32 @@ impl Case<'_> {
                 ),
                 gain,
             });
-            if !rivals.is_empty() {
-                let members = std::iter::once(*seat).chain(rivals.iter().map(|s| s.0));
-                let members: Vec<usize> = members.collect();
-                let of = |s: &usize| &self.seats.seats[*s];
-                let repeatability = self.test.facts.setup_repeatability.unwrap_or(0.0);
-                let known = Known {
-                    scene: &self.scene,
-                    shapes: &self.shapes,
-                    springs: &self.springs,
-                    columns: &self.columns,
-                    seats: &self.seats,
-                    repeatability,
-                };
-                let sets = std::iter::once(chosen).chain(rivals.iter().map(|s| s.1));
-                let suspects = members
-                    .iter()
-                    .zip(sets)
-                    .map(|(m, set)| self.suspect(set, *m));
-                let suspects: Vec<Suspect> = suspects.collect();
-                groups.push(Group {
-                    effects: members.iter().map(|s| of(s).cause.card().name).collect(),
-                    sites: members.iter().map(|s| of(s).site.clone()).collect(),
-                    would_tell: would_tell(&known, &suspects),
-                    gain,
-                });
-            }
         }
-        causes.sort_by(|a, b| {
-            b.gain
-                .reduction_percent
-                .total_cmp(&a.gain.reduction_percent)
-        });
-        (causes, groups)
+        named.sorted()
+    }
+
+    /// What would tell a seat of a set from its rivals.
+    fn would_tell(&self, chosen: &Set, seat: usize, rivals: &[usize]) -> String {
+        let known = Known {
+            scene: &self.scene,
+            shapes: &self.shapes,
+            springs: &self.springs,
+            columns: &self.columns,
+            seats: &self.seats,
+            repeatability: self.test.facts.setup_repeatability.unwrap_or(0.0),
+        };
+        let in_its_place = |rival: &usize| {
+            let mut seats = without(&chosen.seats, seat);
+            seats.push(*rival);
+            seats.sort_unstable();
+            let set = self.posterior.set(&seats)?;
+            Some(self.suspect(set, *rival))
+        };
+        let rivals = rivals.iter().filter_map(in_its_place);
+        let suspects: Vec<Suspect> = std::iter::once(self.suspect(chosen, seat))
+            .chain(rivals)
+            .collect();
+        would_tell(&known, &suspects)
     }
 
     /// A seat of a set with its amounts.
@@ -85,13 +82,13 @@ impl Case<'_> {
     }
 
     fn alternatives(&self, chosen: &Set, seat: usize) -> Vec<(&'static str, String, f64)> {
-        let mut others = self.posterior.stand_ins(&chosen.seats, seat);
-        others.retain(|other| other.2 > 1e-4 && !self.seats.seats[other.0].stranger);
-        let told = |(s, _, p): &(usize, &Set, f64)| {
-            let own = &self.seats.seats[*s];
-            (own.cause.card().name, own.site.clone(), *p)
-        };
-        others.iter().map(told).collect()
+        let is_named = |s: usize| !self.seats.seats[s].stranger;
+        let others = runners_up(&self.posterior, chosen, seat, is_named).into_iter();
+        let told = others.map(|(s, p)| {
+            let (effect, site) = self.seats.seats[s].place();
+            (effect, site, p)
+        });
+        told.collect()
     }
 
     pub(super) fn table(&self) -> Vec<Candidate> {

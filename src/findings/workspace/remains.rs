@@ -2,7 +2,7 @@
 
 use super::adequacy::{Adequacy, Squares};
 use super::case::Case;
-use super::search::Set;
+use super::set::Set;
 use crate::findings::answer::{Discrepancy, Structure};
 use crate::measurement::workspace_test::DIRECTIONS;
 

@@ -2,25 +2,13 @@
 //! best, and what a sparse convex programme proposes.
 
 use super::field::Field;
-use super::seats::{Form, Seats};
+use super::seats::Seats;
+use super::set::Set;
 use crate::causes::Blame;
 use crate::fit::convex::non_negative;
+use crate::ground::stats::log_sum_exp;
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, HashMap};
-
-/// A set of seats, each in one form.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Set {
-    /// The seats, ascending.
-    pub seats: Vec<usize>,
-    /// The best form of each.
-    pub forms: Vec<usize>,
-    /// Logarithm of evidence times odds, over all forms compared.
-    pub score: f64,
-    /// Misfit that the best forms explain, nats.
-    pub nats: f64,
-    /// Score of the best forms alone.
-    pub best: f64,
-}
 
 /// Forms that pairs are built from.
 const LEADERS: usize = 60;
@@ -47,7 +35,7 @@ pub fn search(seats: &Seats, field: &Field) -> Vec<Set> {
         tried: HashMap::new(),
         kept: Vec::new(),
     };
-    book.sets.insert(Vec::new(), nothing());
+    book.sets.insert(Vec::new(), Set::default());
     let mut singles: Vec<(f64, usize)> = Vec::new();
     for f in 0..seats.forms.len() {
         singles.push((book.add(&[f]), f));
@@ -68,16 +56,6 @@ pub fn search(seats: &Seats, field: &Field) -> Vec<Set> {
     sets
 }
 
-fn nothing() -> Set {
-    Set {
-        seats: Vec::new(),
-        forms: Vec::new(),
-        score: 0.0,
-        nats: 0.0,
-        best: 0.0,
-    }
-}
-
 struct Book<'a> {
     seats: &'a Seats,
     field: &'a Field,
@@ -96,31 +74,25 @@ impl Book<'_> {
         if let Some(score) = self.tried.get(&forms) {
             return *score;
         }
-        let own: Vec<&Form> = forms.iter().map(|f| &self.seats.forms[*f]).collect();
-        let seats: Vec<usize> = own.iter().map(|form| form.seat).collect();
-        if seats.windows(2).any(|pair| pair[0] == pair[1]) {
+        let seat = |f: &usize| self.seats.forms[*f].seat;
+        if forms
+            .windows(2)
+            .any(|pair| seat(&pair[0]) == seat(&pair[1]))
+        {
             return f64::MIN;
         }
-        let columns: Vec<usize> = own.iter().flat_map(|f| f.columns.clone()).collect();
-        let widths: Vec<f64> = own
-            .iter()
-            .flat_map(|f| std::iter::repeat_n(f.width, f.columns.len()))
-            .collect();
-        let amounts = self.field.amounts(&columns, |i| widths[i]);
-        let weight: f64 = own.iter().map(|form| form.weight).sum();
-        let score = amounts.evidence + weight + self.seats.odds(&seats);
-        self.tried.insert(forms.clone(), score);
-        let set = self.sets.entry(seats.clone()).or_insert(Set {
-            seats,
-            score: f64::MIN,
-            best: f64::MIN,
-            ..nothing()
-        });
-        set.score = log_sum(set.score, score);
-        if score > set.best {
-            set.best = score;
-            set.forms = forms;
-            set.nats = amounts.nats;
+        let one = Set::of(self.seats, self.field, &forms);
+        let score = one.score;
+        self.tried.insert(forms, score);
+        match self.sets.entry(one.seats.clone()) {
+            Entry::Vacant(entry) => drop(entry.insert(one)),
+            Entry::Occupied(mut entry) => {
+                let all = log_sum_exp([entry.get().score, score].into_iter());
+                if score > entry.get().best {
+                    entry.insert(one);
+                }
+                entry.get_mut().score = all;
+            }
         }
         score
     }
@@ -291,9 +263,4 @@ impl Book<'_> {
             }
         }
     }
-}
-
-fn log_sum(a: f64, b: f64) -> f64 {
-    let top = a.max(b);
-    top + ((a - top).exp() + (b - top).exp()).ln()
 }

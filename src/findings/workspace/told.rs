@@ -4,7 +4,7 @@
 //! what makes the error in metres worse beyond chance is named by nobody.
 
 use super::case::Case;
-use super::search::Set;
+use super::set::Set;
 use super::unseen::gain;
 use crate::findings::gain::Gain;
 use std::collections::BTreeMap;
