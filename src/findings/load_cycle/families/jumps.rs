@@ -12,11 +12,27 @@ const WAVES: usize = 6;
 /// Most instants.
 const SHARPEST: usize = 6;
 
-/// The rows before which a reading jumps most, in order of time; `u`, `t`: load and time, of their largest.
-pub fn jumps(u: &[f64], t: &[f64], reading: &[f64]) -> Vec<usize> {
-    let mut rows = sharpest(&steps(&left(u, t, reading)), SHARPEST);
-    rows.sort_unstable();
-    rows
+/// Times the third sharpest change that the second must be for a reading to have jumped twice: what jumps many times jumps
+/// by like amounts, and any two of them would pass for a slip.
+const STANDS_OUT: f64 = 1.25;
+
+/// Where a reading jumps.
+pub struct Jumps {
+    /// The rows before which it jumps most.
+    pub rows: Vec<usize>,
+    /// Two of them that stand out from the others.
+    pub twice: Option<[usize; 2]>,
+}
+
+/// Where a reading jumps; `u`, `t`: load and time, of their largest.
+pub fn jumps(u: &[f64], t: &[f64], reading: &[f64]) -> Jumps {
+    let steps = steps(&left(u, t, reading));
+    let rows = sharpest(&steps, SHARPEST);
+    let twice = match rows[..] {
+        [a, b, c, ..] if steps[b].abs() > STANDS_OUT * steps[c].abs() => Some([a, b]),
+        _ => None,
+    };
+    Jumps { rows, twice }
 }
 
 /// What the spring, curves of the load and a straight course of time leave of a reading.

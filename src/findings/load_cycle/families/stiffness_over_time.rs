@@ -31,7 +31,7 @@ fn loosening(view: &View) -> Shapes {
     for at in even(0.04, 0.96, 48) {
         shapes.one(view, &grown(&|i| f64::from(u8::from(t(i) >= at))));
     }
-    for at in &view.jumps {
+    for at in &view.jumps.rows {
         shapes.one(view, &grown(&|i| f64::from(u8::from(i >= *at))));
     }
     let count = |i: usize| view.half_cycle[i] as f64;

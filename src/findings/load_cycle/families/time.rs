@@ -53,13 +53,11 @@ fn slip(view: &View) -> Shapes {
     for k in 0..places {
         shapes.one(view, &view.since(3 + k * (n - 6) / places.max(1)));
     }
-    // where the reading jumps it may have slipped at once, or at two of these instants
-    for (k, at) in view.jumps.iter().enumerate() {
-        let jump = view.since(*at);
-        shapes.one(view, &jump);
-        for second in &view.jumps[k + 1..] {
-            shapes.free(view, &[jump.clone(), view.since(*second)]);
-        }
+    for at in &view.jumps.rows {
+        shapes.one(view, &view.since(*at));
+    }
+    if let Some(twice) = view.jumps.twice {
+        shapes.free(view, &twice.map(|at| view.since(at)));
     }
     shapes
 }

@@ -1,6 +1,6 @@
 //! A record as the families see it: load, time and turning points in natural units.
 
-use super::jumps::jumps;
+use super::jumps::{Jumps, jumps};
 use crate::fit::observation::Observation;
 use crate::signal::play::play;
 
@@ -25,8 +25,8 @@ pub struct View {
     /// Share of the band of the rows, averaged as they are, that is the lower quarter of the readings' own:
     /// what oscillates above is folded mains, below something that moves.
     pub slow: f64,
-    /// Rows before which the reading jumps most, whatever the load does.
-    pub jumps: Vec<usize>,
+    /// Where the reading jumps, whatever the load does.
+    pub jumps: Jumps,
 }
 
 /// Share of the larger side that the smaller must reach for a load to count as two-sided.
