@@ -4,6 +4,7 @@
 use super::case::Case;
 use super::refine::Refined;
 use super::{lattice, next};
+use crate::effects::composite::Slot;
 use crate::effects::{Composite, EFFECTS, Family};
 use crate::findings::answer::{Cause, Group};
 use crate::fit::solution::unit_of;
@@ -76,6 +77,8 @@ impl Case<'_> {
         own.map_or_else(Vec::new, |c| c.alternatives.clone())
     }
 
+    /// The parameters of the law of a cause; none where the law itself, fitted beside the others, has nothing of it: then only
+    /// the shape that its family measured is known.
     pub(super) fn parameters(
         &self,
         chosen: &Refined,
@@ -86,6 +89,10 @@ impl Case<'_> {
             .iter()
             .zip(&chosen.optimum.p)
             .filter(|(s, _)| s.effect.card().cause == cause);
+        let nothing = |(s, v): &(&Slot, &f64)| s.parameter.bounds.0 == 0.0 && **v <= f64::EPSILON;
+        if own.clone().any(|one| nothing(&one)) {
+            return Vec::new();
+        }
         own.map(|(s, v)| {
             (
                 s.parameter.name,
