@@ -7,12 +7,11 @@ use super::leaves::{Leaves, Weighing};
 use super::materiality::raw_parts;
 use super::posterior::Posterior;
 use super::rest::{Span, explained};
-use super::rounds;
 use super::search::{Scored, search};
 use super::statement::{Blamed, Experiment, Statement};
 use super::told::answer;
-use super::unseen;
 use super::verdict::name;
+use super::{carried, rounds, unseen};
 use crate::findings::answer::{Answer, Verdict};
 use crate::findings::gain::Gain;
 use crate::ground::stats::rms;
@@ -42,7 +41,7 @@ pub struct Found {
 /// Diagnoses.
 pub fn diagnose(experiment: &dyn Experiment, judgement: &Judgement) -> Found {
     let first = stated(experiment, &[], &[]);
-    let found = about(experiment, &first, judgement);
+    let found = about(experiment, (&first, &first.reading), judgement);
     match experiment.is_linear() || found.lead.is_empty() {
         true => found,
         false => rounds::settled(experiment, (first, found), judgement),
@@ -63,10 +62,10 @@ pub(super) fn stated(
     statement
 }
 
-/// The answer of one statement.
+/// The answer of one statement; `present`: the reading of the first one, about nothing.
 pub(super) fn about(
     experiment: &dyn Experiment,
-    statement: &Statement,
+    (statement, present): (&Statement, &[f64]),
     judgement: &Judgement,
 ) -> Found {
     let mut bank = Bank::new(statement);
@@ -86,7 +85,8 @@ pub(super) fn about(
     let nothing = nothing(&posterior).fit;
     let weighing = Weighing::new(statement, &bank, span.as_ref(), &nothing, judgement);
     let picked = picked(experiment, &weighing, &mut posterior, story.as_ref());
-    let Picked { set, gains, leaves } = picked;
+    let Picked { set, leaves, .. } = picked;
+    let gains = carried::told(statement, present, &bank, &set.fit);
     let Leaves {
         left,
         mut uncertain,
