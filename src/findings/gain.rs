@@ -1,6 +1,7 @@
 //! What naming a cause gains on data that were not fitted.
 
 use crate::fit::parameter::Z95;
+use crate::ground::stats::quantile;
 use serde::Serialize;
 
 /// Rms error on held-out data before and after, with the interval of its reduction.
@@ -31,14 +32,16 @@ impl Gain {
         (high - low) / (2.0 * Z95)
     }
 
-    /// The same gain with room for a better law: the law that was fitted misses nature by some percent of
-    /// its own size, and the cause itself may gain as much as the noise (rms) leaves to be gained.
+    /// The same with an interval from draws of ln(before/after); it holds the gain itself.
     #[must_use]
-    pub fn reachable(mut self, noise: f64) -> Self {
-        if noise < self.after {
-            let best = 100.0 * (1.0 - noise / self.before);
-            let room = self.ci95_percent[1] - self.reduction_percent;
-            self.ci95_percent[1] = self.ci95_percent[1].max((best + room).min(100.0));
+    pub fn drawn(mut self, mut nats: Vec<f64>) -> Self {
+        nats.retain(|g| g.is_finite());
+        if !nats.is_empty() {
+            let end = |q: f64| percent(quantile(&nats, q));
+            self.ci95_percent = [
+                end(0.025).min(self.reduction_percent),
+                end(0.975).max(self.reduction_percent),
+            ];
         }
         self
     }
@@ -57,7 +60,6 @@ impl Gain {
     pub fn of(before: f64, after: f64, ln_std: f64) -> Self {
         let middle = (before / after).ln();
         let half = Z95 * ln_std;
-        let percent = |g: f64| 100.0 * (1.0 - (-g).exp());
         Self {
             before,
             after,
@@ -65,6 +67,11 @@ impl Gain {
             ci95_percent: [percent(middle - half), percent(middle + half)],
         }
     }
+}
+
+/// Reduction in percent of ln(before/after).
+fn percent(nats: f64) -> f64 {
+    100.0 * (1.0 - (-nats).exp())
 }
 
 /// ln(before/after) of a reduction in percent.

@@ -7,12 +7,11 @@ use super::leaves::{Leaves, Weighing};
 use super::materiality::raw_parts;
 use super::posterior::Posterior;
 use super::rest::{Span, explained};
-use super::rounds;
 use super::search::{Scored, search};
 use super::statement::{Blamed, Experiment, Statement};
-use super::told::answer;
-use super::unseen;
+use super::told::{answer, scattering};
 use super::verdict::name;
+use super::{carried, rounds, unseen};
 use crate::findings::answer::{Answer, Verdict};
 use crate::findings::gain::Gain;
 use crate::ground::stats::rms;
@@ -42,7 +41,7 @@ pub struct Found {
 /// Diagnoses.
 pub fn diagnose(experiment: &dyn Experiment, judgement: &Judgement) -> Found {
     let first = stated(experiment, &[], &[]);
-    let found = about(experiment, &first, judgement);
+    let found = about(experiment, (&first, &first.reading), judgement);
     match experiment.is_linear() || found.lead.is_empty() {
         true => found,
         false => rounds::settled(experiment, (first, found), judgement),
@@ -63,10 +62,10 @@ pub(super) fn stated(
     statement
 }
 
-/// The answer of one statement.
+/// The answer of one statement; `present`: the reading of the first one, about nothing.
 pub(super) fn about(
     experiment: &dyn Experiment,
-    statement: &Statement,
+    (statement, present): (&Statement, &[f64]),
     judgement: &Judgement,
 ) -> Found {
     let mut bank = Bank::new(statement);
@@ -86,7 +85,12 @@ pub(super) fn about(
     let nothing = nothing(&posterior).fit;
     let weighing = Weighing::new(statement, &bank, span.as_ref(), &nothing, judgement);
     let picked = picked(experiment, &weighing, &mut posterior, story.as_ref());
-    let Picked { set, gains, leaves } = picked;
+    let Picked { set, leaves, gains } = picked;
+    // where laws are only nearly right the spring itself is fitted, not stated: its gains are those that decided
+    let gains = match rough {
+        true => gains,
+        false => carried::told(statement, present, &bank, &set.fit),
+    };
     let Leaves {
         left,
         mut uncertain,
@@ -137,14 +141,6 @@ pub(super) fn about(
         lead,
         evidence,
     }
-}
-
-/// What is seen where only its scatter is too large.
-fn scattering(times: f64) -> String {
-    format!(
-        "a scatter of {times:.1} times the noise that is stated, or seen between neighbours, and no pattern in it: the noise \
-         is larger, or what scatters is none"
-    )
 }
 
 /// The best set of causes of the library.

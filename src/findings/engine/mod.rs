@@ -10,7 +10,8 @@
 //!    subsets of what leads;
 //! 3. [`materiality`]: a cause must be of a size that matters before it takes part in the choice;
 //! 4. [`posterior`]: probabilities of sets and of causes, tempered, and who can stand in for whom ([`rivals`]);
-//! 5. [`unseen`]: the gain on rows that were not fitted;
+//! 5. [`unseen`]: the gain on rows that were not fitted, and `carried`, the same as it is told: for the simulation as it
+//!    is used;
 //! 6. [`rest`]: whether structure is left that no named cause makes;
 //! 7. [`verdict`]: causes, groups, the verdict.
 //!
@@ -18,6 +19,7 @@
 
 mod aspect;
 pub mod bank;
+mod carried;
 mod choice;
 pub mod diagnosis;
 mod entry;

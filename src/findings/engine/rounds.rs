@@ -21,18 +21,41 @@ const WORSE: f64 = 1.02;
 /// time, no measurement; no other number was tried.
 const OTHERS: usize = 4;
 
+/// What every round is asked of.
+struct Course<'a> {
+    experiment: &'a dyn Experiment,
+    judgement: &'a Judgement,
+    /// The reading of the first statement, about nothing.
+    present: Vec<f64>,
+}
+
+impl Course<'_> {
+    fn stated(&self, blamed: &[Blamed], uncertain: &[f64]) -> Statement {
+        stated(self.experiment, blamed, uncertain)
+    }
+
+    fn about(&self, statement: &Statement) -> Found {
+        about(self.experiment, (statement, &self.present), self.judgement)
+    }
+}
+
 /// What is found once it has settled, and needs all of its causes; `first`: the first statement with what it told.
 pub(super) fn settled(
     experiment: &dyn Experiment,
     (mut first, told): (Statement, Found),
     judgement: &Judgement,
 ) -> Found {
-    let mut best = followed(experiment, (&first, told.clone()), judgement);
+    let course = Course {
+        experiment,
+        judgement,
+        present: first.reading.clone(),
+    };
+    let mut best = followed(&course, (&first, told.clone()));
     if rms(&told.left) > ASTRAY * rms(&best.left) {
-        let other = fewer(experiment, (&mut first, &told), &best, judgement);
+        let other = fewer(&course, (&mut first, &told), &best);
         best = other.unwrap_or(best);
     }
-    while let Some(simpler) = simpler(experiment, &best, judgement) {
+    while let Some(simpler) = simpler(&course, &best) {
         best = simpler;
     }
     // what is missed is that of the simulation as it was; the noise is what stays beside what was found
@@ -46,19 +69,18 @@ pub(super) fn settled(
 }
 
 /// States what was found anew, round by round; the round that leaves least.
-fn followed(
-    experiment: &dyn Experiment,
-    (first, mut found): (&Statement, Found),
-    judgement: &Judgement,
-) -> Found {
+fn followed(course: &Course, (first, mut found): (&Statement, Found)) -> Found {
     let (mut best, mut least) = (found.clone(), rms(&found.left));
     let mut last: Option<Statement> = None;
     for _ in 0..ROUNDS {
-        let statement = stated(experiment, &found.lead, &found.uncertain);
-        if experiment.is_settled(last.as_ref().unwrap_or(first), &statement) {
+        let statement = course.stated(&found.lead, &found.uncertain);
+        if course
+            .experiment
+            .is_settled(last.as_ref().unwrap_or(first), &statement)
+        {
             break;
         }
-        let next = about(experiment, &statement, judgement);
+        let next = course.about(&statement);
         let left = rms(&next.left);
         if left > ASTRAY * least {
             break;
@@ -87,35 +109,30 @@ fn names(causes: &[Blamed]) -> Names {
 
 /// Fewer causes that leave no more, of those that came first in the first statement: its straight lines may lead away from
 /// what one cause alone explains once it has arrived.
-fn fewer(
-    experiment: &dyn Experiment,
-    (first, told): (&mut Statement, &Found),
-    best: &Found,
-    judgement: &Judgement,
-) -> Option<Found> {
+fn fewer(course: &Course, (first, told): (&mut Statement, &Found), best: &Found) -> Option<Found> {
     let mut sets: Vec<&(Names, f64)> = told.evidence.iter().collect();
     sets.sort_by(|a, b| b.1.total_cmp(&a.1));
     (1..best.blamed.len()).find_map(|size| {
         let own = sets.iter().filter(|s| s.0.len() == size).take(OTHERS);
         own.into_iter().find_map(|(names, _)| {
-            let alone = only(first, names, |s| about(experiment, s, judgement));
-            let alone = refitted(experiment, (names, alone), judgement)?;
-            instead(experiment, alone, best, judgement)
+            let alone = only(first, names, |s| course.about(s));
+            let alone = refitted(course, (names, alone))?;
+            instead(course, alone, best)
         })
     })
 }
 
 /// The same without one of its causes. A companion may stand for what the straight line of another missed on its way: without
 /// it the others are fitted again until they arrive, and only then everybody competes once more.
-fn simpler(experiment: &dyn Experiment, best: &Found, judgement: &Judgement) -> Option<Found> {
+fn simpler(course: &Course, best: &Found) -> Option<Found> {
     let without = |at: usize| {
         let mut kept = best.blamed.clone();
         kept.remove(at);
         let names = names(&kept);
-        let mut statement = stated(experiment, &kept, &best.uncertain);
-        let alone = only(&mut statement, &names, |s| about(experiment, s, judgement));
-        let alone = refitted(experiment, (&names, alone), judgement)?;
-        instead(experiment, alone, best, judgement)
+        let mut statement = course.stated(&kept, &best.uncertain);
+        let alone = only(&mut statement, &names, |s| course.about(s));
+        let alone = refitted(course, (&names, alone))?;
+        instead(course, alone, best)
     };
     match best.blamed.len() {
         0 | 1 => None,
@@ -124,19 +141,14 @@ fn simpler(experiment: &dyn Experiment, best: &Found, judgement: &Judgement) -> 
 }
 
 /// What is found from causes that were fitted alone, if that takes fewer causes and leaves no more.
-fn instead(
-    experiment: &dyn Experiment,
-    alone: Found,
-    best: &Found,
-    judgement: &Judgement,
-) -> Option<Found> {
+fn instead(course: &Course, alone: Found, best: &Found) -> Option<Found> {
     let most = WORSE * rms(&best.left);
     if rms(&alone.left) > most {
         return None;
     }
-    let statement = stated(experiment, &alone.blamed, &alone.uncertain);
-    let found = about(experiment, &statement, judgement);
-    let found = followed(experiment, (&statement, found), judgement);
+    let statement = course.stated(&alone.blamed, &alone.uncertain);
+    let found = course.about(&statement);
+    let found = followed(course, (&statement, found));
     (found.blamed.len() < best.blamed.len() && rms(&found.left) <= most).then_some(found)
 }
 
@@ -151,17 +163,13 @@ fn only<T>(statement: &mut Statement, names: &Names, ask: impl Fn(&Statement) ->
 }
 
 /// These causes alone, fitted again until they arrive. None where one of them falls.
-fn refitted(
-    experiment: &dyn Experiment,
-    (names, mut found): (&Names, Found),
-    judgement: &Judgement,
-) -> Option<Found> {
+fn refitted(course: &Course, (names, mut found): (&Names, Found)) -> Option<Found> {
     for _ in 0..ROUNDS {
         if found.blamed.len() < names.len() {
             return None;
         }
-        let mut statement = stated(experiment, &found.blamed, &found.uncertain);
-        let next = only(&mut statement, names, |s| about(experiment, s, judgement));
+        let mut statement = course.stated(&found.blamed, &found.uncertain);
+        let next = only(&mut statement, names, |s| course.about(s));
         let arrived = is_same(&found.blamed, &next.blamed);
         found = next;
         if arrived {

@@ -1,4 +1,4 @@
-//! What a cause gains on rows that were not fitted.
+//! What a cause gains on rows that were not fitted, everything that is uncertain free to take its place: whether it is needed.
 
 use super::bank::{Bank, Fit};
 use super::nuisances::allowed;
@@ -17,7 +17,7 @@ pub fn gains(statement: &Statement, bank: &Bank, fit: &Fit) -> Vec<Gain> {
     let design = Design::of(statement, bank, fit);
     let mut splits = Vec::new();
     let each = fit.members.iter().enumerate();
-    each.map(|(at, member)| design.gain(bank, (at, *member), &mut splits))
+    each.map(|(at, member)| design.decided(bank, (at, *member), &mut splits).0)
         .collect()
 }
 
@@ -31,35 +31,36 @@ fn happens_once(bank: &Bank, member: usize) -> bool {
 
 /// Rows in noise deviations, how stiffly every amount is held by its prior, and how far it may go: what is
 /// merely uncertain must not take over what a cause explains.
-struct Design<'a> {
-    statement: &'a Statement,
-    matrix: DMatrix<f64>,
-    y: DVector<f64>,
+pub(super) struct Design<'a> {
+    pub statement: &'a Statement,
+    /// Nuisances, then the columns of every member.
+    pub matrix: DMatrix<f64>,
+    pub y: DVector<f64>,
     precision: Vec<f64>,
     most: Vec<f64>,
     /// Columns of every member.
-    own: Vec<Range<usize>>,
+    pub own: Vec<Range<usize>>,
 }
 
 /// One way to hold out rows.
-struct Split<'a> {
-    folds: Vec<Fold>,
-    of: &'a [usize],
+pub(super) struct Split<'a> {
+    pub folds: Vec<Fold>,
+    pub of: &'a [usize],
     /// Errors with all members.
     errors: Vec<f64>,
 }
 
 /// Rows that are held out together, with the products of all others.
-struct Fold {
-    rows: Vec<usize>,
-    own: DMatrix<f64>,
-    held: DVector<f64>,
-    gram: DMatrix<f64>,
-    right: DVector<f64>,
+pub(super) struct Fold {
+    pub rows: Vec<usize>,
+    pub own: DMatrix<f64>,
+    pub held: DVector<f64>,
+    pub gram: DMatrix<f64>,
+    pub right: DVector<f64>,
 }
 
 impl<'a> Design<'a> {
-    fn of(statement: &'a Statement, bank: &Bank, fit: &Fit) -> Self {
+    pub fn of(statement: &'a Statement, bank: &Bank, fit: &Fit) -> Self {
         let spread = statement.noise.spread();
         let white = |c: &[f64], scale: f64| {
             let each = c.iter().zip(spread);
@@ -100,14 +101,19 @@ impl<'a> Design<'a> {
         }
     }
 
-    fn gain(&self, bank: &Bank, (at, member): (usize, usize), splits: &mut Vec<Split<'a>>) -> Gain {
+    /// The gain of a member beside the others, and the split that shows it; none: the readings themselves do.
+    pub fn decided(
+        &self,
+        bank: &Bank,
+        (at, member): (usize, usize),
+        splits: &mut Vec<Split<'a>>,
+    ) -> (Gain, Option<usize>) {
         let all: Vec<usize> = (0..self.matrix.ncols()).collect();
-        let is_other = |c: &usize| !self.own[at].contains(c);
-        let others: Vec<usize> = all.iter().copied().filter(is_other).collect();
+        let others = self.others(at);
         if happens_once(bank, member) {
             let found = self.once(&others, &all);
             if found.is_real() {
-                return found;
+                return (found, None);
             }
         }
         let mut first = None;
@@ -122,11 +128,17 @@ impl<'a> Design<'a> {
                 split.of,
             );
             if found.is_real() {
-                return found;
+                return (found, Some(i));
             }
-            first.get_or_insert(found);
+            first.get_or_insert((found, Some(i)));
         }
-        first.unwrap_or(Gain::of(1.0, 1.0, f64::INFINITY))
+        first.unwrap_or((Gain::of(1.0, 1.0, f64::INFINITY), None))
+    }
+
+    /// All columns but those of a member.
+    pub fn others(&self, at: usize) -> Vec<usize> {
+        let is_other = |c: &usize| !self.own[at].contains(c);
+        (0..self.matrix.ncols()).filter(is_other).collect()
     }
 
     /// What some columns gain on the readings themselves. The squares that k amounts explain, λ variances of the noise,
@@ -142,11 +154,21 @@ impl<'a> Design<'a> {
     }
 
     fn split(&self, of: &'a [usize], all: &[usize]) -> Split<'a> {
-        let (whole, pull) = (gram(&self.matrix), self.matrix.tr_mul(&self.y));
+        let folds = self.folds(of, &self.y);
+        Split {
+            errors: self.held_out(&folds, all),
+            folds,
+            of,
+        }
+    }
+
+    /// Folds of readings in noise deviations.
+    pub fn folds(&self, of: &[usize], y: &DVector<f64>) -> Vec<Fold> {
+        let (whole, pull) = (gram(&self.matrix), self.matrix.tr_mul(y));
         let count = of.iter().copied().max().map_or(0, |f| f + 1);
         let fold = |fold: usize| {
             let rows: Vec<usize> = (0..of.len()).filter(|i| of[*i] == fold).collect();
-            let (own, held) = (self.matrix.select_rows(&rows), self.y.select_rows(&rows));
+            let (own, held) = (self.matrix.select_rows(&rows), y.select_rows(&rows));
             Fold {
                 gram: &whole - gram(&own),
                 right: &pull - own.tr_mul(&held),
@@ -155,16 +177,11 @@ impl<'a> Design<'a> {
                 held,
             }
         };
-        let folds: Vec<Fold> = (0..count).map(fold).collect();
-        Split {
-            errors: self.held_out(&folds, all),
-            folds,
-            of,
-        }
+        (0..count).map(fold).collect()
     }
 
     /// Amounts of some columns by products.
-    fn amounts(
+    pub fn amounts(
         &self,
         gram: &DMatrix<f64>,
         right: &DVector<f64>,
@@ -196,10 +213,15 @@ impl<'a> Design<'a> {
 
     /// Error of every row in the unit of the readings, each fold predicted from the others by some columns.
     fn held_out(&self, folds: &[Fold], columns: &[usize]) -> Vec<f64> {
+        self.predicted(folds, |fold| self.amounts(&fold.gram, &fold.right, columns))
+    }
+
+    /// The same by amounts for every fold.
+    pub fn predicted(&self, folds: &[Fold], amounts: impl Fn(&Fold) -> DVector<f64>) -> Vec<f64> {
         let weights = self.statement.noise.weights();
         let mut error = vec![0.0; weights.len()];
         for fold in folds {
-            let left = &fold.held - &fold.own * self.amounts(&fold.gram, &fold.right, columns);
+            let left = &fold.held - &fold.own * amounts(fold);
             let each = fold.rows.iter().zip(left.iter());
             each.for_each(|(i, l)| error[*i] = l * weights[*i]);
         }
