@@ -24,11 +24,6 @@ const HIGH: f64 = 18.0;
 const MOST: usize = 2;
 /// Resolutions within which a line belongs to a harmonic of the spindle: its place is told to a tenth of one.
 const NEAR: f64 = 0.6;
-/// Resolutions on either side of a line whose power is its ground: noise may rise towards low frequencies, as behind a charge
-/// amplifier, and is as high there as a line elsewhere. Wide enough for a median, narrow against the distance of harmonics.
-const GROUND: usize = 12;
-/// Resolutions of the line itself, which are no ground: the window's main lobe.
-const OWN: usize = 2;
 /// Times by which the record is lengthened with zeros.
 const FINER: usize = 4;
 
@@ -52,27 +47,18 @@ fn of_cut(number: usize, fit: &CutFit, cut: &CutSamples) -> Vec<Line> {
         turn.min(1.0 - turn) * spindle_hz > NEAR / length
     };
     let typical = median(&power).max(f64::MIN_POSITIVE);
-    let height = |i: usize| power[i] / typical;
     let mut found: Vec<Line> = (FINER..power.len().saturating_sub(1))
         .filter(|i| power[*i] >= power[i - 1] && power[*i] > power[i + 1])
-        .filter(|i| height(*i) > HIGH)
         .map(|i| Line {
             cut: number,
             frequency_hz: peak(&power, i) * step_hz,
-            height: height(i).min(power[i] / ground(&power, i)),
+            height: power[i] / typical,
         })
         .filter(|line| line.height > HIGH && between(line.frequency_hz))
         .collect();
     found.sort_by(|a, b| b.height.total_cmp(&a.height));
     found.truncate(MOST);
     found
-}
-
-/// Typical power about a line, itself left out.
-fn ground(power: &[f64], i: usize) -> f64 {
-    let near = i.saturating_sub(GROUND * FINER).max(FINER)..(i + GROUND * FINER).min(power.len());
-    let beside = near.filter(|k| k.abs_diff(i) > OWN * FINER);
-    median(&beside.map(|k| power[k]).collect::<Vec<_>>()).max(f64::MIN_POSITIVE)
 }
 
 fn peak(power: &[f64], i: usize) -> f64 {
