@@ -31,7 +31,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 };
 
 /// Widest zone, half width over half of the travel, and none has its middle outside: where most of the travel is worn there is
-/// no zone, but a lead that changes.
+/// no zone, but a lead that changes. Above the widest of [`WIDTHS`] by one step of what is sought about a zone; no other
+/// value was tried.
 const WIDEST: f64 = 0.6;
 /// Half widths over half of the travel.
 const WIDTHS: [f64; 6] = [0.05, 0.08, 0.14, 0.22, 0.33, 0.5];

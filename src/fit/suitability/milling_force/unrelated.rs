@@ -22,7 +22,7 @@ const TURNS: f64 = 2.5;
 /// Samples that are looked at.
 const SAMPLES: usize = 20_000;
 /// A force whose mean is above so many times its scatter is steady: three teeth and more in a full slot add up to one, and
-/// nothing is there to repeat.
+/// nothing is there to repeat. A ramp, which is no cutting force, has 1.7; no other value was tried.
 const STEADY: f64 = 3.0;
 /// Times the stated noise that a channel along the axis must have to be judged.
 const SEEN: f64 = 5.0;
