@@ -2,15 +2,13 @@
 
 use super::Cutter;
 use crate::cutting::dexel::Solid;
-use crate::cutting::dexel::engagement::Frame;
+use crate::cutting::dexel::engagement::{APART, Frame};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{V3, add, norm, scale, sub, unit};
 
 /// The latest way, as a share of the radius, that is known as places instead of being taken from the
 /// rays: its end lies two spacings within the front.
 const LATEST: f64 = 0.6;
-/// Places of the latest way, in spacings.
-const APART: f64 = 0.5;
 
 impl Cutter {
     /// Moves the tool to `tip` with its axis along `axis`, in a straight line from where it was, takes

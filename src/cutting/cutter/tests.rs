@@ -222,3 +222,28 @@ fn ramps_and_arcs_have_their_volume() {
     let got = arc.removed() * 1e9;
     assert!((got / ring - 1.0).abs() < 2e-3, "{got} {ring}");
 }
+
+/// The second of two equal depths at a wall takes what the first one took: the wall that it left above touches the tool and is
+/// not cut.
+#[test]
+fn a_wall_that_an_earlier_depth_left_adds_no_force() {
+    for (spacing, depth) in [(0.4 * MM, 1.7 * MM), (0.37 * MM, 1.1 * MM)] {
+        let tool = Tool::square(8.0 * MM, 4, FRAC_PI_6);
+        for side in [1.0 * MM, 3.3 * MM] {
+            let mut cutter = cutter(&tool, side, spacing);
+            let mut level = |n: f64| {
+                let at = |x: f64| [x * MM, -8.0 * MM + side, -n * depth];
+                cutter.jump([-20.0 * MM, -8.0 * MM + side, 5.0 * MM], UP);
+                cutter.jump(at(-9.0), UP);
+                go(&mut cutter, at(-9.0), at(30.0), 0.1 * MM);
+                let load = cutter.mean_load([0.1 * MM, 0.0, 0.0]).force;
+                go(&mut cutter, at(30.0), at(70.0), 0.1 * MM);
+                load
+            };
+            let [first, second] = [level(1.0), level(2.0)];
+            let off = norm(sub(second, first)) / norm(first);
+            println!("{spacing:.5} {depth:.4} {side:.4}: {off:.4}");
+            assert!(off < 0.005, "{first:?} {second:?}");
+        }
+    }
+}

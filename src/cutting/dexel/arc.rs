@@ -5,7 +5,7 @@ use super::solid::Solid;
 use crate::ground::spatial::{V3, dot, norm, sub};
 
 /// What the tool has cut on its latest way is seen where it is deeper than this, m.
-const TOUCH: f64 = 1e-9;
+pub(super) const TOUCH: f64 = 1e-9;
 /// Axes that differ by less are one.
 const TURNED: f64 = 1e-9;
 

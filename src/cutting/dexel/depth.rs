@@ -100,15 +100,15 @@ fn of_views(views: &[View; 3], cap: f64) -> f64 {
     {
         return distance.clamp(-cap, cap);
     }
-    if let Some(view) = views
-        .iter()
-        .find(|v| v.seen.1 == 0.0 && v.beyond.abs() > 0.99)
-    {
+    let faces = views.iter().filter(|v| v.seen.1 > 0.0);
+    let faces = faces.map(|v| v.seen.0 / v.seen.1);
+    // rays within a wall do not know how near the point is to it: another direction does
+    let is_seen = views.iter().any(|v| v.seen.1 > 0.0);
+    let alone = |v: &&View| v.seen.1 == 0.0 && (v.beyond < -0.99 || v.beyond > 0.99 && !is_seen);
+    if let Some(view) = views.iter().find(alone) {
         return cap.copysign(view.beyond);
     }
     let beyond: f64 = views.iter().map(|v| v.beyond).sum();
-    let faces = views.iter().filter(|v| v.seen.1 > 0.0);
-    let faces = faces.map(|v| v.seen.0 / v.seen.1);
     match beyond < 0.0 {
         true => faces.fold(cap, f64::min),
         false => faces.fold(-cap, f64::max),

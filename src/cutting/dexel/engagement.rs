@@ -4,7 +4,8 @@
 //! there is known exactly, as the places it stood at, and costs no accuracy by the rays' spacing. On
 //! every cell of ring and angle the depth at its corners says which share of it is in.
 
-use super::arc::{Arc, taken};
+use super::arc::{Arc, TOUCH, taken};
+use super::crossing::straightened;
 use super::rings::Ring;
 use super::solid::Solid;
 use super::stock::Stock;
@@ -59,6 +60,10 @@ pub struct Engagement {
     /// Rings below this one may be in material.
     used: usize,
     nodes: Vec<f64>,
+    /// Depths at the lower and upper end of every cell's border along the meridian, straight between them.
+    columns: Vec<[f64; 2]>,
+    /// Depth at which a wall is touched and not cut, m: what the places of an earlier way left standing between them.
+    touched: f64,
     /// What the latest places take of the circle that is looked along.
     arcs: Vec<Arc>,
 }
@@ -76,6 +81,8 @@ impl Engagement {
             angles,
             share: vec![0.0; rings.len() * angles],
             nodes: vec![0.0; (rings.len() + 1) * angles],
+            columns: vec![[0.0; 2]; rings.len() * angles],
+            touched: TOUCH,
             directions: (0..angles).map(direction).collect(),
             rings,
             used: 0,
@@ -129,6 +136,9 @@ impl Engagement {
         let cleared = used.max(self.used) * self.angles;
         self.share[..cleared].fill(0.0);
         self.used = used;
+        let widest = self.rings.iter().map(|r| r.circles[1][0]);
+        let apart = APART * stock.spacing();
+        self.touched = TOUCH + apart * apart / (8.0 * widest.fold(apart, f64::max));
         let way = unit(way).unwrap_or([0.0; 3]);
         for line in 0..=used.min(self.rings.len()) {
             if used > 0 {
@@ -136,6 +146,7 @@ impl Engagement {
             }
         }
         for i in 0..used {
+            self.straighten(stock, tip, latest, i);
             self.divide(i, way);
         }
     }
@@ -157,14 +168,38 @@ impl Engagement {
             let out = self.frame.outward(direction);
             let moving = faces(ring, out, self.frame.z, way) || faces(next, out, self.frame.z, way);
             self.nodes[line * self.angles + k] = match moving {
-                false => -1.0,
+                false => GONE,
                 true => {
                     let point = add(centre, scale(radius, out));
                     match taken(&self.arcs, latest, direction, point) {
-                        true => -1.0,
-                        false => stock.depth(point),
+                        true => GONE,
+                        false => stock.depth(point) - self.touched,
                     }
                 }
+            };
+        }
+    }
+
+    /// Depths along the meridians of ring i.
+    fn straighten(&mut self, stock: &Stock, tip: V3, latest: &[Solid], i: usize) {
+        let n = self.angles;
+        let ring = &self.rings[i];
+        let [[r0, h0], [r1, h1]] = ring.circles;
+        for k in 0..n {
+            let ends = [self.nodes[i * n + k], self.nodes[(i + 1) * n + k]];
+            let crosses = (ends[0] > 0.0) != (ends[1] > 0.0);
+            let out = self.frame.outward(self.directions[k]);
+            let at = |t: f64| {
+                let centre = add(tip, scale(h0 + t * (h1 - h0), self.frame.z));
+                let point = add(centre, scale(r0 + t * (r1 - r0), out));
+                match latest.iter().any(|s| s.holds(point, TOUCH)) {
+                    true => GONE,
+                    false => stock.depth(point) - self.touched,
+                }
+            };
+            self.columns[i * n + k] = match crosses && ends.iter().all(|d| *d > GONE) {
+                true => straightened(ends, ring.length_m, at),
+                false => ends,
             };
         }
     }
@@ -174,9 +209,7 @@ impl Engagement {
         let n = self.angles;
         for k in 0..n {
             let next = (k + 1) % n;
-            let corner = |line: usize, k: usize| self.nodes[line * n + k];
-            let (a, b) = (corner(i, k), corner(i, next));
-            let (c, d) = (corner(i + 1, k), corner(i + 1, next));
+            let [[a, c], [b, d]] = [k, next].map(|k| self.columns[i * n + k]);
             let out = self.frame.outward(self.directions[k]);
             let after = self.frame.outward(self.directions[next]);
             let z = self.frame.z;
@@ -227,6 +260,10 @@ pub fn positive_mean(a: f64, b: f64) -> f64 {
     }
 }
 
+/// Distance of the places that stand for the tool's way, in spacings of the rays.
+pub const APART: f64 = 0.5;
+/// Depth of a place that is air whatever the stock says, m.
+const GONE: f64 = -1.0;
 /// Nearly along or into the motion: within a few degrees of the border.
 const ALMOST: f64 = -0.12;
 /// Along the motion, but for rounding.

@@ -3,6 +3,7 @@
 //! (source 004, 11.2.2; Benouamer and Michelucci 1997).
 
 mod arc;
+mod crossing;
 mod depth;
 pub mod engagement;
 mod grid;

@@ -79,6 +79,11 @@ impl Stock {
         (self.min, self.max)
     }
 
+    /// Distance of the rays, m.
+    pub fn spacing(&self) -> f64 {
+        self.cap / SIGHT
+    }
+
     /// Takes the tool's solid away.
     pub fn remove(&mut self, solid: &Solid) {
         if self.meets(solid, 0.0) {
