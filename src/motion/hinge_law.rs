@@ -16,6 +16,8 @@ pub struct HingeLaw {
     stiffness: f64,
     half_gap: f64,
     sliders: Vec<Slider>,
+    /// Slope while every slider sticks, N·m/rad: the greatest.
+    steepest: f64,
 }
 
 /// What a hinge remembers of its past.
@@ -25,6 +27,8 @@ pub struct Memory {
     pub bend: f64,
     /// Deflection of each slider, rad.
     pub stops: Vec<f64>,
+    /// Torque of all together, N·m.
+    pub torque: f64,
 }
 
 /// A piece of path.
@@ -48,18 +52,22 @@ pub struct Mean {
 impl HingeLaw {
     /// The law of a spring with its gap and its effects.
     pub fn of(spring: &Spring) -> Self {
+        let sliders = sliders(spring.stiffness, spring.contacts());
         Self {
             stiffness: spring.stiffness,
             half_gap: 0.5 * spring.gap(),
-            sliders: sliders(spring.stiffness, spring.contacts()),
+            steepest: spring.stiffness + sliders.iter().map(|s| s.stiffness).sum::<f64>(),
+            sliders,
         }
     }
 
     /// At the deflection `delta` (rad), the contacts without load as after a good shake.
     pub fn at_rest(&self, delta: f64) -> Memory {
+        let bend = delta - delta.clamp(-self.half_gap, self.half_gap);
         Memory {
-            bend: delta - delta.clamp(-self.half_gap, self.half_gap),
+            bend,
             stops: vec![0.0; self.sliders.len()],
+            torque: self.stiffness * bend,
         }
     }
 
@@ -71,7 +79,7 @@ impl HingeLaw {
 
     /// Where it comes to rest from the deflection `from` (rad) under another torque, N·m.
     pub fn under(&self, memory: &Memory, from: f64, torque: f64) -> f64 {
-        let change = torque - self.torque(memory);
+        let change = torque - memory.torque;
         if change == 0.0 {
             return from;
         }
@@ -83,12 +91,6 @@ impl HingeLaw {
             false => 0.0,
         };
         from + sign * (travel + crossed)
-    }
-
-    /// Present torque, N·m.
-    pub fn torque(&self, memory: &Memory) -> f64 {
-        let held = self.sliders.iter().zip(&memory.stops);
-        self.stiffness * memory.bend + held.map(|(s, stop)| s.stiffness * stop).sum::<f64>()
     }
 
     /// Energy in spring and sliders, J.
@@ -149,8 +151,10 @@ impl HingeLaw {
 
     fn bend(&self, memory: &mut Memory, moved: f64) {
         memory.bend += moved;
+        memory.torque = self.stiffness * memory.bend;
         for (slider, stop) in self.sliders.iter().zip(&mut memory.stops) {
             *stop = (*stop + moved).clamp(-slider.reach, slider.reach);
+            memory.torque += slider.stiffness * *stop;
         }
     }
 
@@ -159,8 +163,9 @@ impl HingeLaw {
         let (way, sign) = ((to - from).abs(), (to - from).signum());
         let place = (from - memory.bend).clamp(-self.half_gap, self.half_gap);
         let room = self.half_gap - sign * place;
-        // most steps of a pressed hinge are too short to reach its gap
-        if room <= 0.0 || self.pushed(memory, sign, way).0 < 0.0 {
+        // most steps of a pressed hinge are too short to reach its gap, even if every slider stuck
+        let too_short = sign * memory.torque + self.steepest * way < 0.0;
+        if room <= 0.0 || too_short || self.pushed(memory, sign, way).0 < 0.0 {
             return Way {
                 travel: way,
                 floats: false,
@@ -258,7 +263,7 @@ mod tests {
                 let to = delta + 0.5 * gap * load.signum();
                 law.advance(&mut memory, at, to);
                 at = to;
-                let found = law.torque(&memory);
+                let found = memory.torque;
                 assert!((found - load).abs() < 1e-9 * 500.0, "{found} {load}");
             }
         }

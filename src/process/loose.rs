@@ -36,6 +36,20 @@ struct Hinge {
 #[derive(Debug, Clone)]
 pub struct Loose {
     hinges: Vec<Hinge>,
+    work: Work,
+}
+
+/// What a step works with, joint by joint.
+#[derive(Debug, Clone, Default)]
+struct Work {
+    /// Deflections without what the joints do, and with it, rad.
+    free: Vec<f64>,
+    with: Vec<f64>,
+    /// By how much these torques do not lead to these deflections yet, rad.
+    rest: Vec<f64>,
+    /// Torques c, N·m, and how they change with the deflection.
+    torques: Vec<f64>,
+    slopes: Vec<f64>,
 }
 
 /// How the loose joints answer within a step of one length at one pose.
@@ -72,7 +86,7 @@ impl Loose {
                 let law = HingeLaw::of(spring);
                 let place = law.settled(-held.weight[coordinate]);
                 let memory = law.at_rest(place);
-                let last = spring.stiffness * place - law.torque(&memory);
+                let last = spring.stiffness * place - memory.torque;
                 Some(Hinge {
                     coordinate,
                     stiffness: spring.stiffness,
@@ -86,6 +100,7 @@ impl Loose {
             });
         Self {
             hinges: own.collect(),
+            work: Work::default(),
         }
     }
 
@@ -120,35 +135,29 @@ impl Loose {
 
     /// Torques c over a step at whose end the linear robot alone would have `state`, with a force at the tool
     /// still to come.
-    pub fn torques(&self, ports: &Ports, state: &[f64], force: V3) -> Vec<f64> {
-        if self.is_empty() {
-            return Vec::new();
-        }
+    pub fn torques(&mut self, ports: &Ports, state: &[f64], force: V3) -> &[f64] {
+        let Self { hinges, work } = self;
         let free = ports.rows.iter().zip(&ports.by_force);
-        let free: Vec<f64> = free
-            .map(|(row, by)| along(row, state) + dot(*by, force))
-            .collect();
-        let mut torque: Vec<f64> = self.hinges.iter().map(|hinge| hinge.next).collect();
-        let mut x = free.clone();
-        ports.answered(&torque, &mut x);
-        let mut means = vec![(0.0, 0.0); free.len()];
-        let mut rest = vec![0.0; free.len()];
+        work.free.clear();
+        work.free
+            .extend(free.map(|(row, by)| along(row, state) + dot(*by, force)));
+        work.torques.clear();
+        work.torques.extend(hinges.iter().map(|hinge| hinge.next));
+        work.with.clone_from(&work.free);
+        ports.answered(&work.torques, &mut work.with);
         for round in 0..ROUNDS {
-            for (i, hinge) in self.hinges.iter().enumerate() {
-                means[i] = hinge.missing(x[i]);
-                torque[i] = means[i].0;
-                rest[i] = free[i] - x[i];
-            }
-            ports.answered(&torque, &mut rest);
-            if largest(&rest) <= NEAR * largest(&x) {
+            work.ask(hinges);
+            ports.answered(&work.torques, &mut work.rest);
+            if largest(&work.rest) <= NEAR * largest(&work.with) {
                 break;
             }
             if round >= PLAIN {
-                rest = ports.newton(&means, rest);
+                ports.newton(&work.slopes, &mut work.rest);
             }
-            x.iter_mut().zip(&rest).for_each(|(x, step)| *x += step);
+            let each = work.with.iter_mut().zip(&work.rest);
+            each.for_each(|(x, step)| *x += step);
         }
-        torque
+        &self.work.torques
     }
 
     /// Takes the step to `state`.
@@ -208,6 +217,20 @@ impl Loose {
     }
 }
 
+impl Work {
+    /// Torques at the deflections that are assumed, and how far these are from those without torques.
+    fn ask(&mut self, hinges: &[Hinge]) {
+        self.rest.clear();
+        self.slopes.clear();
+        for (i, hinge) in hinges.iter().enumerate() {
+            let (torque, slope) = hinge.missing(self.with[i]);
+            self.torques[i] = torque;
+            self.slopes.push(slope);
+            self.rest.push(self.free[i] - self.with[i]);
+        }
+    }
+}
+
 impl Ports {
     /// Adds what torques on the joints change.
     pub fn push(&self, state: &mut [f64], torques: &[f64]) {
@@ -226,14 +249,15 @@ impl Ports {
         }
     }
 
-    /// Newton's step from what is left of the deflections, rad; `means` hold the slopes of the torques.
-    fn newton(&self, means: &[(f64, f64)], rest: Vec<f64>) -> Vec<f64> {
+    /// Newton's step in the place of what is left of the deflections, rad; with the slopes of the torques.
+    fn newton(&self, slopes: &[f64], rest: &mut [f64]) {
         let n = rest.len();
         let slope = DMatrix::from_fn(n, n, |i, j| {
-            f64::from(u8::from(i == j)) - self.answer[(i, j)] * means[j].1
+            f64::from(u8::from(i == j)) - self.answer[(i, j)] * slopes[j]
         });
-        let solved = slope.lu().solve(&DVector::from_column_slice(&rest));
-        solved.map_or(rest, |x| x.as_slice().to_vec())
+        if let Some(step) = slope.lu().solve(&DVector::from_column_slice(rest)) {
+            rest.copy_from_slice(step.as_slice());
+        }
     }
 }
 

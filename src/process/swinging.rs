@@ -151,7 +151,7 @@ impl Swinging {
     fn loosen(&mut self, coarse: bool, to_come: V3) {
         let ports = if coarse { &self.far } else { &self.near };
         let torques = self.loose.torques(ports, &self.next, to_come);
-        ports.push(&mut self.next, &torques);
+        ports.push(&mut self.next, torques);
     }
 
     /// Books the energy of a step and takes it.
