@@ -66,12 +66,8 @@ pub(super) fn choose(posterior: &Posterior, judgement: &Judgement) -> Scored {
         .first()
         .map_or_else(|| nothing(posterior), |s| s.0.clone());
     while set.suspects.len() > 1 {
-        let probability = |s: &usize| {
-            let swapped: f64 = posterior.stand_ins(&set, *s).iter().map(|r| r.1).sum();
-            let own = posterior.inclusion(*s);
-            // what a stand-in takes is not lost: some companion is there
-            (own * (1.0 + swapped)).min(1.0)
-        };
+        // what a stand-in takes is not lost: some companion is there
+        let probability = |s: &usize| posterior.inclusion_of_place(&set, *s);
         let weakest = set
             .suspects
             .iter()

@@ -226,8 +226,18 @@ fn needed(
     kept: &Picked,
 ) -> Option<Picked> {
     let (bank, judgement) = (weighing.bank, weighing.judgement);
+    // where nobody states the noise, a companion that unseen rows do not show is worth the noise that it makes smaller
+    let is_told = weighing.statement.noise.rows() > 0.0;
+    if !is_told && !kept.set.suspects.is_empty() && !kept.leaves.rest.is_left {
+        return None;
+    }
     let is_dropped = |s: &usize| !kept.set.suspects.contains(s);
-    let is_probable = |s: &usize| posterior.inclusion(*s) >= judgement.companion_needed;
+    // one cause, or one that can take its place; of several, each for itself
+    let probability = |s: usize| match chosen.suspects.len() {
+        1 => posterior.inclusion_of_place(chosen, s),
+        _ => posterior.inclusion(s),
+    };
+    let is_probable = |s: &usize| probability(*s) >= judgement.companion_needed;
     let own = chosen.suspects.iter().copied();
     let probable: Vec<usize> = own.filter(|s| !is_dropped(s) || is_probable(s)).collect();
     let chosen = posterior.set(&probable)?.clone();

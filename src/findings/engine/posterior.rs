@@ -69,6 +69,12 @@ impl<S: Weighed> Posterior<S> {
             .min(1.0)
     }
 
+    /// Probability that a suspect of a set or one that can take its place is at work.
+    pub fn inclusion_of_place(&self, set: &S, suspect: usize) -> f64 {
+        let swapped: f64 = self.stand_ins(set, suspect).iter().map(|r| r.1).sum();
+        (self.inclusion(suspect) * (1.0 + swapped)).min(1.0)
+    }
+
     /// The set of exactly these suspects, ascending.
     pub fn set(&self, suspects: &[usize]) -> Option<&S> {
         self.index.get(suspects).map(|at| &self.sets[*at].0)

@@ -51,8 +51,9 @@ pub(super) fn settled(
         present: first.reading.clone(),
     };
     let mut best = followed(&course, (&first, told.clone()));
-    if rms(&told.left) > ASTRAY * rms(&best.left) {
-        let other = fewer(&course, (&mut first, &told), &best);
+    let far = rms(&told.left) > ASTRAY * rms(&best.left);
+    if far || best.blamed.len() == 1 && bends(&course, &first, &best) {
+        let other = others(&course, (&mut first, &told), &best);
         best = other.unwrap_or(best);
     }
     while let Some(simpler) = simpler(&course, &best) {
@@ -107,19 +108,50 @@ fn names(causes: &[Blamed]) -> Names {
     causes.iter().map(|c| (c.effect, c.site.clone())).collect()
 }
 
-/// Fewer causes that leave no more, of those that came first in the first statement: its straight lines may lead away from
-/// what one cause alone explains once it has arrived.
-fn fewer(course: &Course, (first, told): (&mut Statement, &Found), best: &Found) -> Option<Found> {
+/// Other causes of those that came first in the first statement: its straight lines may lead away from what they explain once
+/// they have arrived. Fewer that leave no more, or as many that leave less.
+fn others(course: &Course, (first, told): (&mut Statement, &Found), best: &Found) -> Option<Found> {
     let mut sets: Vec<&(Names, f64)> = told.evidence.iter().collect();
     sets.sort_by(|a, b| b.1.total_cmp(&a.1));
-    (1..best.blamed.len()).find_map(|size| {
-        let own = sets.iter().filter(|s| s.0.len() == size).take(OTHERS);
-        own.into_iter().find_map(|(names, _)| {
+    let own = names(&best.blamed);
+    (1..=own.len()).find_map(|size| {
+        let of_size = sets.iter().filter(|s| s.0.len() == size && s.0 != own);
+        of_size.take(OTHERS).find_map(|(names, _)| {
             let alone = only(first, names, |s| course.about(s));
             let alone = refitted(course, (names, alone))?;
-            instead(course, alone, best)
+            match size < own.len() {
+                true => instead(course, alone, best),
+                false => better(course, first, alone, best),
+            }
         })
     })
+}
+
+/// Whether what was found does more beyond first order than the odds of causes can bear that were compared by straight lines.
+fn bends(course: &Course, first: &Statement, best: &Found) -> bool {
+    let again = course.stated(&best.blamed, &best.uncertain);
+    let beyond = first.reading.iter().zip(&again.reading);
+    let beyond = beyond.zip(first.noise.spread());
+    let squares: f64 = beyond.map(|((a, b), s)| ((a - b) / s).powi(2)).sum();
+    0.5 * squares > BETTER
+}
+
+/// As many causes, of which what they leave is so much more probable, nats: odds of twenty to one.
+const BETTER: f64 = 3.0;
+
+/// What is found from causes that were fitted alone, if that takes no more causes and leaves less; `first`: whose noise they
+/// are seen in.
+fn better(course: &Course, first: &Statement, alone: Found, best: &Found) -> Option<Found> {
+    let squares = |found: &Found| -> f64 {
+        let each = found.left.iter().zip(first.noise.spread());
+        each.map(|(l, s)| (l / s).powi(2)).sum()
+    };
+    let most = squares(best) * (1.0 - 2.0 * BETTER / first.reading.len().max(1) as f64);
+    if squares(&alone) > most {
+        return None;
+    }
+    let found = again(course, &alone);
+    (found.blamed.len() <= best.blamed.len() && squares(&found) <= most).then_some(found)
 }
 
 /// The same without one of its causes. A companion may stand for what the straight line of another missed on its way: without
@@ -146,10 +178,15 @@ fn instead(course: &Course, alone: Found, best: &Found) -> Option<Found> {
     if rms(&alone.left) > most {
         return None;
     }
+    let found = again(course, &alone);
+    (found.blamed.len() < best.blamed.len() && rms(&found.left) <= most).then_some(found)
+}
+
+/// What is found where everybody competes beside causes that were fitted alone.
+fn again(course: &Course, alone: &Found) -> Found {
     let statement = course.stated(&alone.blamed, &alone.uncertain);
     let found = course.about(&statement);
-    let found = followed(course, (&statement, found));
-    (found.blamed.len() < best.blamed.len() && rms(&found.left) <= most).then_some(found)
+    followed(course, (&statement, found))
 }
 
 /// Something asked of a statement that has only some of its suspects.
