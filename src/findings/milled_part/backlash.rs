@@ -2,8 +2,8 @@
 //! back, or where the load on it changes its sign.
 
 use super::Case;
-use super::hold::levers;
-use crate::findings::engine::Member;
+use super::hold::{Lever, levers};
+use crate::findings::engine::{Blamed, Member};
 use crate::findings::table::{Effect, Place};
 use crate::ground::spatial::{V3, scale};
 
@@ -26,31 +26,53 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 
 /// Share of its greatest size below which a torque chooses no flank.
 const IDLE: f64 = 0.02;
-/// Ways by which a joint turns back until its link follows, rad: gaps of a good and of a worn drive.
-const GAPS: [f64; 2] = [2e-5, 2e-4];
+/// Ways by which a joint turns back until its link follows, rad: at once, as a link that something presses, and the gaps of a
+/// good and of a worn drive.
+const GAPS: [f64; 3] = [1e-6, 2e-5, 2e-4];
 
 fn members(case: &Case, joint: usize, site: &str) -> Vec<Member> {
     let Some(levers) = levers(&case.setup, &case.stations, site) else {
         return Vec::new();
     };
-    let cut = levers.iter().map(|l| l.cut).collect();
-    let loaded = levers.iter().map(|l| l.cut + l.weight).collect();
-    let by_load = [cut, loaded].map(|drive: Vec<f64>| flanks(&drive));
-    let by_motion = GAPS.map(|gap| followed(case, joint, gap));
     let member = |(form, side): (usize, Vec<f64>)| {
-        let moved: Vec<V3> = levers
-            .iter()
-            .zip(&side)
-            .map(|(l, side)| scale(0.5 * side, l.motion))
-            .collect();
-        Member::free(case.answered(&moved))
+        Member::free(case.answered(&moved(&levers, &side)))
             .positive()
             .shaped(&[-1.0, form as f64])
     };
-    let sides = by_motion.into_iter().chain(by_load).enumerate();
+    let sides = sides(case, joint, &levers).into_iter().enumerate();
     sides
         .filter_map(|(form, side)| Some(member((form, side?))))
         .collect()
+}
+
+/// Flanks at every station, form by form: by the motion, by the cut, by cut and weight.
+fn sides(case: &Case, joint: usize, levers: &[Lever]) -> Vec<Option<Vec<f64>>> {
+    let cut: Vec<f64> = levers.iter().map(|l| l.cut).collect();
+    let loaded: Vec<f64> = levers.iter().map(|l| l.cut + l.weight).collect();
+    let by_motion = GAPS.map(|gap| followed(case, joint, gap));
+    let by_load = [flanks(&cut), flanks(&loaded)];
+    by_motion.into_iter().chain(by_load).collect()
+}
+
+/// Where a gap of one lets the tool go, m/rad.
+fn moved(levers: &[Lever], side: &[f64]) -> Vec<V3> {
+    let each = levers.iter().zip(side);
+    each.map(|(l, side)| scale(0.5 * side, l.motion)).collect()
+}
+
+/// Where the tool goes at every station, m, if this is to blame.
+pub(super) fn moves(case: &Case, blamed: &Blamed) -> Option<Vec<V3>> {
+    if blamed.effect != EFFECT.name {
+        return None;
+    }
+    let mut joints = case.setup.robot.joints.iter();
+    let joint = joints.position(|joint| joint.name == blamed.site)?;
+    let levers = levers(&case.setup, &case.stations, &blamed.site)?;
+    let side = sides(case, joint, &levers)
+        .into_iter()
+        .nth(blamed.shape[1] as usize)??;
+    let all = moved(&levers, &side).into_iter();
+    Some(all.map(|m| scale(blamed.amounts[0], m)).collect())
 }
 
 /// Where in its gap a link lies that its joint drags along: +1 where the joint turns backwards, rapid motions

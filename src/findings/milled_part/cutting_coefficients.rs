@@ -10,22 +10,31 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     summary: "The material cuts harder or easier than stated.",
     mechanism: "force",
     law_error: 0.0,
-    can_be: |_, _| true,
+    can_be: |shape, amounts| amounts[0].abs() > DOUBTED * shape[2],
     places: |case| vec![Place::new("material", members(case))],
     parameters: |_, blamed| vec![("relative_change", blamed.amounts[0], "1")],
     would_tell: "record the force of the cut (`ident force`)",
 };
 
+/// Stated standard deviations within which a coefficient that is off is what the statement says of it: nobody is to blame.
+const DOUBTED: f64 = 2.5;
 /// Ordinary relative error of a coefficient.
 const ORDINARY: f64 = 0.3;
 /// Which coefficients change together: all cutting, all at all, tangential, radial, the edge.
 const FORMS: [&[usize]; 5] = [&[0, 1, 2], &[0, 1, 2, 3, 4, 5], &[0], &[1], &[3, 4, 5]];
 
 fn members(case: &Case) -> Vec<Member> {
+    let stds = case.planned.coefficient_stds();
+    // the doubt of a common factor is that of its surest member
+    let doubt = |own: &[usize]| {
+        let stated = own.iter().filter_map(|k| stds.get(*k).copied().flatten());
+        stated.fold(f64::INFINITY, f64::min)
+    };
     let form = |(i, own): (usize, &&[usize])| {
         let sum = |row: usize| own.iter().map(|k| case.coefficients[*k][row]).sum();
         let column: Vec<f64> = (0..case.rows.len()).map(sum).collect();
-        Member::given(column, ORDINARY).shaped(&[-1.0, i as f64])
+        let doubt = Some(doubt(own)).filter(|d| d.is_finite()).unwrap_or(0.0);
+        Member::given(column, ORDINARY).shaped(&[-1.0, i as f64, doubt])
     };
     // an exponent is none that changes with the others
     let card = case.setup.material.law.card();

@@ -1,5 +1,6 @@
 //! What is wrong with a milled part: probed deviations less those that robot and cut are simulated to leave.
 
+mod again;
 mod backlash;
 mod corner_lag;
 mod cutting_coefficients;
@@ -16,7 +17,7 @@ mod uncertain;
 mod workpiece_offset;
 mod workpiece_rotation;
 
-use super::engine::{Blamed, Nuisance, Suspect};
+use super::engine::{Nuisance, Suspect};
 use super::table::Effect;
 use crate::ground::problem::Outcome;
 use crate::ground::spatial::{M3, V3, dot, rotate};
@@ -27,7 +28,7 @@ use hold::{Hold, holds};
 pub use stations::{Row, Station};
 use stations::{placed, rows, spreads};
 use std::sync::OnceLock;
-use tried::{still, tried};
+use tried::tried;
 use uncertain::Known;
 
 /// Effects beside the causes of the whole robot (`robot`).
@@ -130,39 +131,6 @@ impl Case {
     fn column(&self, of: impl Fn(&Station, &Row) -> f64) -> Vec<f64> {
         let each = self.rows.iter();
         each.map(|row| of(&self.stations[row.station], row))
-            .collect()
-    }
-
-    /// How much more than in first order these causes and uncertain numbers change the rows, m: the cut is milled
-    /// again with them, and the force gives way.
-    fn beyond_first_order(&self, about: &[Blamed], uncertain: &[f64]) -> Vec<f64> {
-        let mut setup = self.trial.clone();
-        let known = self.stated().uncertain.iter().zip(uncertain);
-        let known: Vec<(&Nuisance, f64)> = known
-            .filter(|((known, _), amount)| uncertain::put(known, **amount, &mut setup))
-            .map(|((_, nuisance), amount)| (nuisance, *amount))
-            .collect();
-        let altered: Vec<&Blamed> = about
-            .iter()
-            .filter(|blamed| {
-                cutting_coefficients::alter(blamed, &mut setup)
-                    || robot::alter(self, blamed, &mut setup)
-            })
-            .collect();
-        let again = match altered.is_empty() && known.is_empty() {
-            true => None,
-            false => still(&setup, &self.stations).ok(),
-        };
-        let Some(again) = again else {
-            return vec![0.0; self.rows.len()];
-        };
-        let again = self.seen(&again);
-        let linear = |row: usize| {
-            let causes: f64 = altered.iter().map(|b| b.part[row]).sum();
-            causes + known.iter().map(|(n, a)| a * n.column[row]).sum::<f64>()
-        };
-        (0..self.rows.len())
-            .map(|row| again[row] - self.still[row] - linear(row))
             .collect()
     }
 

@@ -56,7 +56,7 @@ const STEEP: f64 = 0.15e-3;
 /// A component that a direction hardly has may be missing.
 const HARDLY: f64 = 0.02;
 /// Share of a simulated deviation that the laws of the cut do not know.
-const LAW: f64 = 0.015;
+pub(super) const LAW: f64 = 0.015;
 
 /// The stations of a test, those where nothing is cut left out.
 ///

@@ -1,7 +1,7 @@
 //! Robot or spindle grow while they warm up: the error drifts over the time of the job.
 
 use super::{Case, Station};
-use crate::findings::engine::Member;
+use crate::findings::engine::{Blamed, Member};
 use crate::findings::table::{Effect, Place};
 use crate::ground::spatial::{V3, add, norm, rotate_back, scale};
 use crate::inference::gaussian::Size;
@@ -13,11 +13,9 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     law_error: 0.0,
     can_be: |_, _| true,
     places: |case| {
-        vec![
-            Place::new("spindle", CONSTANTS.map(|c| spindle(case, c)).into()),
-            Place::new("arm", CONSTANTS.map(|c| arm(case, c)).into()),
-            Place::new("robot", CONSTANTS.map(|c| robot(case, c)).into()),
-        ]
+        let place =
+            |site: &'static str| Place::new(site, CONSTANTS.map(|c| member(case, site, c)).into());
+        ["spindle", "arm", "robot"].map(place).into()
     },
     parameters: |_, blamed| {
         let axes: &[&str] = match blamed.amounts.len() {
@@ -43,41 +41,55 @@ fn warm(progress: f64, constant: f64) -> f64 {
     }
 }
 
-/// A displacement of the tool by a direction at every station, as it grows.
-fn grown(case: &Case, constant: f64, of: impl Fn(&Station) -> V3) -> Vec<f64> {
-    let each = case.stations.iter();
-    let moved: Vec<V3> = each
-        .map(|s| scale(warm(s.progress, constant), of(s)))
-        .collect();
-    case.answered(&moved)
+/// Where what is one moves the tool at a station before the cut answers: amount by amount, at a site.
+fn directions(case: &Case, site: &str, s: &Station) -> Vec<V3> {
+    match site {
+        // the spindle pushes the tool out, along its axis
+        "spindle" => vec![s.axis],
+        // all of the arm grows alike: the tool goes away from the foot, in proportion to its distance
+        "arm" => vec![scale(longest(case).recip(), reach(case, s))],
+        // links grow each by its own: in some direction
+        _ => vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+    }
 }
 
-/// The spindle pushes the tool out, along its axis.
-fn spindle(case: &Case, constant: f64) -> Member {
-    Member::free(grown(case, constant, |s| s.axis)).shaped(&[-1.0, constant])
-}
-
-/// All of the arm grows alike: the tool goes away from the foot, in proportion to its distance; one at the end of the
-/// longest reach.
-fn arm(case: &Case, constant: f64) -> Member {
+/// From the foot to the tool.
+fn reach(case: &Case, s: &Station) -> V3 {
     let frame = &case.planned.plan.cell.workpiece;
-    let foot = rotate_back(&frame.rotation, frame.point);
-    let reach = |s: &Station| add(s.tip, foot);
-    let longest = case.stations.iter().map(|s| norm(reach(s)));
-    let longest = longest.fold(f64::MIN_POSITIVE, f64::max);
-    let column = grown(case, constant, |s| scale(longest.recip(), reach(s)));
-    Member::free(column).shaped(&[-1.0, constant])
+    add(s.tip, rotate_back(&frame.rotation, frame.point))
 }
 
-/// Links grow each by its own: in some direction.
-fn robot(case: &Case, constant: f64) -> Member {
-    let along = |k: usize| {
-        grown(case, constant, |_| {
-            [0, 1, 2].map(|i| f64::from(u8::from(i == k)))
-        })
+/// The longest reach, m: an amount of the arm is what it is longer by there.
+fn longest(case: &Case) -> f64 {
+    let each = case.stations.iter().map(|s| norm(reach(case, s)));
+    each.fold(f64::MIN_POSITIVE, f64::max)
+}
+
+/// Where the tool goes at every station, m, if this is to blame.
+pub(super) fn moves(case: &Case, blamed: &Blamed) -> Option<Vec<V3>> {
+    (blamed.effect == EFFECT.name).then(|| {
+        let at = |s: &Station| {
+            let along = directions(case, &blamed.site, s);
+            let each = along.iter().zip(&blamed.amounts);
+            let whole = each.fold([0.0; 3], |sum, (d, a)| add(sum, scale(*a, *d)));
+            scale(warm(s.progress, blamed.shape[1]), whole)
+        };
+        case.stations.iter().map(at).collect()
+    })
+}
+
+fn member(case: &Case, site: &str, constant: f64) -> Member {
+    let each = case.stations.iter();
+    let along: Vec<(f64, Vec<V3>)> = each
+        .map(|s| (warm(s.progress, constant), directions(case, site, s)))
+        .collect();
+    let count = along.first().map_or(0, |(_, d)| d.len());
+    let column = |k: usize| {
+        let moved: Vec<V3> = along.iter().map(|(w, d)| scale(*w, d[k])).collect();
+        case.answered(&moved)
     };
     Member {
-        columns: (0..3).map(along).collect(),
+        columns: (0..count).map(column).collect(),
         size: Size::Free,
         positive: None,
         shape: vec![-1.0, constant],

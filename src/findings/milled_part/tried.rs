@@ -92,8 +92,36 @@ fn larger(setup: &Setup) -> Setup {
 /// The tool beside its way by a little, along one axis of the workpiece.
 fn moved(setup: &Setup, k: usize) -> Setup {
     let aside: V3 = std::array::from_fn(|i| if i == k { MOVED } else { 0.0 });
+    beside(setup, |_| aside)
+}
+
+/// The tool beside its way by so much (m) at every station, in between along straight lines over time.
+pub(super) fn shifted(setup: &Setup, stations: &[Station], by: &[V3]) -> Setup {
+    let mut known: Vec<(f64, V3)> = stations
+        .iter()
+        .map(|s| s.time_s)
+        .zip(by.iter().copied())
+        .collect();
+    known.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let at = |time: f64| {
+        let after = known.partition_point(|k| k.0 < time);
+        let [a, b] = [after.saturating_sub(1), after.min(known.len() - 1)].map(|i| known[i]);
+        let share = match b.0 > a.0 {
+            true => ((time - a.0) / (b.0 - a.0)).clamp(0.0, 1.0),
+            false => 0.0,
+        };
+        add(a.1, scale(share, sub(b.1, a.1)))
+    };
+    match known.is_empty() {
+        true => setup.clone(),
+        false => beside(setup, |row| at(row.time_s)),
+    }
+}
+
+/// The tool beside its way.
+fn beside(setup: &Setup, by: impl Fn(&Row) -> V3) -> Setup {
     let row = |row: &Row| Row {
-        tip: add(row.tip, aside),
+        tip: add(row.tip, by(row)),
         ..row.clone()
     };
     let rows = setup.way.rows().iter().map(row).collect();

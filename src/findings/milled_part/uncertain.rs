@@ -1,9 +1,11 @@
 //! What may be off although nothing is wrong: springs and coefficients within what is known of them, and the datum.
 
 use super::Case;
+use super::stations::LAW;
 use crate::causes::places::soften;
 use crate::findings::engine::Nuisance;
 use crate::findings::physics;
+use crate::findings::table;
 use crate::process::setup::Setup;
 
 /// A number that is merely uncertain.
@@ -15,6 +17,8 @@ pub enum Known {
     Coefficient(usize),
     /// Where the part was found again, along one axis, m.
     Datum,
+    /// What the laws of the cut do not know, here and there along the path, as a share of the simulated deviation.
+    Law,
 }
 
 /// Standard deviation of a datum that states none, m.
@@ -42,9 +46,28 @@ pub(super) fn uncertain(case: &Case) -> Vec<(Known, Nuisance)> {
         let column = case.column(|_, row| row.across[k]);
         (Known::Datum, Nuisance { column, spread })
     });
-    let all = springs.chain(coefficients).chain(datum);
+    let all = springs.chain(coefficients).chain(datum).chain(laws(case));
     all.filter(|(_, n)| n.column.iter().any(|x| x.abs() > 1e-12))
         .collect()
+}
+
+/// Waves over the path by which the laws of the cut miss: neighbours are missed alike, which no noise of single places says.
+const WAVES: usize = 4;
+
+fn laws(case: &Case) -> impl Iterator<Item = (Known, Nuisance)> + '_ {
+    let path = table::unit_range(&case.column(|s, _| s.s_m));
+    let waves = table::waves(&path, WAVES).into_iter();
+    waves.map(|wave| {
+        let each = wave.iter().zip(&case.simulated);
+        let column = each.map(|(w, s)| w * s).collect();
+        (
+            Known::Law,
+            Nuisance {
+                column,
+                spread: LAW,
+            },
+        )
+    })
 }
 
 /// Puts an amount of it in place; false where that changes neither robot nor cut.
@@ -52,7 +75,7 @@ pub(super) fn put(known: &Known, amount: f64, setup: &mut Setup) -> bool {
     match known {
         Known::Spring(site) => soften(&mut setup.robot, site, amount),
         Known::Coefficient(k) => setup.material.coefficients[*k] *= (1.0 + amount).max(0.05),
-        Known::Datum => return false,
+        Known::Datum | Known::Law => return false,
     }
     true
 }
