@@ -95,6 +95,7 @@ mod robot_pinocchio;
 mod robot_swing;
 mod screw;
 mod stiffness;
+mod strange_cycles;
 mod stranger;
 mod survey;
 mod survey_robot;

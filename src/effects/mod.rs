@@ -20,6 +20,7 @@ mod dry_slider;
 mod hysteresis;
 mod lever_arm;
 mod loosening;
+mod offset_gap;
 mod quantization;
 mod sensor_offset;
 mod slip;
@@ -40,6 +41,7 @@ pub const SPRING: &dyn Effect = &spring::Spring;
 pub const EFFECTS: &[&dyn Effect] = &[
     SPRING,
     &backlash::Backlash,
+    OFFSET_GAP,
     &soft_zone::SoftZone,
     &cubic_stiffness::CubicStiffness,
     &asymmetry::Asymmetry,
@@ -59,6 +61,9 @@ pub const EFFECTS: &[&dyn Effect] = &[
     DRY_SLIDER,
     CLEARANCE_SLIDER,
 ];
+
+/// A gap that lies at some load.
+pub const OFFSET_GAP: &dyn Effect = &offset_gap::OffsetGap;
 
 /// The law of a test under imposed displacement: force over displacement, ports swapped.
 pub const CLEARANCE_SLIDER: &dyn Effect = &clearance_slider::ClearanceSlider;

@@ -14,6 +14,17 @@ pub fn saturate<S: Scalar>(x: S, sharpness: f64) -> S {
     x.chain(value, slope)
 }
 
+/// The same with a sharpness that is sought too.
+pub fn saturate_as<S: Scalar>(x: S, sharpness: S) -> S {
+    let a = x.value().abs();
+    if a < 1e-9 {
+        return x;
+    }
+    let size = x.chain(a.ln(), 1.0 / x.value());
+    let power = (sharpness * size).exp();
+    x / (ln(power + 1.0) / sharpness).exp()
+}
+
 /// Odd power sign(x)|x|^p with constant p.
 pub fn odd_power<S: Scalar>(x: S, exponent: S) -> S {
     let a = x.abs();

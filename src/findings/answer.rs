@@ -47,6 +47,8 @@ pub struct Cause {
     pub alternatives: Vec<(&'static str, String, f64)>,
     /// Its parameters: name, value SI, unit.
     pub parameters: Vec<(&'static str, f64, &'static str)>,
+    /// 95 % intervals of those that have one, by name, SI.
+    pub ci95: Vec<(&'static str, [f64; 2])>,
     /// What naming it gains.
     pub gain: Gain,
 }
@@ -59,6 +61,12 @@ impl Cause {
     pub fn limit(&self) -> Option<f64> {
         let found = self.parameters.iter().find(|(name, ..)| *name == LIMIT);
         found.map(|(_, limit, _)| *limit)
+    }
+
+    /// The 95 % interval of a parameter, where it has one.
+    pub fn interval(&self, name: &str) -> Option<[f64; 2]> {
+        let found = self.ci95.iter().find(|(own, _)| *own == name);
+        found.map(|(_, interval)| *interval)
     }
 }
 

@@ -58,6 +58,8 @@ struct ParameterDocument<'a> {
     site: &'a str,
     value: f64,
     unit: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ci95: Option<[f64; 2]>,
 }
 
 /// A cause as it is printed.
@@ -86,6 +88,7 @@ impl<'a> CauseDocument<'a> {
             site: &cause.site,
             value: *value,
             unit,
+            ci95: cause.interval(name),
         });
         Self {
             effect: cause.effect,

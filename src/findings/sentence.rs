@@ -129,7 +129,17 @@ fn of_cause(cause: &Cause, numbered: &str, unit: &str) -> String {
         (Some((name, 0.0, unit)), Some(limit)) => {
             format!(", {} smaller than {}", spoken(name), amount(limit, unit))
         }
-        (Some((name, value, unit)), _) => format!(", {} {}", spoken(name), amount(*value, unit)),
+        (Some((name, value, unit)), _) => {
+            let within = cause.interval(name).map(|[low, high]| {
+                format!(
+                    " (95 % interval {} to {})",
+                    amount(low, unit),
+                    amount(high, unit)
+                )
+            });
+            let within = within.unwrap_or_default();
+            format!(", {} {}{within}", spoken(name), amount(*value, unit))
+        }
         (None, _) => String::new(),
     };
     format!(

@@ -46,6 +46,7 @@ pub mod least_squares;
 mod noise_growth;
 pub mod normal;
 pub mod observation;
+mod off_centre;
 pub mod parameter;
 pub mod screen;
 pub mod screw;

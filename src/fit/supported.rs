@@ -23,8 +23,8 @@ pub fn simpler(fitted: &Solution, data: &Observation) -> Option<Solution> {
 /// The parameters of a model that are not in a simpler one: nothing is said of them.
 pub fn unsaid(model: &Composite, simpler: &Composite, site: &str, port: Port) -> Vec<Identified> {
     let gone = |effect: &&'static dyn Effect| {
-        let name = effect.card().name;
-        simpler.effects().iter().all(|e| e.card().name != name)
+        let cause = effect.card().cause;
+        simpler.effects().iter().all(|e| e.card().cause != cause)
     };
     let gone = model.effects().iter().copied().filter(gone);
     gone.flat_map(|effect| effect.card().parameters)

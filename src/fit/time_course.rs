@@ -5,6 +5,7 @@
 use super::candidates::{Atom, Candidates};
 use super::least_squares::Problem;
 use super::observation::Observation;
+use super::off_centre::off_centre;
 use super::solution::{Solution, fit, fit_from};
 use crate::effects::{Composite, Effect, named};
 use crate::ground::stats::rms;
@@ -27,7 +28,9 @@ const BEYOND: f64 = 5.0;
 /// The fit of a model with the courses that the readings demand, and what these are called; the readings are
 /// less by them after that.
 pub fn fit_beside(model: &Composite, data: &mut Observation) -> (Solution, Vec<&'static str>) {
-    let mut best = fit(model, data);
+    let fitted = fit(model, data);
+    let mut best = off_centre(&fitted, data).unwrap_or(fitted);
+    let own = best.model.clone();
     let mut taken: Vec<&'static dyn Effect> = Vec::new();
     while taken.len() < MOST && best.rms > LEFT * noise(&best.residual) {
         let Some((effect, better)) = next(&best, data) else {
@@ -39,7 +42,7 @@ pub fn fit_beside(model: &Composite, data: &mut Observation) -> (Solution, Vec<&
     let names: Vec<&'static str> = taken.iter().map(|e| e.card().name).collect();
     match names.is_empty() {
         true => (best, names),
-        false => (less(best, model, data), names),
+        false => (less(best, &own, data), names),
     }
 }
 
@@ -106,7 +109,7 @@ fn guess(
 }
 
 /// Rise of the log likelihood from one noise to another, each that of its own residual.
-fn nats(before: &Colour, after: &Colour) -> f64 {
+pub(super) fn nats(before: &Colour, after: &Colour) -> f64 {
     let each = before.sigma.iter().zip(&after.sigma);
     each.map(|(b, a)| (b / a).ln()).sum()
 }

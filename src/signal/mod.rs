@@ -35,5 +35,6 @@ pub mod smooth;
 pub mod spectrum;
 pub mod stabilisation;
 pub mod steps;
+pub mod swing;
 pub mod trigger;
 pub mod window;

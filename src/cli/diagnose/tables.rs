@@ -58,7 +58,16 @@ pub fn amounts(cause: &Cause) -> String {
         let amount = |v: f64| engineering(v, 3, if *unit == "1" { "" } else { unit });
         match (*value, cause.limit()) {
             (0.0, Some(limit)) => format!("{} < {}", spoken(name), amount(limit)),
-            _ => format!("{} {}", spoken(name), amount(*value)),
+            _ => match cause.interval(name) {
+                Some([low, high]) => format!(
+                    "{} {} [{}, {}]",
+                    spoken(name),
+                    amount(*value),
+                    amount(low),
+                    amount(high)
+                ),
+                None => format!("{} {}", spoken(name), amount(*value)),
+            },
         }
     };
     let printed = cause.parameters.iter().filter(|(name, ..)| *name != LIMIT);

@@ -81,6 +81,7 @@ pub fn name(
             probability: rivals.probability(posterior, judgement),
             summary: own.summary,
             alternatives: told.collect(),
+            ci95: Vec::new(),
             parameters: experiment.parameters(&blamed[at]),
             gain: gains[at],
         });

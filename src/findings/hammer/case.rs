@@ -174,6 +174,7 @@ impl Case<'_> {
                 .take(5)
                 .map(|(s, p)| (s.name(), s.site, p))
                 .collect(),
+            ci95: Vec::new(),
             parameters: suspect
                 .cause
                 .said(self.machine.robot, &suspect.site, amounts),

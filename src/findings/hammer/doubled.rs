@@ -56,6 +56,7 @@ pub fn cause(
         probability: gain.probability(),
         summary: card.summary,
         alternatives: Vec::new(),
+        ci95: Vec::new(),
         parameters: vec![
             ("share", highest.share, "1"),
             ("delay", highest.after as f64 * record.interval_s, "s"),

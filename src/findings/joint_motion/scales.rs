@@ -32,6 +32,7 @@ impl Joint {
             probability: gain.probability().min(judgement().certain),
             summary: effect.summary,
             alternatives: Vec::new(),
+            ci95: Vec::new(),
             parameters,
             gain,
         };

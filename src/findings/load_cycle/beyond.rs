@@ -78,6 +78,7 @@ impl Case<'_> {
                 false => summary(cause),
             },
             alternatives: self.alternatives(cause),
+            ci95: Vec::new(),
             parameters: self.values(present, chosen, cause),
             gain,
         })

@@ -81,6 +81,7 @@ fn cause(
         probability: gain.probability(),
         summary: summary(effect, file.port),
         alternatives: Vec::new(),
+        ci95: Vec::new(),
         parameters: own
             .map(|(s, v)| (s.parameter.name, *v, unit(s.parameter.scale)))
             .collect(),

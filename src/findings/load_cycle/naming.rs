@@ -6,7 +6,7 @@ use super::refine::Refined;
 use super::{lattice, next};
 use crate::effects::composite::Slot;
 use crate::effects::{Composite, EFFECTS, Family};
-use crate::findings::answer::{Cause, Group};
+use crate::findings::answer::{Cause, Group, Verdict};
 use crate::fit::solution::unit_of;
 use crate::measurement::load_cycle::LoadCycle;
 
@@ -33,6 +33,7 @@ impl Case<'_> {
         let answer = &self.found.answer;
         let with_values = |cause: &Cause| Cause {
             parameters: self.parameters(chosen, cause.effect),
+            ci95: self.intervals(chosen, cause.effect),
             ..cause.clone()
         };
         let told = |group: &Group| Group {
@@ -40,9 +41,18 @@ impl Case<'_> {
             ..group.clone()
         };
         let causes = answer.causes.iter().filter(|c| self.is_seen(&c.gain));
+        let causes: Vec<Cause> = causes.map(with_values).collect();
+        // where something is left, a size that may be nothing is what the law made of that
+        let judged = answer.verdict;
+        let is_left =
+            self.restless || matches!(judged, Verdict::PartlyExplained | Verdict::UnknownCause);
+        let may_be_nothing = |c: &Cause| c.ci95.iter().any(|(_, [low, _])| *low <= 0.0);
+        let kept = causes
+            .into_iter()
+            .filter(|c| !(is_left && may_be_nothing(c)));
         let groups = answer.groups.iter().filter(|g| self.is_seen(&g.gain));
         Named {
-            causes: causes.map(with_values).collect(),
+            causes: kept.collect(),
             groups: groups.map(told).collect(),
         }
     }
@@ -113,6 +123,7 @@ impl Case<'_> {
                 probability: lattice::CERTAINTY,
                 summary: summary("quantization"),
                 alternatives: Vec::new(),
+                ci95: Vec::new(),
                 parameters: vec![("step", step, self.file.port.deflection_unit())],
                 gain,
             }

@@ -76,6 +76,7 @@ impl Case<'_> {
                     probability,
                     summary: summary(effect),
                     alternatives: Vec::new(),
+                    ci95: Vec::new(),
                     parameters: vec![("excess", finding.excess, "1")],
                     gain,
                 });

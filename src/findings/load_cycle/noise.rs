@@ -6,6 +6,7 @@
 //! colour, have a likelihood); lines far above their neighbours are raised.
 
 mod growth;
+mod swing;
 
 use crate::findings::engine::{Noise, White};
 use crate::findings::load_cycle::families::View;
@@ -16,6 +17,7 @@ use crate::signal::outliers;
 use growth::{bursts, growth};
 pub(super) use growth::{is_one_sided, windows};
 use std::sync::Arc;
+pub(super) use swing::is_swinging;
 
 /// Noise of a record.
 #[derive(Clone)]
@@ -148,7 +150,12 @@ impl Coloured {
         let bursts = bursts(&flat);
         if bursts.iter().any(|b| *b > 1.0) {
             shape.iter_mut().zip(&bursts).for_each(|(s, b)| *s *= b);
-            words.push("in bursts".into());
+            let loud: Vec<f64> = bursts.iter().copied().filter(|b| *b > 1.0).collect();
+            let most = loud.iter().fold(1.0_f64, |m, b| m.max(*b));
+            let share = 100.0 * loud.len() as f64 / bursts.len() as f64;
+            words.push(format!(
+                "in bursts ({share:.0} % of the rows, up to {most:.1} times the rest)"
+            ));
         }
         let level = rms(&flat
             .iter()

@@ -1,7 +1,9 @@
-//! What no noise does: jump from level to level, go one way in bursts, swell in the middle of the band.
+//! What no noise does: jump from level to level, go one way or swing in bursts, swell in the middle of the band.
 
 use super::families::View;
-use super::noise::{Coloured, MEDIAN, above_neighbours, differences, is_one_sided, windows};
+use super::noise::{
+    Coloured, MEDIAN, above_neighbours, differences, is_one_sided, is_swinging, windows,
+};
 use crate::ground::stats::median;
 use crate::signal::outliers;
 use crate::signal::steps::{sharpest, steps, window};
@@ -25,9 +27,11 @@ const FIRST: usize = 6;
 
 /// Whether a residual holds what no noise makes, whatever its colour.
 pub fn is_no_noise(residual: &[f64], noise: &Coloured, view: &View) -> bool {
+    let windows = windows(residual);
     jumps(residual, view) >= JUMPS
         || levels(residual, noise, view) >= LEVELS
-        || is_one_sided(residual, &windows(residual))
+        || is_one_sided(residual, &windows)
+        || is_swinging(residual, &windows)
         || is_rising(residual, noise, view)
         || above_neighbours(residual, &noise.spread) > SWOLLEN
 }

@@ -2,6 +2,7 @@
 
 use super::families::{View, suspects};
 use super::noise::{Coloured, TINTS, above_neighbours, rough};
+use super::patterns::{patterns, told};
 use super::span::{coarse_span, span};
 use super::structure;
 use super::unseen::{Split, folds};
@@ -60,7 +61,10 @@ impl<'a> Record<'a> {
         let digits = 1e-9 * data.scene.deflection_scale;
         let cosine = Arc::new(crate::signal::cosine::Cosine::new(data.rows()));
         let mut record = Self {
-            suspects: suspects(library, data, site),
+            suspects: suspects(library, data, site)
+                .into_iter()
+                .chain(patterns(&view, &data.reading))
+                .collect(),
             span: span(&view),
             coarse: coarse_span(&view),
             noise: Coloured::white(cosine, first.max(digits)),
@@ -75,19 +79,28 @@ impl<'a> Record<'a> {
         record
     }
 
+    /// Its jumps in words.
+    pub fn jumps(&self) -> String {
+        told(&self.view, &self.data.scene.time, self.unit)
+    }
+
     /// Noise and causes in turn: each is chosen beside the other.
     fn learn_noise(&mut self) {
         for _ in 0..ROUNDS {
             let before = self.noise.tint();
-            let leading = self.leading();
-            let residual = self.residual(&leading[0]);
-            let plain = self.noise.with_deviations(&residual, &self.view);
-            let mut waves = self.in_waves(&plain, &leading);
-            let best = TINTS
-                .iter()
-                .map(|tint| plain.tinted(*tint).with_lines(&residual, &self.view))
-                .map(|noise| (evidence(&mut waves, &noise, &leading), noise))
-                .max_by(|a, b| a.0.total_cmp(&b.0));
+            let (leading, bases) = self.leading();
+            let each = bases.iter().flat_map(|at| {
+                let residual = self.residual(&leading[*at]);
+                let plain = self.noise.with_deviations(&residual, &self.view);
+                let mut waves = self.in_waves(&plain, &leading);
+                let noises = TINTS
+                    .iter()
+                    .map(|tint| plain.tinted(*tint).with_lines(&residual, &self.view));
+                noises
+                    .map(|noise| (evidence(&mut waves, &noise, &leading), noise))
+                    .collect::<Vec<_>>()
+            });
+            let best = each.max_by(|a, b| a.0.total_cmp(&b.0));
             if let Some((_, noise)) = best {
                 self.noise = noise;
             }
@@ -97,8 +110,10 @@ impl<'a> Record<'a> {
         }
     }
 
-    /// The members of the sets that lead under the present noise, with their price; the empty one last.
-    fn leading(&self) -> Vec<(Vec<Member>, f64)> {
+    /// The members of the sets that lead under the present noise, with their price, the empty one last; and beside which of them
+    /// the deviations are looked at: the best, and where that holds a pattern, which may have taken louder noise for its own, the
+    /// best of causes alone.
+    fn leading(&self) -> (Vec<(Vec<Member>, f64)>, Vec<usize>) {
         let statement = self.state(&[]);
         let mut bank = Bank::new(&statement);
         let nothing = bank.fit(&[]).map_or(0.0, |f| f.posterior.ln_evidence);
@@ -109,8 +124,15 @@ impl<'a> Record<'a> {
             (own.collect::<Vec<Member>>(), price)
         };
         let mut leading: Vec<(Vec<Member>, f64)> = sets.iter().take(LEADING).map(members).collect();
+        let named = |s: &&Scored| s.suspects.iter().all(|s| bank.suspects[*s].named);
+        let is_named = sets.first().as_ref().is_some_and(named);
+        let mut bases = vec![0];
+        if let Some(causes) = sets.iter().find(named).filter(|_| !is_named) {
+            bases.push(leading.len());
+            leading.push(members(causes));
+        }
         leading.push((Vec::new(), 0.0));
-        leading
+        (leading, bases)
     }
 
     /// Some sets and coarse structure as cosine coefficients, each reading in its own deviation: they are the same under

@@ -30,6 +30,7 @@ impl Case<'_> {
                 probability: inclusion.min(self.judgement.certain),
                 summary: own.cause.card().summary,
                 alternatives: self.alternatives(chosen, *seat),
+                ci95: Vec::new(),
                 parameters: own.cause.said(
                     self.scene.robot,
                     &own.site,

@@ -129,7 +129,7 @@ fn alone(rows: &[Row], site: &str, name: &str) -> Suspect {
             Some("drive_stiffness"),
             "the drive alone: its gear, its coupling, its bolts",
         ),
-        "gap" | "contact_load" => (
+        "gap" | "contact_load" | "centre" | "edge" => (
             Some("backlash"),
             "a gap alone: wear, or a preload that was lost",
         ),

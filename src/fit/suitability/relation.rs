@@ -43,6 +43,10 @@ const SHARE: f64 = 0.4;
 const FOLLOWED: usize = 3;
 const STRAIGHT: f64 = 0.9;
 const ALIKE: f64 = 2.0;
+/// Change from row to row that is a weight put on or taken off, of the whole range of the drive; and how many of them tell more
+/// than halves of two ramps do.
+const WEIGHT: f64 = 0.04;
+const LOADINGS: usize = 5;
 /// Widths of the play operators, as shares of half the drive's range.
 const PLAYS: [f64; 4] = [0.1, 0.3, 0.6, 0.9];
 
@@ -59,9 +63,16 @@ impl Relation {
         let block = drive.len().div_ceil(MOST_ROWS).min(fine).max(1);
         let (drive, response) = (reduce(drive, block), reduce(response, block));
         let ramps = ramps(&drive);
+        let loadings = match ramps.len() < FOLLOWED {
+            true => loadings(&drive),
+            false => Vec::new(),
+        };
         let halves: Vec<(usize, usize)> = ramps.iter().flat_map(|r| halved(*r, &drive)).collect();
         let (slope, whole) = agreement(&ramps, &drive, &response);
-        let (_, half) = agreement(&halves, &drive, &response);
+        let (_, half) = match loadings.len() < LOADINGS {
+            true => agreement(&halves, &drive, &response),
+            false => agreement(&loadings, &drive, &response),
+        };
         Self {
             slope,
             p_value: 2.0 * whole.min(half),
@@ -84,6 +95,23 @@ pub fn ramps(drive: &[f64]) -> Vec<(usize, usize)> {
         .collect();
     let pairs = edges.windows(2).map(|w| (w[0], w[1]));
     pairs.filter(|(a, b)| b > a).collect()
+}
+
+/// Pieces of a drive that goes from level to level (dead weights), each from the last row of one level to the last of the next:
+/// what a walk does in one says nothing of the next, so that each is a test of its own.
+fn loadings(drive: &[f64]) -> Vec<(usize, usize)> {
+    let range = super::extent(drive);
+    let steps = drive.windows(2).map(|w| (w[1] - w[0]).abs());
+    let way: f64 = steps.clone().sum();
+    let far = |step: &f64| *step > WEIGHT * range;
+    let carried: f64 = steps.clone().filter(far).sum();
+    let ends = steps.enumerate().filter(|(_, step)| far(step));
+    let last = drive.len().saturating_sub(1);
+    let edges: Vec<usize> = ends.map(|(i, _)| i).chain([last]).collect();
+    match carried > 0.5 * way {
+        true => edges.windows(2).map(|w| (w[0], w[1])).collect(),
+        false => Vec::new(),
+    }
 }
 
 /// A ramp cut where the drive passes the middle between its ends.

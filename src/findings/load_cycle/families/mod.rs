@@ -18,6 +18,7 @@ mod stiffness_over_time;
 mod time;
 mod view;
 
+pub use jumps::Jump;
 pub use shape::Shapes;
 pub use view::View;
 

@@ -44,7 +44,7 @@ fn backlash(view: &View) -> Shapes {
     for width in ROUNDED {
         shapes.positive(view, &view.over_load(|u| step(u, width)));
     }
-    for place in even(-0.2, 0.2, 33) {
+    for place in even(-0.35, 0.35, 57) {
         for width in [0.008, 0.025] {
             let zero = step(-place, width);
             shapes.positive(view, &view.over_load(|u| step(u - place, width)));

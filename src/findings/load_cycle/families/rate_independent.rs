@@ -42,6 +42,37 @@ fn held_back(view: &View, width: f64) -> Vec<f64> {
     played.iter().zip(&view.u).map(|(p, u)| p - u).collect()
 }
 
+/// How contacts yield: the power at which, and the share that acts only on the way to the limit. At half of it loops are those of
+/// plays; above, the way back is straighter than the virgin one, below, rounder.
+const YIELDS: [(f64, f64); 6] = [
+    (1.0, 0.3),
+    (1.0, 0.8),
+    (2.0, 0.3),
+    (2.0, 0.5),
+    (2.0, 0.8),
+    (1.0, 1.0),
+];
+/// Steps of the load, of the width, in which a yielding contact is followed.
+const FINE: f64 = 0.1;
+
+/// Friction that nears its limit, 1, smoothly: dz/du = (1 − |z|ⁿ (share · sgn(z du) + 1 − share)) / width, from rest (Bouc 1967; Wen
+/// 1976, eq. 2, driven by the load).
+fn yielding(u: &[f64], width: f64, power: f64, share: f64) -> Vec<f64> {
+    let (mut z, mut before) = (0.0_f64, 0.0);
+    let one = |load: &f64| {
+        let way = load - before;
+        before = *load;
+        let count = (way.abs() / (FINE * width)).ceil().max(1.0);
+        let step = way / count / width;
+        for _ in 0..count as usize {
+            let toward = share * (z * step).signum() + 1.0 - share;
+            z = (z + step * (1.0 - z.abs().powf(power) * toward)).clamp(-1.0, 1.0);
+        }
+        z
+    };
+    u.iter().map(one).collect()
+}
+
 fn hysteresis(view: &View) -> Shapes {
     let mut shapes = Shapes::none();
     let widths = geometric(0.03, 0.95, 13);
@@ -61,6 +92,13 @@ fn hysteresis(view: &View) -> Shapes {
         let at = |i: usize| plays.iter().zip(density).map(|(p, d)| d * p[i]).sum();
         let own: Vec<f64> = (0..view.rows()).map(at).collect();
         shapes.positive(view, &own);
+    }
+    for width in geometric(0.05, 0.8, 6) {
+        for (power, share) in YIELDS {
+            let yielding = yielding(&view.u, width, power, share);
+            let own: Vec<f64> = yielding.iter().map(|z| -z).collect();
+            shapes.positive(view, &own);
+        }
     }
     for density in densities.iter().step_by(2) {
         shapes.density(view, &plays, density, (0.7, true));

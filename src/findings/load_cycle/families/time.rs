@@ -33,6 +33,11 @@ fn drift(view: &View) -> Shapes {
         };
         shapes.free(view, &(1..=orders).map(order).collect::<Vec<_>>());
     }
+    // a room and a machine that warm up at two speeds: what rises may fall again
+    for pair in [[0.1, 0.5], [0.1, 1.5], [0.2, 0.7], [0.2, 1.5], [0.3, 1.0]] {
+        let warmed = |tau: f64| view.over_time(|t| 1.0 - (-t / tau).exp());
+        shapes.free(view, &pair.map(warmed));
+    }
     for periods in [0.5, 0.75, 1.0, 1.4] {
         let waves = [
             view.over_time(|t| (TAU * periods * t).sin()),

@@ -1,6 +1,6 @@
 //! A record as the families see it: load, time and turning points in natural units.
 
-use super::jumps::{Jumps, jumps};
+use super::jumps::{Jumps, jumps, left};
 use crate::fit::observation::Observation;
 use crate::signal::play::play;
 
@@ -104,6 +104,11 @@ impl View {
     /// A function of time.
     pub fn over_time(&self, f: impl Fn(f64) -> f64) -> Vec<f64> {
         self.t.iter().map(|t| f(*t)).collect()
+    }
+
+    /// What the spring, curves of the load and a straight course of time leave of readings.
+    pub fn left(&self, reading: &[f64]) -> Vec<f64> {
+        left(&self.u, &self.t, reading)
     }
 
     /// One from a row on, nought before.

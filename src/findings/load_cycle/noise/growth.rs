@@ -1,6 +1,6 @@
 //! Noise that grows with the load, and bursts.
 
-use super::differences;
+use super::{differences, is_swinging};
 use crate::findings::load_cycle::families::View;
 use crate::ground::stats::{mean, median, rms};
 use std::ops::Range;
@@ -36,11 +36,11 @@ pub(super) fn growth(residual: &[f64], view: &View) -> Option<f64> {
     (best.0 > none + BETTER.0).then_some(best.1)
 }
 
-/// Factor of every reading's deviation in bursts; a loose plug pulls one way, noise both ways.
+/// Factor of every reading's deviation in bursts; a loose plug pulls one way and what was hit swings, noise does neither.
 pub(super) fn bursts(residual: &[f64]) -> Vec<f64> {
     let mut factors = vec![1.0; residual.len()];
     let windows = windows(residual);
-    if is_one_sided(residual, &windows) {
+    if is_one_sided(residual, &windows) || is_swinging(residual, &windows) {
         return factors;
     }
     for (own, f) in windows.into_iter().filter(|w| w.1 < BURST.1) {

@@ -6,30 +6,29 @@ use crate::fit::suitability::{Said, Weight, extent};
 /// The rule.
 pub const RULE: Rule = Rule {
     name: "part-of-a-cycle",
-    about: "On a single ramp a gap, friction and drift pass for stiffness.",
-    remedy: "load to and fro, past both turning points",
+    about: "On a single ramp a gap, friction and drift pass for stiffness; once up and down, what time does and what the load does look alike.",
+    remedy: "load to and fro, more than once",
     look,
 };
 
 fn look(on: &Course) -> Said {
-    match on.is_part() && !on.imposed {
-        true => vec![(
+    let said = match (on.imposed, on.cycles.turning.len()) {
+        (false, 0) if on.is_part() => (
             Weight::Fatal,
-            format!(
-                "the load goes to and fro with {} turning points: too few to tell a response from chance",
-                on.cycles.turning.len()
-            ),
-        )],
-        false => Vec::new(),
-    }
+            "the load goes one way only, with no turning point: too little to tell a response from chance",
+        ),
+        (false, 1) => (
+            Weight::Odd,
+            "the load went there and back once: what came with time and what came with the load cannot all be told apart",
+        ),
+        _ => return Vec::new(),
+    };
+    vec![(said.0, said.1.into())]
 }
 
-/// Turning points of a load that went to and fro.
-const TURNS: usize = 2;
-
 impl Course<'_> {
-    /// Whether the load changes, and does not go to and fro.
+    /// Whether the load changes, and never turns.
     pub fn is_part(&self) -> bool {
-        extent(&self.file.load) > 0.0 && self.cycles.turning.len() < TURNS
+        extent(&self.file.load) > 0.0 && self.cycles.turning.is_empty()
     }
 }

@@ -1,0 +1,151 @@
+//! Load cycles that once were judged by the wrong kind of answer: many jumps, ringing, a gap off centre, weights put on once.
+
+use ident::effects::Composite;
+use ident::findings::{Diagnosis, Settings, Verdict, diagnose};
+use ident::fit::stiffness::{DEFAULT_EFFECTS, Request, identify};
+use ident::fit::suitability::is_fatal;
+use ident::ground::random::Random;
+use ident::measurement::load_cycle::LoadCycle;
+use ident::measurement::table::Table;
+use std::fmt::Write;
+use std::path::Path;
+
+/// Stiffness, N·m/rad; largest moment, N·m; noise of a reading as a share of the largest deflection.
+const STIFFNESS: f64 = 1e6;
+const LARGEST: f64 = 1000.0;
+const NOISE: f64 = 1.0 / 400.0;
+
+/// A file of loads and deflections as shares of the largest, a row every `step` seconds.
+fn file(load: &[f64], deflection: &[f64], step: f64, seed: u64) -> LoadCycle {
+    let mut random = Random::new(seed);
+    let mut text = format!(
+        "# kind = \"load-cycle\"\n# joint = 2\n# axis = \"rotation\"\n# nominal_stiffness_Nm_rad = {STIFFNESS}\n\
+         # nominal_stiffness_rel_std = 0.05\ntime_s,moment_Nm,angle_urad\n"
+    );
+    for (i, (u, y)) in load.iter().zip(deflection).enumerate() {
+        let read = (y + NOISE * random.normal()) * LARGEST / STIFFNESS * 1e6;
+        let (time, moment) = (i as f64 * step, u * LARGEST);
+        writeln!(text, "{time:.4},{moment:.4},{read:.5}").unwrap();
+    }
+    let bytes = text.as_bytes();
+    let table = Table::from_reader(Path::new("case.csv"), bytes, bytes.len() as u64).unwrap();
+    LoadCycle::from_table(table).unwrap()
+}
+
+fn judged(file: &LoadCycle) -> Diagnosis {
+    diagnose(file, &Settings::default())
+}
+
+/// Three triangles from zero load.
+fn triangles(rows: usize) -> Vec<f64> {
+    let at = |i: usize| (3.0 * i as f64 / rows as f64 + 0.25).fract();
+    (0..rows).map(|i| 1.0 - 4.0 * (at(i) - 0.5).abs()).collect()
+}
+
+/// Six levels up and five down, twelve readings on each.
+fn weights() -> Vec<f64> {
+    let levels = (0..6).chain((0..5).rev());
+    levels
+        .flat_map(|level| [f64::from(level) / 5.0; 12])
+        .collect()
+}
+
+fn with(load: &[f64], beside: impl Fn(usize, f64) -> f64) -> Vec<f64> {
+    let each = load.iter().enumerate();
+    each.map(|(i, u)| u + beside(i, *u)).collect()
+}
+
+#[test]
+fn what_jumps_many_times_is_no_drift() {
+    let load = triangles(900);
+    let jumps = [
+        (110, 0.03),
+        (260, -0.04),
+        (420, 0.035),
+        (640, 0.04),
+        (760, -0.03),
+    ];
+    let level = |i: usize, _: f64| -> f64 {
+        let before = jumps.iter().filter(|(row, _)| *row <= i);
+        before.map(|(_, height)| height).sum()
+    };
+    let found = judged(&file(&load, &with(&load, level), 0.3, 7));
+    let said = &found.unexplained.description;
+    assert_eq!(found.verdict, Verdict::UnknownCause, "{:?}", found.causes);
+    assert!(said.contains("jumps 5 times"), "{said}");
+    assert!(said.contains("at 78.0 s by -40"), "{said}");
+}
+
+#[test]
+fn ringing_after_the_corners_is_no_noise() {
+    let load = triangles(900);
+    let corners = [
+        (75, 1.0),
+        (225, -1.0),
+        (375, 1.0),
+        (525, -1.0),
+        (675, 1.0),
+        (825, -1.0),
+    ];
+    let ring = |i: usize, _: f64| -> f64 {
+        let past = corners.iter().filter(|(row, _)| *row <= i);
+        past.map(|(row, sign)| {
+            let at = (i - row) as f64;
+            0.04 * sign * (-at / 18.0).exp() * (0.8 * at).sin()
+        })
+        .sum()
+    };
+    let found = judged(&file(&load, &with(&load, ring), 0.3, 8));
+    assert_eq!(found.verdict, Verdict::UnknownCause, "{:?}", found.causes);
+    let knock = |i: usize, _: f64| match i >= 300 {
+        true => 0.05 * (-((i - 300) as f64) / 15.0).exp() * (0.9 * (i - 300) as f64).sin(),
+        false => 0.0,
+    };
+    let found = judged(&file(&load, &with(&load, knock), 0.3, 9));
+    assert_eq!(found.verdict, Verdict::UnknownCause, "{:?}", found.causes);
+}
+
+#[test]
+fn a_gap_off_centre_has_its_size_and_its_stiffness() {
+    let load = triangles(2000);
+    let step = |u: f64| ((u - 0.15) / 0.02).tanh() + 1.0;
+    let file = file(&load, &with(&load, |_, u| 0.04 * step(u)), 0.2, 10);
+    let found = judged(&file);
+    let gap = found
+        .causes
+        .iter()
+        .find(|c| c.effect == "backlash")
+        .unwrap();
+    let [low, high] = gap.interval("gap").unwrap();
+    assert!((low..=high).contains(&80e-6), "{low} to {high}");
+    assert!(high - low < 8e-6, "{low} to {high}");
+    let request = Request {
+        model: Composite::named(DEFAULT_EFFECTS).unwrap(),
+        bootstrap: 0,
+        seed: 1,
+    };
+    let account = identify(&file, &request);
+    let [low, high] = account.parameters[0].ci95.unwrap();
+    assert!(
+        (0.998..1.002).contains(&(0.5 * (low + high) / STIFFNESS)),
+        "{low} to {high}"
+    );
+}
+
+#[test]
+fn weights_put_on_and_taken_off_once_tell_a_spring() {
+    let load = weights();
+    let clean = judged(&file(&load, &load, 5.0, 11));
+    assert_eq!(clean.verdict, Verdict::Sufficient, "{:?}", clean.doubts);
+    assert!(clean.doubts.iter().any(|d| d.rule == "part-of-a-cycle"));
+    let mut random = Random::new(12);
+    let mut at = 0.0;
+    let walk: Vec<f64> = load
+        .iter()
+        .map(|_| {
+            at += 0.1 * random.normal();
+            at
+        })
+        .collect();
+    assert!(is_fatal(&judged(&file(&load, &walk, 5.0, 13)).doubts));
+}
