@@ -9,10 +9,17 @@ use crate::fit::parameter::Z95;
 /// the joint, and the error of its size is not known.
 const LEFT: f64 = 1.25;
 
+/// Causes whose size has an interval: those of which it was counted how often it holds the truth. A loop's size hangs on what the
+/// law makes of its past.
+const SIZED: [&str; 1] = ["backlash"];
+
 impl Case<'_> {
     /// 95 % intervals of the size of a cause, by the name of the parameter: the hull of those of all laws that leave no more
     /// than the noise. None where only one law has such a parameter.
     pub(super) fn intervals(&self, chosen: &Refined, cause: &str) -> Vec<(&'static str, [f64; 2])> {
+        if !SIZED.contains(&cause) {
+            return Vec::new();
+        }
         let laws = self.laws_of(cause);
         let names: Vec<&str> = laws.iter().map(|l| l.card().parameters[0].name).collect();
         if laws.len() < 2 || names.windows(2).any(|w| w[0] != w[1]) {
