@@ -54,7 +54,8 @@ fn deviation(result: &Result) -> Option<String> {
         "Largest deviation {size} mm at {place:.1} mm of the path, root mean square {} mm.",
         significant(1e3 * rms, 3)
     );
-    if let Some(tolerance) = result.planned.job.limits.tolerance {
+    let tolerance = result.planned.job.limits.tolerance;
+    if let Some(tolerance) = tolerance.filter(|_| result.judges_the_part()) {
         let holds = worst.size <= tolerance;
         let verdict = if holds { "within" } else { "beyond" };
         said += &format!(
@@ -98,6 +99,12 @@ pub fn remarks(result: &Result) -> Vec<String> {
         said.push(format!(
             "{left_out} rows of the recorded joint angles are left out for an empty cell"
         ));
+    }
+    if result.milled.removed_m3 == 0.0 {
+        said.push("the path cuts nothing: check origin_m, abc_deg and the stock of [workpiece], and the path's heights".to_string());
+    }
+    if result.planned.toolpath.corrected {
+        said.push("the path is a corrected one: its deviations are from the corrected commands, not from the part that was drawn; `ident compensate` judges the part".to_string());
     }
     for exceeded in &result.planned.plan.exceeded {
         said.push(format!(

@@ -234,10 +234,16 @@ fn worst(setup: &Setup, milled: &Milled, doubts: &[Doubt]) -> Outcome<Option<Wor
 }
 
 impl Result {
+    /// Whether what the tool deviates from its commands is what the part deviates from its drawing.
+    fn judges_the_part(&self) -> bool {
+        self.milled.removed_m3 > 0.0 && !self.planned.toolpath.corrected
+    }
+
     /// A limit of the robot or of the part is exceeded.
     fn needs_attention(&self) -> bool {
         let tolerance = self.planned.job.limits.tolerance;
         let over = tolerance
+            .filter(|_| self.judges_the_part())
             .zip(self.worst.as_ref())
             .is_some_and(|(t, w)| w.size > t);
         over || !self.planned.plan.exceeded.is_empty()

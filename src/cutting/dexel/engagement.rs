@@ -62,7 +62,7 @@ pub struct Engagement {
     nodes: Vec<f64>,
     /// Depths at the lower and upper end of every cell's border along the meridian, straight between them.
     columns: Vec<[f64; 2]>,
-    /// Depth at which a wall is touched and not cut, m: what the places of an earlier way left standing between them.
+    /// Depth at which a wall is touched and not cut, m: what earlier places, at most twice [`APART`], left between them.
     touched: f64,
     /// What the latest places take of the circle that is looked along.
     arcs: Vec<Arc>,
@@ -137,7 +137,7 @@ impl Engagement {
         self.share[..cleared].fill(0.0);
         self.used = used;
         let widest = self.rings.iter().map(|r| r.circles[1][0]);
-        let apart = APART * stock.spacing();
+        let apart = 2.0 * APART * stock.spacing();
         self.touched = TOUCH + apart * apart / (8.0 * widest.fold(apart, f64::max));
         let way = unit(way).unwrap_or([0.0; 3]);
         for line in 0..=used.min(self.rings.len()) {

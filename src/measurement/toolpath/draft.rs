@@ -15,6 +15,8 @@ pub(super) struct Draft {
     pub(super) passed_over: Vec<PassedOver>,
     pub(super) inputs: Vec<(PathBuf, String)>,
     pub(super) synthetic: bool,
+    /// It was corrected: its commands are not the part that was drawn.
+    pub(super) corrected: bool,
 }
 
 /// Different words that are counted one by one; the others are counted together.

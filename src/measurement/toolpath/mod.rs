@@ -46,6 +46,8 @@ pub struct Toolpath {
     pub passed_over: Vec<PassedOver>,
     /// True when the file says of itself that nobody measured or made it.
     pub synthetic: bool,
+    /// It was corrected (`ident compensate`): its commands are not the part that was drawn.
+    pub corrected: bool,
 }
 
 /// One move of the tool tip, from the end of the move before.
@@ -232,6 +234,7 @@ impl Toolpath {
             inputs: draft.inputs,
             passed_over: draft.passed_over,
             synthetic: draft.synthetic,
+            corrected: draft.corrected,
         })
     }
 }

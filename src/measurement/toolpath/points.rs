@@ -31,6 +31,7 @@ pub(super) fn read(source: &Source) -> Outcome<Draft> {
     let columns = Columns::of(&table)?;
     let mut draft = Draft {
         synthetic: table.front.synthetic(),
+        corrected: table.front.text("method")?.is_some(),
         ..Draft::default()
     };
     for row in 0..table.rows {

@@ -100,6 +100,18 @@ impl Arc {
         add(self.centre, rotate(&turned, sub(from, self.centre)))
     }
 
+    /// Where it turns back along x, y or z, in the plane of `from`: with its ends, its extent.
+    pub fn turning_points(&self, from: V3) -> Vec<V3> {
+        let start = sub(from, self.centre);
+        let ahead = cross(self.axis, start);
+        let angles = (0..3).flat_map(|k| {
+            let first = ahead[k].atan2(start[k]).rem_euclid(PI);
+            [first, first + PI]
+        });
+        let met = angles.filter(|angle| *angle < self.angle);
+        met.map(|angle| self.at(from, angle)).collect()
+    }
+
     /// Its radius, m, where it starts at `from`.
     pub fn radius(&self, from: V3) -> f64 {
         norm(sub(from, self.centre))
