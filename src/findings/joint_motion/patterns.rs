@@ -15,6 +15,9 @@ pub(super) const MESHING: &str = "a ripple in step with the joint that is no enc
 /// What is seen of a spring that is not straight.
 pub(super) const BENT: &str = "a twist that bends with the torque";
 
+/// What is seen of a joint that works loose.
+const CHANGED: &str = "a spring that is softer or stiffer from one instant on";
+
 /// All of them; the first of a set is told.
 pub(super) const PATTERNS: &[Pattern<Joint>] = &[
     Pattern {
@@ -43,11 +46,31 @@ pub(super) const PATTERNS: &[Pattern<Joint>] = &[
         members: |joint| over(&joint.data.time, 3),
     },
     Pattern {
+        name: "changed",
+        summary: CHANGED,
+        members: changed,
+    },
+    Pattern {
         name: "speed",
         summary: "a twist that bends with the speed",
         members: |joint| bends(&joint.data.speed),
     },
 ];
+
+/// Parts of the record at whose ends a spring may change.
+const PARTS: usize = 24;
+
+/// The torque from an instant on: a jump of an encoder leaves the slope of the twist over it as it was, a spring that
+/// changes does not.
+fn changed(joint: &Joint) -> Vec<Member> {
+    let n = joint.data.rows();
+    let from = |row: usize| {
+        let after = |i: usize| if i < row { 0.0 } else { joint.geared[i] };
+        Member::free(joint.column(after))
+    };
+    let even = (1..PARTS).map(|part| n * part / PARTS);
+    even.map(from).collect()
+}
 
 /// Time constants of what creeps, s.
 const LATE_S: [f64; 3] = [0.1, 0.3, 0.9];
