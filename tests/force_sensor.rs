@@ -370,6 +370,10 @@ fn what_cannot_be_read_is_refused_with_line_and_remedy() {
         refused(&format!("{head}1,0,0,0,1,2,3,4,5,6\n2,0,0,0,1,2,3,4,5,6\n")),
         Some(4)
     );
+    for com in ["[0, 0, 140.0]", "[-1e300, 0, 0]"] {
+        let text = format!("# nominal_com_m = {com}\n{head}1,0,0,0,1,2,3,4,5,6\n");
+        assert_eq!(refused(&text), Some(1), "{com}");
+    }
     assert_eq!(
         refused(
             "# kind = \"force-sensor\"\n# weight_N = 3\nqw,qx,qy,qz,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm\n1,0,0,0,1,2,3,4,5,6\n"

@@ -171,3 +171,17 @@ fn a_universal_file_tells_its_data_sets() {
     assert_eq!(frfs.count(), 9);
     assert!(sets.iter().all(|set| set["values"].as_u64() > Some(100)));
 }
+
+/// A half circle reaches farther than its ends.
+#[test]
+fn arcs_belong_to_the_extent_of_a_path() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("arc.nc");
+    std::fs::write(
+        &path,
+        "G21 G90 G17\nG1 X40 Y0 Z0 F1000\nG3 X40 Y40 I0 J20\nM30\n",
+    )
+    .unwrap();
+    let found = document(&path)["extent_mm"][0][1].as_f64().unwrap();
+    assert!((found - 60.0).abs() < 1e-6, "{found}");
+}

@@ -9,6 +9,9 @@ use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::M3;
 use crate::ground::units::Dimension;
 
+/// Farthest centre of mass of a tool from its sensor, m.
+const FARTHEST: f64 = 3.0;
+
 const HEADER: &str = "point,qw,qx,qy,qz,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm";
 /// Names of the six channels in the header.
 pub const CHANNELS: [(&str, &str); 6] = [
@@ -71,6 +74,11 @@ impl Kind for Facts {
 
     fn of(front: &Front) -> Outcome<Self> {
         let com = front.numbers("nominal_com_m")?;
+        if let Some(far) = com.iter().flatten().find(|x| x.abs() > FARTHEST) {
+            let what = format!("is {far} m from the sensor, farther than any tool reaches");
+            let remedy = "write metres: 140 mm are 0.14";
+            return Err(front.problem("nominal_com_m", what, remedy));
+        }
         let three = |list: Vec<f64>| {
             <[f64; 3]>::try_from(list).map_err(|_| {
                 front.problem(

@@ -115,10 +115,7 @@ impl Front {
             let remedy = "give a finite number or leave the fact out";
             return Err(self.problem(key, "is not finite", remedy));
         }
-        if value != 0.0 && !(SMALLEST..=LARGEST).contains(&value.abs()) {
-            let what = format!("is {value:e}, which nobody measures");
-            return Err(self.problem(key, what, "check the exponent and the unit of the key"));
-        }
+        self.measured(key, value)?;
         Ok(Some(value))
     }
 
@@ -235,7 +232,20 @@ impl Front {
                 format!("write `# {key} = [0.0, 1.5]`"),
             )
         };
-        list.map(Some).ok_or_else(refused)
+        let list = list.ok_or_else(refused)?;
+        list.iter().try_for_each(|x| self.measured(key, *x))?;
+        Ok(Some(list))
+    }
+
+    /// Refuses a number that nobody measures.
+    fn measured(&self, key: &str, value: f64) -> Outcome<()> {
+        match value == 0.0 || (SMALLEST..=LARGEST).contains(&value.abs()) {
+            true => Ok(()),
+            false => {
+                let what = format!("is {value:e}, which nobody measures");
+                Err(self.problem(key, what, "check the exponent and the unit of the key"))
+            }
+        }
     }
 
     /// True when the file says of itself that nobody measured it.

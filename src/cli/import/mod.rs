@@ -69,6 +69,23 @@ struct Imported {
     sha256: String,
 }
 
+impl Imported {
+    /// Writes what stands beside the file, if that is anything and not there already.
+    fn write(&self) -> Outcome<()> {
+        let is_there = Sidecar {
+            shared: toml::Table::new(),
+            ..Sidecar::beside(&self.path)?
+        } == Sidecar {
+            shared: toml::Table::new(),
+            ..self.sidecar.clone()
+        };
+        match is_there {
+            true => Ok(()),
+            false => files::replace(&place(&self.path), self.sidecar.text().as_bytes()),
+        }
+    }
+}
+
 fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let arguments: Arguments = parsed(matches);
     let (mut answers, mut questions) = (std::io::stdin().lock(), std::io::stderr());
@@ -80,9 +97,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
     });
     let all = each.collect::<Outcome<Vec<Imported>>>()?;
     if !arguments.dry_run {
-        let write =
-            |one: &Imported| files::replace(&place(&one.path), one.sidecar.text().as_bytes());
-        all.iter().try_for_each(write)?;
+        all.iter().try_for_each(Imported::write)?;
     }
     print(&match arguments.json {
         true => document(&all),

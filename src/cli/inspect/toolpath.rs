@@ -48,12 +48,12 @@ impl Figures {
         let moves = path.moves.get(1..).unwrap_or_default();
         let count = |counted: &dyn Fn(&Move) -> bool| moves.iter().filter(|m| counted(m)).count();
         let curve = path.curve.iter().flat_map(|curve| curve.points.iter());
-        let points: Vec<V3> = path
-            .moves
-            .iter()
-            .map(|m| m.to)
-            .chain(curve.copied())
-            .collect();
+        let arcs = path.moves.windows(2).flat_map(|w| match w[1].shape {
+            Shape::Arc(arc) => arc.turning_points(w[0].to),
+            Shape::Line => Vec::new(),
+        });
+        let ends = path.moves.iter().map(|m| m.to);
+        let points: Vec<V3> = ends.chain(arcs).chain(curve.copied()).collect();
         let feeds = moves.iter().filter_map(|m| m.feed);
         let feeds = feeds.chain(path.curve.iter().filter_map(|curve| curve.feed));
         let feed = range(feeds.map(|feed| feed * 6e4));

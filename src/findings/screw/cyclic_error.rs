@@ -31,7 +31,7 @@ fn members(case: &Case) -> Vec<Member> {
     let Some(pitch) = case.test.facts.pitch else {
         return Vec::new();
     };
-    if case.sight == Sight::Blind {
+    if matches!(case.sight, Sight::Blind | Sight::Few) {
         return Vec::new();
     }
     let wave = |h: i32| {

@@ -87,14 +87,22 @@ impl Fitted {
         }
         let covariance = System::new(poses, &prior, noise, &p).covariance();
         let sizes = sizes(p[0]);
-        let free = freedom[0].min(freedom[1]).max(1.0);
+        // a noise that nobody states is that of what is left, however little that tells
+        let own =
+            (0..2).filter(|kind| estimated || stated[*kind].is_none() && freedom[*kind] > 0.5);
+        let free = own
+            .clone()
+            .map(|kind| freedom[kind])
+            .fold(f64::INFINITY, f64::min);
+        let is_own = own.count() > 0;
+        let free = free.max(1.0);
         let student = || StudentsT::new(0.0, 1.0, free).map_or(Z95, |t| t.inverse_cdf(0.975));
         Self {
             known: std::array::from_fn(|j| {
                 covariance[(j, j)].sqrt() < KNOWN * sizes[j] && (prior[j] > MOUNTED)
             }),
             residual: poses.iter().map(|pose| less(pose, &p)).collect(),
-            quantile: if estimated { student() } else { Z95 },
+            quantile: if is_own { student() } else { Z95 },
             covariance,
             prior,
             noise,

@@ -8,6 +8,8 @@ use nalgebra::DMatrix;
 pub enum Sight {
     /// The pitch is not stated.
     NoPitch,
+    /// Not at all: a line and a wave go through so few targets.
+    Few,
     /// Not at all: every target lies at the same angle of the screw.
     Blind,
     /// Hardly: sine of the angle between it and the straight lines.
@@ -16,6 +18,8 @@ pub enum Sight {
     Clear,
 }
 
+/// Targets that a straight line and a wave go through.
+const FEW: usize = 4;
 /// Sine of the angle below which a sine is nearly a straight line.
 const DIM: f64 = 0.3;
 /// Below this nothing is left of it but rounding.
@@ -28,6 +32,7 @@ impl Sight {
             return Self::NoPitch;
         };
         match sine(at, pitch) {
+            _ if at.len() <= FEW => Self::Few,
             s if s < BLIND => Self::Blind,
             s if s < DIM => Self::Dim(s),
             _ => Self::Clear,
@@ -39,6 +44,7 @@ impl Sight {
         match self {
             Self::Clear => None,
             Self::NoPitch => Some("without `pitch_mm` nothing is said about an error once per turn of the screw".into()),
+            Self::Few => Some("so few targets cannot show an error once per turn of the screw: five are the least (ISO 230-2)".into()),
             Self::Blind => Some("the targets are whole turns of the screw apart: they cannot show an error once per turn; choose targets off the pitch (ISO 230-2), say at 0.38 of a turn more each".into()),
             Self::Dim(s) => Some(format!("the targets are nearly whole turns of the screw apart: an error once per turn looks like a wrong pitch (sine of the angle {s:.3}); choose targets off the pitch (ISO 230-2)")),
         }

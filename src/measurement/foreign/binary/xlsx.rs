@@ -7,6 +7,8 @@ use calamine::{DataRef, Reader, Xlsx, XlsxError};
 use std::collections::BTreeMap;
 use std::io::Cursor;
 
+/// What helps where a workbook cannot be read.
+const REMEDY: &str = "save it again as .xlsx, or export it as CSV";
 /// Cells of a sheet at most, empty ones with them.
 const LARGEST: u64 = 100_000_000;
 
@@ -15,7 +17,22 @@ pub(super) fn recognises(bytes: &[u8]) -> bool {
     bytes.starts_with(b"PK\x03\x04") && names(b"xl/")
 }
 
+/// Every sheet. A spoiled reference of a cell makes the reader of the format count beyond its numbers: what it panics of is
+/// a file that cannot be read.
 pub(super) fn read(bytes: &[u8]) -> Outcome<Vec<Sheet>> {
+    let said = std::panic::take_hook();
+    std::panic::set_hook(Box::new(|_| {}));
+    let sheets = std::panic::catch_unwind(|| sheets(bytes));
+    std::panic::set_hook(said);
+    sheets.unwrap_or_else(|_| {
+        Err(Problem::new(
+            "is no spreadsheet that can be read: a cell or the extent of a sheet has a place that is none",
+            REMEDY,
+        ))
+    })
+}
+
+fn sheets(bytes: &[u8]) -> Outcome<Vec<Sheet>> {
     let mut book: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(refused)?;
     let mut sheets = Vec::new();
     for name in book.sheet_names() {
@@ -34,7 +51,7 @@ pub(super) fn read(bytes: &[u8]) -> Outcome<Vec<Sheet>> {
 
 fn refused(error: XlsxError) -> Problem {
     let what = format!("is no spreadsheet that can be read: {error}");
-    Problem::new(what, "save it again as .xlsx, or export it as CSV")
+    Problem::new(what, REMEDY)
 }
 
 /// Cells that hold something, row by row.
