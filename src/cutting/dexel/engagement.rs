@@ -5,7 +5,7 @@
 //! every cell of ring and angle the depth at its corners says which share of it is in.
 
 use super::arc::{Arc, TOUCH, taken};
-use super::crossing::straightened;
+use super::crossing::{bare, column, straightened};
 use super::rings::Ring;
 use super::solid::Solid;
 use super::stock::Stock;
@@ -127,8 +127,7 @@ impl Engagement {
         last.map_or(0.0, |i| self.rings[i].circles[1][1])
     }
 
-    /// Looks around: the tool at `tip` moving along `way` (any length), the stock as it was before the
-    /// places `latest` were taken from it.
+    /// Looks around: the tool at `tip` moving along `way` (any length), in the stock without the places `latest`.
     pub fn look(&mut self, stock: &Stock, tip: V3, way: V3, latest: &[Solid]) {
         let top = stock.height_above(tip, self.frame.z);
         let below = |r: &&Ring| r.circles[0][1] < top;
@@ -173,7 +172,7 @@ impl Engagement {
                     let point = add(centre, scale(radius, out));
                     match taken(&self.arcs, latest, direction, point) {
                         true => GONE,
-                        false => stock.depth(point) - self.touched,
+                        false => bare(stock.depth(point), self.touched),
                     }
                 }
             };
@@ -194,7 +193,7 @@ impl Engagement {
                 let point = add(centre, scale(r0 + t * (r1 - r0), out));
                 match latest.iter().any(|s| s.holds(point, TOUCH)) {
                     true => GONE,
-                    false => stock.depth(point) - self.touched,
+                    false => bare(stock.depth(point), self.touched),
                 }
             };
             self.columns[i * n + k] = match crosses && ends.iter().all(|d| *d > GONE) {
@@ -278,15 +277,6 @@ fn faces(ring: &Ring, out: V3, z: V3, way: V3) -> bool {
 fn facing(ring: &Ring, out: V3, z: V3, way: V3) -> bool {
     let [sin, cos] = ring.disc.normal;
     sin * dot(out, way) - cos * dot(z, way) > -LEVEL * sin
-}
-
-/// Share of a line between two depths that is in.
-fn column(a: f64, b: f64) -> f64 {
-    match (a > 0.0, b > 0.0) {
-        (true, true) => 1.0,
-        (false, false) => 0.0,
-        _ => a.max(b) / (a - b).abs(),
-    }
 }
 
 /// Share of a triangle that is in, the depth linear over it.
