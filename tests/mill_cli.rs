@@ -100,28 +100,6 @@ fn only_a_drawn_path_that_cuts_judges_the_part() {
     assert!(body["mean_force_N"].is_null(), "{body}");
 }
 
-/// The second of two equal depths at a wall on a round number of the stock's rays.
-#[test]
-fn a_second_depth_takes_the_force_of_the_first() {
-    let folder = job();
-    let job = JOB.replace(
-        "stock_max_mm = [30.0, 30.0, 0.0]",
-        "stock_max_mm = [30.0, 10.0, 0.0]",
-    );
-    std::fs::write(folder.path().join("job.toml"), job).unwrap();
-    let mean = |path: String| {
-        std::fs::write(folder.path().join("slot.csv"), path).unwrap();
-        let body = json(folder.path(), &["mill", "--rigid", "--dry-run", "job.toml"]);
-        body["mean_force_N"][1].as_f64().unwrap()
-    };
-    let level = |z: f64| format!("-15,17,{z},0,0,1,0\n45,17,{z},0,0,1,0\n");
-    let head = "# kind = \"path\"\nx_mm,y_mm,z_mm,i,j,k,rapid\n";
-    let back = "45,17,12,0,0,1,1\n-15,17,12,0,0,1,1\n";
-    let one = mean(format!("{head}{}", level(-1.7)));
-    let two = mean(format!("{head}{}{back}{}", level(-1.7), level(-3.4)));
-    assert!((two / one - 1.0).abs() < 0.02, "{one} {two}");
-}
-
 /// Found by fuzzing: runs of minutes, each a unit gone wrong.
 #[test]
 fn what_no_cutter_is_or_does_is_refused() {

@@ -69,24 +69,6 @@ fn border(inside: f64, depth: impl Fn(f64) -> f64) -> f64 {
     }
 }
 
-/// A depth that is no more than touched is none.
-pub(super) fn bare(depth: f64, touched: f64) -> f64 {
-    if depth > touched {
-        depth
-    } else {
-        depth.min(0.0)
-    }
-}
-
-/// Share of a line between two depths that is in.
-pub(super) fn column(a: f64, b: f64) -> f64 {
-    match (a > 0.0, b > 0.0) {
-        (true, true) => 1.0,
-        (false, false) => 0.0,
-        _ => a.max(b) / (a - b).abs(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::straightened;

@@ -5,7 +5,7 @@
 //! every cell of ring and angle the depth at its corners says which share of it is in.
 
 use super::arc::{Arc, TOUCH, taken};
-use super::crossing::{bare, column, straightened};
+use super::crossing::straightened;
 use super::rings::Ring;
 use super::solid::Solid;
 use super::stock::Stock;
@@ -62,7 +62,7 @@ pub struct Engagement {
     nodes: Vec<f64>,
     /// Depths at the lower and upper end of every cell's border along the meridian, straight between them.
     columns: Vec<[f64; 2]>,
-    /// Depth at which a wall is touched and not cut, m: what earlier places, at most twice [`APART`], left between them.
+    /// Depth at which a wall is touched and not cut, m: what the places of an earlier way left standing between them.
     touched: f64,
     /// What the latest places take of the circle that is looked along.
     arcs: Vec<Arc>,
@@ -127,7 +127,8 @@ impl Engagement {
         last.map_or(0.0, |i| self.rings[i].circles[1][1])
     }
 
-    /// Looks around: the tool at `tip` moving along `way` (any length), in the stock without the places `latest`.
+    /// Looks around: the tool at `tip` moving along `way` (any length), the stock as it was before the
+    /// places `latest` were taken from it.
     pub fn look(&mut self, stock: &Stock, tip: V3, way: V3, latest: &[Solid]) {
         let top = stock.height_above(tip, self.frame.z);
         let below = |r: &&Ring| r.circles[0][1] < top;
@@ -136,7 +137,7 @@ impl Engagement {
         self.share[..cleared].fill(0.0);
         self.used = used;
         let widest = self.rings.iter().map(|r| r.circles[1][0]);
-        let apart = 2.0 * APART * stock.spacing();
+        let apart = APART * stock.spacing();
         self.touched = TOUCH + apart * apart / (8.0 * widest.fold(apart, f64::max));
         let way = unit(way).unwrap_or([0.0; 3]);
         for line in 0..=used.min(self.rings.len()) {
@@ -172,7 +173,7 @@ impl Engagement {
                     let point = add(centre, scale(radius, out));
                     match taken(&self.arcs, latest, direction, point) {
                         true => GONE,
-                        false => bare(stock.depth(point), self.touched),
+                        false => stock.depth(point) - self.touched,
                     }
                 }
             };
@@ -193,7 +194,7 @@ impl Engagement {
                 let point = add(centre, scale(r0 + t * (r1 - r0), out));
                 match latest.iter().any(|s| s.holds(point, TOUCH)) {
                     true => GONE,
-                    false => bare(stock.depth(point), self.touched),
+                    false => stock.depth(point) - self.touched,
                 }
             };
             self.columns[i * n + k] = match crosses && ends.iter().all(|d| *d > GONE) {
@@ -277,6 +278,15 @@ fn faces(ring: &Ring, out: V3, z: V3, way: V3) -> bool {
 fn facing(ring: &Ring, out: V3, z: V3, way: V3) -> bool {
     let [sin, cos] = ring.disc.normal;
     sin * dot(out, way) - cos * dot(z, way) > -LEVEL * sin
+}
+
+/// Share of a line between two depths that is in.
+fn column(a: f64, b: f64) -> f64 {
+    match (a > 0.0, b > 0.0) {
+        (true, true) => 1.0,
+        (false, false) => 0.0,
+        _ => a.max(b) / (a - b).abs(),
+    }
 }
 
 /// Share of a triangle that is in, the depth linear over it.
