@@ -347,3 +347,20 @@ fn spoiled_files_are_refused_and_never_end_the_program() {
         }
     }
 }
+
+/// The reader of workbooks panics of an extent that ends before it begins: that is a file that cannot be read.
+#[test]
+fn a_workbook_with_places_that_are_none_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::copy(made("reversed.xlsx"), folder.path().join("reversed.xlsx")).unwrap();
+    let words = ["import", "reversed.xlsx", "--kind", "load-cycle"];
+    let output = ident(folder.path(), &words);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(
+        said.contains("reversed.xlsx")
+            && said.contains("save it again")
+            && !said.contains("panicked"),
+        "{said}"
+    );
+}

@@ -1,3 +1,4 @@
+use super::backlash::{CONTACT, GAP};
 use super::contract::{Card, Family, Law, Parameter, Scale};
 use super::scene::Scene;
 use super::shapes::saturate_as;
@@ -16,19 +17,10 @@ impl Law for OffsetGap {
         source: "dead zone, Nordin and Gutman 2002, eq. 2, with contact that sets in over a small load, about any load",
         signature: "a step at one load, single-valued, no loop; the zero is set where the record has no load",
         parameters: &[
+            GAP,
             Parameter {
-                name: "gap",
-                meaning: "total free travel between the two flanks",
-                scale: Scale::Deflection,
-                bounds: (0.0, 2.0),
-                grid: &[0.1],
-            },
-            Parameter {
-                name: "contact_load",
-                meaning: "load over which the flanks come into contact",
-                scale: Scale::Load,
-                bounds: (5e-4, 0.1),
                 grid: &[0.008, 0.03],
+                ..CONTACT
             },
             Parameter {
                 name: "centre",

@@ -9,7 +9,7 @@ use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::M3;
 use crate::ground::units::Dimension;
 
-/// Farthest centre of mass of a tool from its sensor, m.
+/// Farthest centre of mass of a tool from its sensor, m: as far as a whole robot reaches. Beyond, millimetres were meant.
 const FARTHEST: f64 = 3.0;
 
 const HEADER: &str = "point,qw,qx,qy,qz,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm";

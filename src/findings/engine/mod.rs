@@ -44,6 +44,7 @@ mod tests;
 pub use aspect::Aspects;
 pub use diagnosis::{Found, diagnose};
 pub use judgement::Judgement;
+pub use nuisances::ALLOWED;
 pub use statement::{
     Blamed, CanBe, Experiment, Member, Noise, Nuisance, Remaining, Statement, Suspect, White,
 };

@@ -8,7 +8,7 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 /// What is merely uncertain, and alone, may be off by so many of its standard deviations; beyond, something
 /// is wrong.
-const ALLOWED: f64 = 2.5;
+pub const ALLOWED: f64 = 2.5;
 
 /// How far each of many nuisances may be off, in standard deviations: a sound file has one of them beyond as
 /// seldom as a single one is beyond [`ALLOWED`] (Bonferroni).

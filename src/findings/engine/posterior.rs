@@ -104,3 +104,35 @@ pub fn without(suspects: &[usize], suspect: usize) -> Vec<usize> {
     let others = suspects.iter().copied().filter(|s| *s != suspect);
     others.collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Posterior, Weighed};
+
+    struct Set(Vec<usize>, f64);
+
+    impl Weighed for Set {
+        fn suspects(&self) -> &[usize] {
+            &self.0
+        }
+
+        fn score(&self) -> f64 {
+            self.1
+        }
+    }
+
+    #[test]
+    fn a_place_is_as_probable_as_all_that_can_take_it() {
+        let sets = vec![
+            Set(vec![1], 5.0),
+            Set(vec![2], 5.0),
+            Set(vec![3], 4.0),
+            Set(vec![], 0.0),
+        ];
+        let posterior = Posterior::of(sets, 1.0);
+        let leader = &posterior.sets[0].0;
+        let none = posterior.sets[3].1;
+        assert!(posterior.inclusion(1) < 0.5);
+        assert!((posterior.inclusion_of_place(leader, 1) - (1.0 - none)).abs() < 1e-12);
+    }
+}

@@ -2,6 +2,7 @@
 
 use super::diagnosis::{Found, about, stated};
 use super::judgement::Judgement;
+use super::materiality::in_noise;
 use super::statement::{Blamed, Experiment, Statement, Suspect};
 use crate::findings::answer::Discrepancy;
 use crate::ground::stats::rms;
@@ -131,27 +132,31 @@ fn others(course: &Course, (first, told): (&mut Statement, &Found), best: &Found
 fn bends(course: &Course, first: &Statement, best: &Found) -> bool {
     let again = course.stated(&best.blamed, &best.uncertain);
     let beyond = first.reading.iter().zip(&again.reading);
-    let beyond = beyond.zip(first.noise.spread());
-    let squares: f64 = beyond.map(|((a, b), s)| ((a - b) / s).powi(2)).sum();
-    0.5 * squares > BETTER
+    let beyond: Vec<f64> = beyond.map(|(a, b)| a - b).collect();
+    0.5 * squares(&beyond, first) > BETTER
 }
 
-/// As many causes, of which what they leave is so much more probable, nats: odds of twenty to one.
+/// Squares of values over the rows, in noise deviations of a statement.
+fn squares(values: &[f64], statement: &Statement) -> f64 {
+    let weighted = in_noise(statement, values);
+    weighted.iter().map(|v| v * v).sum()
+}
+
+/// As many causes, of which what they leave is so much more probable, nats: odds of twenty to one, as an interval of 95 % has
+/// them. A choice, no measurement; no other number was tried.
 const BETTER: f64 = 3.0;
 
 /// What is found from causes that were fitted alone, if that takes no more causes and leaves less; `first`: whose noise they
 /// are seen in.
 fn better(course: &Course, first: &Statement, alone: Found, best: &Found) -> Option<Found> {
-    let squares = |found: &Found| -> f64 {
-        let each = found.left.iter().zip(first.noise.spread());
-        each.map(|(l, s)| (l / s).powi(2)).sum()
-    };
-    let most = squares(best) * (1.0 - 2.0 * BETTER / first.reading.len().max(1) as f64);
-    if squares(&alone) > most {
+    let most =
+        squares(&best.left, first) * (1.0 - 2.0 * BETTER / first.reading.len().max(1) as f64);
+    if squares(&alone.left, first) > most {
         return None;
     }
     let found = again(course, &alone);
-    (found.blamed.len() <= best.blamed.len() && squares(&found) <= most).then_some(found)
+    (found.blamed.len() <= best.blamed.len() && squares(&found.left, first) <= most)
+        .then_some(found)
 }
 
 /// The same without one of its causes. A companion may stand for what the straight line of another missed on its way: without

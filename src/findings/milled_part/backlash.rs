@@ -133,6 +133,17 @@ mod tests {
     }
 
     #[test]
+    fn a_link_that_something_presses_changes_its_flank_at_once() {
+        let angles = [0.0, 1e-4, 2e-4, 1.9e-4, 1.5e-4];
+        let pressed = dragged(&angles, 1e-6);
+        let lags = dragged(&angles, 2e-4);
+        assert!(
+            (pressed[3] - 1.0).abs() < 1e-9 && lags[3] < 0.0,
+            "{pressed:?} {lags:?}"
+        );
+    }
+
+    #[test]
     fn a_flank_is_kept_while_nothing_drives() {
         let side = flanks(&[0.0, 1.0, 0.001, -2.0, 0.0]).unwrap();
         assert_eq!(side, [1.0, 1.0, 1.0, -1.0, -1.0]);

@@ -1,7 +1,7 @@
 //! The material cuts harder or easier than it is stated.
 
 use super::Case;
-use crate::findings::engine::{Blamed, Member};
+use crate::findings::engine::{ALLOWED, Blamed, Member};
 use crate::findings::table::{Effect, Place};
 use crate::process::setup::Setup;
 
@@ -10,14 +10,12 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     summary: "The material cuts harder or easier than stated.",
     mechanism: "force",
     law_error: 0.0,
-    can_be: |shape, amounts| amounts[0].abs() > DOUBTED * shape[2],
+    can_be: |shape, amounts| amounts[0].abs() > ALLOWED * shape[2],
     places: |case| vec![Place::new("material", members(case))],
     parameters: |_, blamed| vec![("relative_change", blamed.amounts[0], "1")],
     would_tell: "record the force of the cut (`ident force`)",
 };
 
-/// Stated standard deviations within which a coefficient that is off is what the statement says of it: nobody is to blame.
-const DOUBTED: f64 = 2.5;
 /// Ordinary relative error of a coefficient.
 const ORDINARY: f64 = 0.3;
 /// Which coefficients change together: all cutting, all at all, tangential, radial, the edge.

@@ -2,7 +2,7 @@
 
 use super::noise::{Uneven, is_scatter};
 use super::patterns::PATTERNS;
-use super::uncertain::uncertain;
+use super::uncertain::{missed, uncertain};
 use super::{Case, EFFECTS, Stated};
 use crate::findings::engine::{Aspects, Blamed, Experiment, Remaining, Statement};
 use crate::findings::physics;
@@ -133,11 +133,8 @@ impl Case {
         }
         let sizes = self.simulated.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
         if sizes > 0.0 {
-            let times = |wave: &Vec<f64>| {
-                let pairs = wave.iter().zip(&self.simulated);
-                pairs.map(|(w, s)| w * s / sizes).collect()
-            };
-            span.extend(path.iter().take(4).map(times));
+            let missed = missed(self).into_iter();
+            span.extend(missed.map(|m| m.iter().map(|x| x / sizes).collect()));
         }
         span.retain(|column| column.iter().any(|x| *x != 0.0));
         span

@@ -54,20 +54,22 @@ pub(super) fn uncertain(case: &Case) -> Vec<(Known, Nuisance)> {
 /// Waves over the path by which the laws of the cut miss: neighbours are missed alike, which no noise of single places says.
 const WAVES: usize = 4;
 
-fn laws(case: &Case) -> impl Iterator<Item = (Known, Nuisance)> + '_ {
+/// The simulated deviation times each of them, m.
+pub(super) fn missed(case: &Case) -> Vec<Vec<f64>> {
     let path = table::unit_range(&case.column(|s, _| s.s_m));
-    let waves = table::waves(&path, WAVES).into_iter();
-    waves.map(|wave| {
+    let times = |wave: &Vec<f64>| {
         let each = wave.iter().zip(&case.simulated);
-        let column = each.map(|(w, s)| w * s).collect();
-        (
-            Known::Law,
-            Nuisance {
-                column,
-                spread: LAW,
-            },
-        )
-    })
+        each.map(|(w, s)| w * s).collect()
+    };
+    table::waves(&path, WAVES).iter().map(times).collect()
+}
+
+fn laws(case: &Case) -> impl Iterator<Item = (Known, Nuisance)> {
+    let law = |column| Nuisance {
+        column,
+        spread: LAW,
+    };
+    missed(case).into_iter().map(move |m| (Known::Law, law(m)))
 }
 
 /// Puts an amount of it in place; false where that changes neither robot nor cut.

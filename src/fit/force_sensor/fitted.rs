@@ -34,6 +34,8 @@ const FREE: f64 = 1.0;
 pub const MOUNTED: f64 = 0.5 * std::f64::consts::PI / 180.0;
 /// A parameter is known if its standard deviation is below this share of its natural size.
 const KNOWN: f64 = 0.3;
+/// Degrees of freedom from which residuals are taken for a noise that nobody states: a reading must be left over.
+const OWN: f64 = 0.5;
 /// Degrees of freedom from which residuals tell the noise.
 const TELLING: f64 = 6.0;
 /// Noise never counts as less than this share of the readings' size.
@@ -75,7 +77,7 @@ impl Fitted {
             freedom = told.map(|(_, freedom)| freedom);
             estimated = freedom.iter().all(|f| *f >= TELLING);
             let next = [0, 1].map(|kind| match (told[kind], stated[kind]) {
-                ((sigma, f), None) if f > 0.5 => sigma.max(ROUNDING * size),
+                ((sigma, f), None) if f > OWN => sigma.max(ROUNDING * size),
                 ((sigma, f), _) if f >= TELLING => sigma.max(ROUNDING * size),
                 _ => noise[kind],
             });
@@ -88,21 +90,19 @@ impl Fitted {
         let covariance = System::new(poses, &prior, noise, &p).covariance();
         let sizes = sizes(p[0]);
         // a noise that nobody states is that of what is left, however little that tells
-        let own =
-            (0..2).filter(|kind| estimated || stated[*kind].is_none() && freedom[*kind] > 0.5);
-        let free = own
-            .clone()
+        let is_own = |kind: &usize| estimated || stated[*kind].is_none() && freedom[*kind] > OWN;
+        let free = (0..2)
+            .filter(is_own)
             .map(|kind| freedom[kind])
-            .fold(f64::INFINITY, f64::min);
-        let is_own = own.count() > 0;
-        let free = free.max(1.0);
-        let student = || StudentsT::new(0.0, 1.0, free).map_or(Z95, |t| t.inverse_cdf(0.975));
+            .reduce(f64::min);
+        let student =
+            |free: f64| StudentsT::new(0.0, 1.0, free.max(1.0)).map(|t| t.inverse_cdf(0.975));
         Self {
             known: std::array::from_fn(|j| {
                 covariance[(j, j)].sqrt() < KNOWN * sizes[j] && (prior[j] > MOUNTED)
             }),
             residual: poses.iter().map(|pose| less(pose, &p)).collect(),
-            quantile: if is_own { student() } else { Z95 },
+            quantile: free.and_then(|free| student(free).ok()).unwrap_or(Z95),
             covariance,
             prior,
             noise,

@@ -6,6 +6,8 @@
 The same 120 rows everywhere: time k/10 s, force 1000 sin(k/10) N, displacement of a spring of 2 N/um with a
 little scatter, rounded to 4 decimals. `frf_type4.uff` holds the accelerance of one mode (10 Hz, 2 %, 5 kg).
 """
+import re
+import zipfile
 import h5py
 import numpy as np
 import openpyxl
@@ -33,6 +35,14 @@ for row, values in enumerate(table.tolist(), 5):
         sheet.cell(row, column, value)
     sheet.cell(row, 4, "gut" if row % 2 else None)
 book.save("cycle.xlsx")
+
+# The same with the extent of its sheet told backwards, as no program does: readers count below nothing.
+with zipfile.ZipFile("cycle.xlsx") as good, zipfile.ZipFile("reversed.xlsx", "w", zipfile.ZIP_DEFLATED) as spoiled:
+    for name in good.namelist():
+        text = good.read(name)
+        if name.startswith("xl/worksheets/sheet"):
+            text = re.sub(rb'<dimension ref="([A-Z0-9]+):([A-Z0-9]+)"', rb'<dimension ref="\2:\1"', text)
+        spoiled.writestr(zipfile.ZipInfo(name, (2026, 1, 1, 0, 0, 0)), text)
 
 # NumPy: named columns, plain columns in either order, big-endian.
 named = np.zeros(len(k), dtype=[("time_s", "<f8"), ("force_N", "<f4"), ("displacement_um", "<f8")])

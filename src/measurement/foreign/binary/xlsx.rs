@@ -18,7 +18,8 @@ pub(super) fn recognises(bytes: &[u8]) -> bool {
 }
 
 /// Every sheet. A spoiled reference of a cell makes the reader of the format count beyond its numbers: what it panics of is
-/// a file that cannot be read.
+/// a file that cannot be read. Nothing of this project runs inside but the copying of cells; what another thread panics of
+/// meanwhile is not printed.
 pub(super) fn read(bytes: &[u8]) -> Outcome<Vec<Sheet>> {
     let said = std::panic::take_hook();
     std::panic::set_hook(Box::new(|_| {}));
