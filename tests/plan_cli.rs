@@ -108,3 +108,17 @@ fn a_joint_that_is_too_fast_is_named_unless_the_feed_adapts() {
     assert_eq!(ran.status, 0, "{body}");
     assert!(body["feed"]["held_share"].as_f64().unwrap() < 1.0);
 }
+
+#[test]
+fn a_path_that_is_not_there_is_said_where_the_job_names_it() {
+    let bench = Bench::new();
+    bench.put("measurements/c/part/job.toml", job("").as_bytes());
+    let ran = bench.run(&["plan", "measurements/c/part/job.toml"]);
+    assert_eq!(ran.status, 2);
+    let place = "measurements/c/part/job.toml:3";
+    assert!(
+        ran.errors.contains(place) && ran.errors.contains("part.csv"),
+        "{}",
+        ran.errors
+    );
+}

@@ -396,3 +396,16 @@ fn what_cannot_be_read_is_refused_with_line_and_remedy() {
     );
     assert!(refused(head).1.contains("no usable row"));
 }
+
+#[test]
+fn a_way_back_below_the_way_there_is_said() {
+    let gained: Error = |x, forward| worn(x, !forward);
+    let [lost, gained] =
+        [worn as Error, gained].map(|error| judged(&file(3, 5.0, error, 0.8, None), 2.0));
+    let is_said = |account: &Account| {
+        let remarks = account.remarks();
+        remarks.iter().any(|r| r.contains("below the way there"))
+    };
+    assert!(!is_said(&lost) && is_said(&gained));
+    assert!((lost.backlash.unwrap() - gained.backlash.unwrap()).abs() < 1e-6);
+}

@@ -88,6 +88,7 @@ impl Planned {
     /// Whatever cannot be read.
     pub fn try_read(path: &Path) -> Outcome<Result<Self, Box<Unplanned>>> {
         let job = Job::read(path)?;
+        job.expect_file("path", &job.toolpath)?;
         let toolpath = Toolpath::read(&job.toolpath)?;
         Self::of(job, toolpath)
     }

@@ -260,6 +260,7 @@ fn stock(job: &Job, spacing: f64) -> Outcome<Stock> {
         )),
         Some(job::Stock::Box { min, max }) => Stock::block(*min, *max, spacing),
         Some(job::Stock::Stl(file)) => {
+            job.expect_file("stock", file)?;
             let triangles = stl::triangles(&read_bytes(file)?).map_err(|p| p.in_file(file))?;
             Stock::within(&triangles, spacing).map_err(|p| p.in_file(file))
         }

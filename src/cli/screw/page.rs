@@ -130,7 +130,7 @@ fn groups(judged: &Judged) -> Chart {
         "Mean error in groups of quadratics",
         "Each group holds as many targets as the limit of the residual allows; correcting along the quadratics does not disturb the speed as a point table does.",
     )
-    .with(Panel::new(x, y).with(Series::points("mean of both directions", mean)).with(Series::line("quadratics", curve)))
+    .with(Panel::new(x, y).with(Series::points(judged.account.mean_of(), mean)).with(Series::line("quadratics", curve)))
     .with(left)
     .synthetic(judged.table.synthetic)
 }

@@ -127,8 +127,11 @@ pub fn least(judged: &Judged) -> Option<Table> {
 
 fn dropped(account: &Account) -> String {
     match account.dropped {
-        0 => "of the mean of both directions; no reading left out".into(),
-        n => format!("of the mean of both directions; {n} extreme readings left out of the means"),
+        0 => format!("of the {}; no reading left out", account.mean_of()),
+        n => format!(
+            "of the {}; {n} extreme readings left out of the means",
+            account.mean_of()
+        ),
     }
 }
 

@@ -11,6 +11,9 @@ use crate::robot::load::{Loaded, load};
 use clap::Args;
 use std::path::Path;
 
+/// Beyond this many degrees no joint was meant: a hundred turns.
+const MOST_DEG: f64 = 36_000.0;
+
 /// Robot, posture and form of the answer.
 #[derive(Debug, Args)]
 pub struct RobotArgs {
@@ -55,9 +58,13 @@ impl RobotArgs {
             )
             .in_column("--joints-deg"));
         }
-        if self.joints_deg.iter().any(|q| !q.is_finite()) {
+        if self
+            .joints_deg
+            .iter()
+            .any(|q| q.is_nan() || q.abs() >= MOST_DEG)
+        {
             return Err(Problem::new(
-                "a joint angle is not finite",
+                "a joint angle is not finite, or a hundred turns and more",
                 "write degrees as plain numbers",
             )
             .in_column("--joints-deg"));

@@ -58,7 +58,7 @@ const ROUNDS: usize = 4;
 const ARRIVED: [f64; 2] = [1e-5, 1e-8];
 /// A coefficient counts as fixed when its standard error is below this share of the size of its kind.
 const FIXED: f64 = 0.25;
-/// A runout counts as seen when it stands out of its standard error by this factor.
+/// A runout counts as seen when it stands out of its standard error by this factor, in a single cut.
 const SEEN: f64 = 3.0;
 /// An angle counts as fixed when its standard error is below this, rad.
 const FIXED_ANGLE: f64 = 0.6;

@@ -43,7 +43,8 @@ pub struct Account {
     pub kept: Vec<Target>,
     /// Readings that the means leave out.
     pub dropped: usize,
-    /// Lost motion, m: how far the backward mean lies beyond the forward mean, over all targets.
+    /// Size of the lost motion, m: how far the backward mean lies from the forward mean, over all targets. A remark says where it
+    /// lies below.
     pub backlash: Option<f64>,
     /// Greedy groups.
     pub groups: Vec<Group>,
@@ -73,7 +74,7 @@ pub fn identify(tests: &[ScrewTest], request: &Request) -> Outcome<Account> {
     let at: Vec<f64> = targets.iter().map(|target| target.at).collect();
     Ok(Account {
         figures: Figures::of(&targets, request.coverage),
-        backlash: backlash(&kept),
+        backlash: Target::middle(&lost(&kept)).map(f64::abs),
         groups: groups::greedy(&mean, limit, request.joint),
         least: least(&mean, limit),
         limit_um: limit,
@@ -85,12 +86,14 @@ pub fn identify(tests: &[ScrewTest], request: &Request) -> Outcome<Account> {
     })
 }
 
-/// Mean of backward less forward over the targets that have both, m.
-fn backlash(kept: &[Target]) -> Option<f64> {
+/// Backward less forward at the targets that have both, m: above zero where motion is lost.
+fn lost(kept: &[Target]) -> Vec<f64> {
     let both = |t: &Target| Some(Target::middle(&t.backward)? - Target::middle(&t.forward)?);
-    let all: Vec<f64> = kept.iter().filter_map(both).collect();
-    Target::middle(&all).map(f64::abs)
+    kept.iter().filter_map(both).collect()
 }
+
+/// A mean is seen when it stands out of its standard error by this factor.
+const SEEN: f64 = 3.0;
 
 impl Account {
     /// Largest residual of all groups, µm.
@@ -154,6 +157,24 @@ impl Account {
                     .into(),
             );
         }
+        said.extend(self.gained());
         said
+    }
+
+    /// What a mean is of, in words.
+    pub fn mean_of(&self) -> &'static str {
+        match self.backlash {
+            Some(_) => "mean of both directions",
+            None => "mean of the one direction",
+        }
+    }
+
+    /// That the way back lies below the way there, which no play makes.
+    fn gained(&self) -> Option<String> {
+        let lost = lost(&self.kept);
+        let error = Target::deviation(&lost)? / (lost.len() as f64).sqrt();
+        (Target::middle(&lost)? < -SEEN * error).then(|| {
+            "the way back lies below the way there, which no play makes: the controller takes more away than is lost, or the directions are exchanged".into()
+        })
     }
 }

@@ -159,6 +159,21 @@ impl Job {
         })
     }
 
+    /// Refuses a file that the job names under `key` and that is not there.
+    ///
+    /// # Errors
+    /// There is no such file, with the line that names it.
+    pub fn expect_file(&self, key: &str, file: &Path) -> Outcome<()> {
+        match file.exists() {
+            true => Ok(()),
+            false => Err(Problem::new(
+                format!("names {}, and no such file is there", file.display()),
+                "correct the name; it counts from the folder of the job",
+            )
+            .at_key(&self.path, key)),
+        }
+    }
+
     /// The milling tool.
     ///
     /// # Errors

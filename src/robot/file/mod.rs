@@ -221,14 +221,18 @@ fn unit_axis(name: &str, axis: V3) -> Outcome<V3> {
     }
 }
 
+/// Farthest that anything of a robot may lie from its base, m: beyond, no unit explains it. What is merely doubtful is
+/// remarked (`check::remarks`).
+const FARTHEST: f64 = 1e4;
+
 fn finite(name: &str, key: &str, v: V3) -> Outcome<V3> {
-    if v.iter().all(|x| x.is_finite()) {
+    if v.iter().all(|x| x.abs() < FARTHEST) {
         return Ok(v);
     }
     Err(refuse(
         name,
         key,
-        "is not finite".into(),
+        "is not finite, or lies more than ten kilometres away".into(),
         "write three finite numbers in metres",
     ))
 }

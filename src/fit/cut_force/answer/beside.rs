@@ -43,7 +43,7 @@ impl Answer<'_> {
             towards,
         );
         let open = widest > FIXED * self.mean_feed().max(size);
-        let (first, second) = match (open, size > SEEN * along) {
+        let (first, second) = match (open, size > self.seen() * along) {
             (true, _) => (Status::NotIdentifiable, Status::NotIdentifiable),
             (false, false) => (Status::AtBound, Status::NotIdentifiable),
             (false, true) if turn > FIXED_ANGLE => (Status::Identified, Status::NotIdentifiable),
@@ -55,6 +55,15 @@ impl Answer<'_> {
             Status::NotIdentifiable => found.without_value(status),
         };
         vec![said(runout, first), said(towards, second)]
+    }
+
+    /// By what factor a runout must stand out of its standard error: the names of the teeth were chosen in every cut so that the
+    /// runouts point one way, which noise alone does too. As seldom as a single cut's noise is beyond [`SEEN`] (Rayleigh's law),
+    /// that of one of all choices is beyond this (Bonferroni).
+    fn seen(&self) -> f64 {
+        let teeth = self.cuts.first().map_or(1, |c| c.scene.tool.teeth);
+        let choices = (self.cuts.len().max(1) - 1) as f64 * (teeth as f64).ln();
+        (SEEN * SEEN + 2.0 * choices).sqrt()
     }
 
     pub(super) fn nuisance(&self) -> Vec<Identified> {
