@@ -98,6 +98,14 @@ fn only_a_drawn_path_that_cuts_judges_the_part() {
         &["mill", "--static", "--no-interval", "job.toml"],
     );
     assert!(body["mean_force_N"].is_null(), "{body}");
+    let output = ident(folder.path(), &["compensate", "--static", "job.toml"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(
+        said.contains("job.toml") && said.contains("cuts nothing"),
+        "{said}"
+    );
+    assert!(output.stdout.is_empty());
 }
 
 /// Found by fuzzing: runs of minutes, each a unit gone wrong.

@@ -14,6 +14,7 @@ use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::workspace::job_results;
 use crate::path::programs::{Exporter, ProgramFile};
 use crate::process::Planned;
+use crate::process::run::NOTHING_CUT;
 use crate::process::setup::{Setup, Support};
 use crate::process::uncertainty::{self, Doubt};
 use std::path::PathBuf;
@@ -134,7 +135,12 @@ pub fn correct(planned: Planned, request: Request) -> Outcome<Corrected> {
         || search(method, &task),
         || uncorrected.run(support, |_| {}),
     );
-    let (found, (first, _)) = (found.map_err(in_job)?, first.map_err(in_job)?);
+    let (first, _) = first.map_err(in_job)?;
+    if first.removed_m3 == 0.0 {
+        let [what, remedy] = NOTHING_CUT;
+        return Err(in_job(Problem::new(what, remedy)));
+    }
+    let found = found.map_err(in_job)?;
     let inputs = inputs(&planned, plant.as_ref());
     let synthetic = planned.toolpath.synthetic || planned.job.synthetic;
     let text = text(

@@ -8,6 +8,12 @@ use crate::ground::spatial::{V3, add, norm, scale, sub};
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
+/// A path that cuts nothing, and where to look then.
+pub const NOTHING_CUT: [&str; 2] = [
+    "the path cuts nothing",
+    "check origin_m, abc_deg and the stock of [workpiece], and the path's heights",
+];
+
 /// How the way is run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {

@@ -2,6 +2,7 @@
 
 use super::{Driven, Result, Written};
 use crate::ground::spatial::norm;
+use crate::process::run::NOTHING_CUT;
 use crate::process::setup::Support;
 use crate::sheet::number::{significant, with_interval};
 
@@ -101,7 +102,7 @@ pub fn remarks(result: &Result) -> Vec<String> {
         ));
     }
     if result.milled.removed_m3 == 0.0 {
-        said.push("the path cuts nothing: check origin_m, abc_deg and the stock of [workpiece], and the path's heights".to_string());
+        said.push(NOTHING_CUT.join(": "));
     }
     if result.planned.toolpath.corrected {
         said.push("the path is a corrected one: its deviations are from the corrected commands, not from the part that was drawn; `ident compensate` judges the part".to_string());

@@ -1,11 +1,9 @@
 //! A record with what the engine found in it, and the named laws fitted to it.
 
 use super::diagnosis::Settings;
-use super::families::View;
 use super::lattice;
 use super::naming::site;
 use super::noise::Coloured;
-use super::not_noise::is_no_noise;
 use super::patterns::JUMPS;
 use super::present::Present;
 use super::refine::{Refined, refine_from};
@@ -49,12 +47,11 @@ impl<'a> Case<'a> {
     /// Judges a file.
     pub(super) fn of(file: &'a LoadCycle, settings: &Settings) -> Self {
         let data = Observation::of(file, settings.rows);
-        let (found, noise) = judged(file, &data, settings);
+        let (found, noise, restless) = judged(file, &data, settings);
         let factor = found.answer.discrepancy.noise_rms / crate::ground::stats::rms(&noise.spread);
         let colour = noise.colour(factor);
         let start = [data.scene.load_scale / data.scene.deflection_scale];
         let plain = refine_from(Composite::new(&[]), &start, &data, &colour, FIT.0);
-        let restless = is_no_noise(&found.left, &noise, &View::of(&data));
         let step = lattice::step(&file.deflection)
             .filter(|s| *s > COARSE * colour.floor())
             .or_else(|| lattice::plain_step(&file.deflection));
@@ -142,7 +139,7 @@ impl<'a> Case<'a> {
     }
 }
 
-fn judged(file: &LoadCycle, data: &Observation, settings: &Settings) -> (Found, Coloured) {
+fn judged(file: &LoadCycle, data: &Observation, settings: &Settings) -> (Found, Coloured, bool) {
     let unit = file.port.deflection_unit();
     let place = |cause: &'static str| site(file, cause);
     let record = Record::new(data, (unit, None), &settings.library, &place);
@@ -151,5 +148,6 @@ fn judged(file: &LoadCycle, data: &Observation, settings: &Settings) -> (Found, 
     if seen == JUMPS {
         *seen = record.jumps();
     }
-    (found, record.noise)
+    let restless = record.is_restless(&found.left);
+    (found, record.noise, restless)
 }

@@ -2,6 +2,7 @@
 
 use super::families::{View, suspects};
 use super::noise::{Coloured, TINTS, above_neighbours, rough};
+use super::not_noise::is_no_noise;
 use super::patterns::{patterns, told};
 use super::span::{coarse_span, span};
 use super::structure;
@@ -61,7 +62,7 @@ impl<'a> Record<'a> {
         let digits = 1e-9 * data.scene.deflection_scale;
         let cosine = Arc::new(crate::signal::cosine::Cosine::new(data.rows()));
         let mut record = Self {
-            suspects: suspects(library, data, site)
+            suspects: suspects(library, (data, &view), site)
                 .into_iter()
                 .chain(patterns(&view, &data.reading))
                 .collect(),
@@ -77,6 +78,11 @@ impl<'a> Record<'a> {
         };
         record.learn_noise();
         record
+    }
+
+    /// Whether a residual holds what no noise makes.
+    pub fn is_restless(&self, left: &[f64]) -> bool {
+        is_no_noise(left, &self.noise, &self.view)
     }
 
     /// Its jumps in words.

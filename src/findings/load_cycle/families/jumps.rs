@@ -93,16 +93,17 @@ const MOST: usize = 30;
 fn staircase(beyond: &[DVector<f64>], reading: &[f64], allowed: &[bool]) -> Vec<Jump> {
     let (mut basis, mut left) = (beyond.to_vec(), reading.to_vec());
     let n = left.len();
+    // squares of a step before every row that the basis takes
+    let mut shared = vec![0.0; n];
+    basis.iter().for_each(|b| share(&mut shared, b));
     let mut rows: Vec<usize> = Vec::new();
     let apart = window(n);
     while rows.len() < MOST && n > 4 * apart {
         let sums = after(&left);
-        let parts: Vec<Vec<f64>> = basis.iter().map(|b| after(b.as_slice())).collect();
         let taken = |i: usize| {
-            let shared: f64 = parts.iter().map(|p| p[i] * p[i]).sum();
             let own = (n - i) as f64;
-            match own - shared > 1e-3 * own.min(i as f64) {
-                true => sums[i] * sums[i] / (own - shared),
+            match own - shared[i] > 1e-3 * own.min(i as f64) {
+                true => sums[i] * sums[i] / (own - shared[i]),
                 false => 0.0,
             }
         };
@@ -120,10 +121,11 @@ fn staircase(beyond: &[DVector<f64>], reading: &[f64], allowed: &[bool]) -> Vec<
             break;
         }
         let step = DVector::from_vec(beside(&basis, &since(row, n))).normalize();
-        let share = step.iter().zip(&left).map(|(s, l)| s * l).sum::<f64>();
+        let amount = step.iter().zip(&left).map(|(s, l)| s * l).sum::<f64>();
         left.iter_mut()
             .zip(step.iter())
-            .for_each(|(l, s)| *l -= share * s);
+            .for_each(|(l, s)| *l -= amount * s);
+        share(&mut shared, &step);
         basis.push(step);
         rows.push(row);
     }
@@ -156,6 +158,12 @@ fn heights(basis: &[DVector<f64>], reading: &[f64], rows: &[usize]) -> Vec<Jump>
 
 fn since(row: usize, rows: usize) -> Vec<f64> {
     (0..rows).map(|i| f64::from(u8::from(i >= row))).collect()
+}
+
+/// Adds the squares that a column takes of a step before every row.
+fn share(shared: &mut [f64], column: &DVector<f64>) {
+    let sums = after(column.as_slice());
+    shared.iter_mut().zip(sums).for_each(|(s, p)| *s += p * p);
 }
 
 /// Sums of the values from every row to the last.

@@ -57,10 +57,9 @@ pub const FAMILIES: &[Family] = &[
 /// Everyone who may be to blame in a library of effects, under the load of a record. `site`: of a cause.
 pub fn suspects(
     library: &[&'static dyn Effect],
-    data: &Observation,
+    (data, view): (&Observation, &View),
     site: &dyn Fn(&'static str) -> String,
 ) -> Vec<Suspect> {
-    let view = View::of(data);
     let shapes: Vec<&'static dyn Effect> = library
         .iter()
         .copied()
@@ -79,7 +78,7 @@ pub fn suspects(
             .copied()
             .filter(|e| e.card().cause == cause)
             .collect();
-        suspect(cause, &own, data, &view).map(|s| Suspect {
+        suspect(cause, &own, data, view).map(|s| Suspect {
             site: site(cause),
             ..s
         })
