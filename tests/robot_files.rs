@@ -130,6 +130,12 @@ const BAD: &[(&str, &str, &[&str], Option<usize>)] = &[
     ),
     (
         "tcp_m = [1.0, 0.0, 0.5]",
+        "tcp_m = [1e300, 0.0, 0.5]",
+        &["tcp_m", "kilometres"],
+        Some(11),
+    ),
+    (
+        "tcp_m = [1.0, 0.0, 0.5]",
         "tcp_m = [1.0, 0.0, 0.5]\nrotation = [[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]",
         &["rotation"],
         Some(11),

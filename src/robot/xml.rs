@@ -1,6 +1,7 @@
 //! What the XML of a URDF says, before anybody asks whether it makes sense.
 
 use super::body::Body;
+use super::model::FARTHEST_M;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{Pose, V3, roll_pitch_yaw};
 use quick_xml::events::{BytesStart, Event};
@@ -226,8 +227,13 @@ fn joint_part(joint: &mut JointText, name: &str, tag: &BytesStart) -> Outcome<()
 }
 
 fn placement(tag: &BytesStart) -> Outcome<Placement> {
+    let xyz: V3 = numbers(tag, "xyz")?.unwrap_or_default();
+    if xyz.iter().any(|x| x.abs() >= FARTHEST_M) {
+        let what = format!("<{}> lies more than ten kilometres away", tag.name().0);
+        return Err(Problem::new(what, "write three numbers in metres").in_column("xyz"));
+    }
     Ok(Placement {
-        xyz: numbers(tag, "xyz")?.unwrap_or_default(),
+        xyz,
         rpy: numbers(tag, "rpy")?.unwrap_or_default(),
     })
 }

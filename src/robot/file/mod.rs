@@ -5,7 +5,7 @@ mod text;
 
 use super::body::Body;
 use super::joint_effect;
-use super::model::{ElasticAxis, Joint, Robot, Tool};
+use super::model::{ElasticAxis, FARTHEST_M, Joint, Robot, Tool};
 use super::spring::Spring;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{IDENTITY, M3, V3, scale, unit};
@@ -221,12 +221,8 @@ fn unit_axis(name: &str, axis: V3) -> Outcome<V3> {
     }
 }
 
-/// Farthest that anything of a robot may lie from its base, m: beyond, no unit explains it. What is merely doubtful is
-/// remarked (`check::remarks`).
-const FARTHEST: f64 = 1e4;
-
 fn finite(name: &str, key: &str, v: V3) -> Outcome<V3> {
-    if v.iter().all(|x| x.abs() < FARTHEST) {
+    if v.iter().all(|x| x.abs() < FARTHEST_M) {
         return Ok(v);
     }
     Err(refuse(
