@@ -519,6 +519,13 @@ fn what_cannot_be_read_is_refused_with_line_and_remedy() {
             .1
             .contains("axis 9")
     );
+    let first = good.split("centre_m = [").nth(1).unwrap();
+    let own = first.split(',').next().unwrap();
+    let far = refused(good.replacen(&format!("centre_m = [{own},"), "centre_m = [-1e300,", 1));
+    assert!(
+        far.0 == Some(5) && far.1.contains("millimetres?"),
+        "{far:?}"
+    );
 }
 
 /// A test of the KR 300 with usual sensors, and what the diagnosis names in it: effect and site.

@@ -166,6 +166,9 @@ fn cubes(front: &Front) -> Outcome<Vec<Cube>> {
     Ok(found)
 }
 
+/// Farthest that a cube on a robot may lie from its base, m: no robot is longer. Beyond, millimetres were meant.
+const FARTHEST: f64 = 20.0;
+
 fn cube(value: &Value) -> Result<Cube, String> {
     let table = value.as_table().ok_or("is no table")?;
     const KNOWN: [&str; 4] = ["name", "after", "beyond", "centre_m"];
@@ -189,6 +192,11 @@ fn cube(value: &Value) -> Result<Cube, String> {
     let centre = centre
         .and_then(|c| V3::try_from(c).ok())
         .ok_or("`centre_m` is not a list of three numbers")?;
+    if centre.iter().any(|x| !x.is_finite() || x.abs() > FARTHEST) {
+        return Err(format!(
+            "`centre_m` lies more than {FARTHEST} m away; millimetres?"
+        ));
+    }
     let beyond = match table.get("beyond") {
         None => None,
         Some(Value::String(name)) => Some(name.clone()),
