@@ -161,7 +161,8 @@ fn the_runout_is_found_but_for_the_name_of_the_first_tooth() {
     }
 }
 
-/// The names of the teeth are chosen in every cut so that the runouts point one way: noise must not pass for one by that.
+/// The names of the teeth are chosen in every cut so that the runouts point one way: noise must not pass for one by that. At
+/// three deviations, however many names there are, it did on these of the seeds 300 to 399.
 #[test]
 fn noise_alone_shows_no_runout() {
     let cutter = Cutter {
@@ -190,8 +191,8 @@ fn noise_alone_shows_no_runout() {
         turns: 6.0,
         ..recording(None, 25.0, 0.0)
     };
-    for seed in 0..10 {
-        let mut random = Random::new(300 + seed);
+    for seed in [319, 335, 336, 350, 368, 379, 383, 399] {
+        let mut random = Random::new(seed);
         let rows = record(&cutter, &passes, &MATERIALS[1], &recording, &mut random);
         let account = identify(&[read(&csv(&cutter, &passes, &recording, &rows))]);
         let runout = &account.parameters[6];

@@ -1,5 +1,12 @@
 //! Units as they are written in column names and front matter, and their factors to SI.
 
+/// Farthest that a coordinate of a path or a place of a robot may lie, m: farther ones are a
+/// slip of the unit or the exponent. A choice: ten kilometres.
+pub const FARTHEST_M: f64 = 1e4;
+/// Farthest that anything lies on a robot, m: robots reach some metres, and some stand on rails. A choice; beyond, millimetres
+/// were meant.
+pub const ON_A_ROBOT_M: f64 = 20.0;
+
 /// What a unit measures; two units of one dimension convert into each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Dimension {

@@ -7,7 +7,7 @@ use super::table::Table;
 use super::test::{Kind, Test};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::V3;
-use crate::ground::units::{DEGREE, Dimension};
+use crate::ground::units::{DEGREE, Dimension, ON_A_ROBOT_M};
 use toml::Value;
 
 const HEADER: &str =
@@ -166,9 +166,6 @@ fn cubes(front: &Front) -> Outcome<Vec<Cube>> {
     Ok(found)
 }
 
-/// Farthest that a cube on a robot may lie from its base, m: no robot is longer. Beyond, millimetres were meant.
-const FARTHEST: f64 = 20.0;
-
 fn cube(value: &Value) -> Result<Cube, String> {
     let table = value.as_table().ok_or("is no table")?;
     const KNOWN: [&str; 4] = ["name", "after", "beyond", "centre_m"];
@@ -192,9 +189,10 @@ fn cube(value: &Value) -> Result<Cube, String> {
     let centre = centre
         .and_then(|c| V3::try_from(c).ok())
         .ok_or("`centre_m` is not a list of three numbers")?;
-    if centre.iter().any(|x| !x.is_finite() || x.abs() > FARTHEST) {
+    let near = -ON_A_ROBOT_M..=ON_A_ROBOT_M;
+    if !centre.iter().all(|x| near.contains(x)) {
         return Err(format!(
-            "`centre_m` lies more than {FARTHEST} m away; millimetres?"
+            "`centre_m` lies more than {ON_A_ROBOT_M} m away; millimetres?"
         ));
     }
     let beyond = match table.get("beyond") {

@@ -5,6 +5,7 @@ use super::model::{Joint, Robot};
 use super::spring::Spring;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{norm, sub};
+use crate::ground::units::ON_A_ROBOT_M;
 
 /// Refuses a robot whose dynamics cannot be computed: a link without body or mass, or a body that
 /// cannot exist. All faults are named, links without mass first.
@@ -128,7 +129,7 @@ fn far(robot: &Robot) -> Vec<Remark> {
         .iter()
         .filter_map(|joint| Some((joint.link_name.as_str(), joint.link?.com)));
     let all = points.chain(centres).chain([("tool", robot.tool.tcp)]);
-    let doubtful = all.filter(|(_, point)| norm(sub(*point, [0.0; 3])) > 20.0);
+    let doubtful = all.filter(|(_, point)| norm(sub(*point, [0.0; 3])) > ON_A_ROBOT_M);
     doubtful
         .map(|(site, _)| {
             remark(

@@ -4,10 +4,6 @@ use super::body::Body;
 use super::spring::Spring;
 use crate::ground::spatial::{IDENTITY, M3, V3, rotate_back, sub, unit};
 
-/// Farthest that anything of a robot may lie from what carries it, m: beyond, no unit explains it. What is merely doubtful is
-/// remarked ([`check::remarks`](super::check::remarks)).
-pub const FARTHEST_M: f64 = 1e4;
-
 /// A serial robot. SI units, angles in rad, geometry in the base frame with every joint at zero.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Robot {

@@ -1,9 +1,9 @@
 //! What the XML of a URDF says, before anybody asks whether it makes sense.
 
 use super::body::Body;
-use super::model::FARTHEST_M;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{Pose, V3, roll_pitch_yaw};
+use crate::ground::units::FARTHEST_M;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::{Reader, XmlVersion};
 

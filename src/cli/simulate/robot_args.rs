@@ -11,7 +11,7 @@ use crate::robot::load::{Loaded, load};
 use clap::Args;
 use std::path::Path;
 
-/// Beyond this many degrees no joint was meant: a hundred turns.
+/// Beyond this many degrees no joint was meant: a hundred turns, where the most that a robot axis makes is some dozens. A choice.
 const MOST_DEG: f64 = 36_000.0;
 
 /// Robot, posture and form of the answer.
@@ -58,13 +58,10 @@ impl RobotArgs {
             )
             .in_column("--joints-deg"));
         }
-        if self
-            .joints_deg
-            .iter()
-            .any(|q| q.is_nan() || q.abs() >= MOST_DEG)
-        {
+        let possible = -MOST_DEG..=MOST_DEG;
+        if !self.joints_deg.iter().all(|q| possible.contains(q)) {
             return Err(Problem::new(
-                "a joint angle is not finite, or a hundred turns and more",
+                "a joint angle is not finite, or beyond a hundred turns",
                 "write degrees as plain numbers",
             )
             .in_column("--joints-deg"));

@@ -92,7 +92,7 @@ fn lost(kept: &[Target]) -> Vec<f64> {
     kept.iter().filter_map(both).collect()
 }
 
-/// A mean is seen when it stands out of its standard error by this factor.
+/// A mean is seen when it stands out of its standard error by this factor: noise does so once in 740.
 const SEEN: f64 = 3.0;
 
 impl Account {

@@ -3,6 +3,7 @@
 use super::{Move, Nurbs, Orientation, PassedOver, Shape};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{Pose, V3};
+use crate::ground::units::FARTHEST_M;
 use std::path::PathBuf;
 
 /// What a reader hands back.
@@ -30,8 +31,6 @@ const MOVES: usize = 20_000_000;
 const FEEDS: std::ops::RangeInclusive<f64> = 1e-9..=1e3;
 /// Fastest spindle, rad/s: a million revolutions a minute.
 const SPINDLE: f64 = 1.1e5;
-/// Farthest coordinate, m: farther ones are a slip of the unit or the exponent.
-const FARTHEST: f64 = 1e4;
 
 impl Draft {
     /// Counts something that has no effect on the path.
@@ -77,7 +76,7 @@ impl Draft {
 fn possible(next: &Move) -> Outcome<()> {
     let feed = next.feed.is_none_or(|feed| FEEDS.contains(&feed));
     let mut blends = next.blend.iter().chain(&next.own_blend);
-    let blend = blends.all(|blend| (0.0..=FARTHEST).contains(blend));
+    let blend = blends.all(|blend| (0.0..=FARTHEST_M).contains(blend));
     let spindle = next.spindle.is_none_or(|speed| speed.abs() <= SPINDLE);
     let what = match (feed, blend, spindle) {
         (true, true, true) => return Ok(()),
@@ -93,10 +92,10 @@ fn possible(next: &Move) -> Outcome<()> {
 
 /// Refuses a point that is not finite or kilometres away.
 pub(super) fn within(point: V3) -> Outcome<()> {
-    match point.iter().all(|x| x.abs() <= FARTHEST) {
+    match point.iter().all(|x| x.abs() <= FARTHEST_M) {
         true => Ok(()),
         false => Err(Problem::new(
-            format!("the point is more than {} km away", FARTHEST * 1e-3),
+            format!("the point is more than {} km away", FARTHEST_M * 1e-3),
             "check the unit and the exponents of the coordinates",
         )),
     }

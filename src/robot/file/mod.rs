@@ -5,11 +5,11 @@ mod text;
 
 use super::body::Body;
 use super::joint_effect;
-use super::model::{ElasticAxis, FARTHEST_M, Joint, Robot, Tool};
+use super::model::{ElasticAxis, Joint, Robot, Tool};
 use super::spring::Spring;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{IDENTITY, M3, V3, scale, unit};
-use crate::ground::units::DEGREE;
+use crate::ground::units::{DEGREE, FARTHEST_M};
 use syntax::{line_of, syntax};
 use text::{BodyText, ElasticText, JointText, RobotText, SpringText, ToolText};
 
