@@ -3,6 +3,7 @@
 use crate::common;
 
 use crate::joint_motion_generator::{NAMES, STRANGE, record};
+use crate::judge;
 use ident::findings::joint_motion::{MotionDiagnosis, diagnose};
 use ident::fit::joint_motion_store::StoredMotion;
 use ident::fit::parameter::Status;
@@ -133,6 +134,16 @@ fn what_no_cause_makes_takes_no_name() {
         named[1]
     );
     assert!(named[0] as u64 * 20 <= 4 * each && named[1] as u64 * 6 <= 4 * each);
+}
+
+/// A late encoder misses nothing of its law, so that a loop and a jump a tenth as large are seen beside it.
+#[test]
+fn small_causes_are_named_beside_a_large_delay() {
+    for (seed, small) in [(54_100_036, "hysteresis"), (54_400_116, "sensor_offset")] {
+        let judged = judge::answer(judge::joint_motion::draw(seed));
+        let named = |name: &str| judged.causes.iter().any(|c| c.0 == name);
+        assert!(named("time_skew") && named(small), "{:?}", judged.causes);
+    }
 }
 
 /// The real run: front matter, header, rows.

@@ -3,22 +3,18 @@
 use super::channels::{Channels, largest};
 use super::joint::{Joint, TORQUE};
 use super::patterns::PATTERNS;
-use super::projection::{left, partial};
+use super::projection::partial;
 use super::{EFFECTS, ripple, sensor_offset};
 use crate::findings::engine::{
     Aspects, Blamed, Experiment, Judgement, Nuisance, Remaining, Statement, Suspect,
 };
 use crate::findings::load_cycle::structure::binned;
 use crate::findings::table;
-use crate::ground::stats::rms;
 
 /// Standard deviation of a declared delay, as a share of it.
 const DECLARED: f64 = 0.1;
 /// Standard deviation of the lag of twist behind torque, s: gears damp themselves, and drives filter their currents.
 const LAG_S: f64 = 0.003;
-/// Standard deviation of what laws miss of the twist over each of time, angle, torque, speed and acceleration, as a share
-/// of all that the torque leaves: a twentieth, of waves whose rms is 0.7.
-const MISSED: f64 = 0.07;
 /// Folds of rows, and pieces of time per fold: long ones, then short ones for what shows in few places.
 const FOLDS: usize = 10;
 const PIECES: [usize; 3] = [1, 5, 20];
@@ -101,7 +97,7 @@ impl Joint {
         Statement {
             reading: self.data.twist.clone(),
             noise: Box::new(self.noise.clone()),
-            nuisances: self.nuisances(),
+            nuisances: self.nuisances(about),
             suspects: self.suspects_about(about, compliance),
             span: self.span(parts),
             splits: self.splits(),
@@ -169,7 +165,7 @@ impl Joint {
 
     /// What every model has; the rest of a declared delay; damping of the gear and lag of the torque; what laws that are
     /// nearly right miss; ripples too small to speak of.
-    fn nuisances(&self) -> Vec<Nuisance> {
+    fn nuisances(&self, about: &[Blamed]) -> Vec<Nuisance> {
         let data = &self.data;
         let known = |column: Vec<f64>, spread: f64| Nuisance { column, spread };
         let free = |column| known(column, f64::INFINITY);
@@ -178,8 +174,7 @@ impl Joint {
         all.push(known(data.speed.clone(), declared));
         let lag = LAG_S * partial(&self.beside_torque(), &data.torque, &data.twist).slope;
         all.push(known(data.torque_rate.clone(), lag.abs()));
-        let missed = MISSED * rms(&left(&self.base(), &data.twist));
-        all.extend(self.misfits().into_iter().map(|c| known(c, missed)));
+        all.extend(self.missed(about));
         let small = self.waves.iter().filter(|w| w.is_small);
         all.extend(small.flat_map(|w| w.columns.clone()).map(free));
         all.retain(|n| n.spread > 0.0);

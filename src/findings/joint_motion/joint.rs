@@ -5,6 +5,7 @@ use super::channels::Channels;
 use super::friction::{Friction, sign};
 use super::gear_torque::gear_torque;
 use super::jumps::jumps;
+use super::missed::SMOOTH;
 use super::noise::Coloured;
 use super::projection::{self, partial};
 use super::ripple::{Wave, waves};
@@ -51,9 +52,7 @@ pub struct Joint {
 
 /// Shapes of every suspect beside which noise is sought: fewer leave loops in it, more would take all that is slow.
 const EACH: usize = 8;
-/// Waves of smooth structure over a channel ...
-const SMOOTH: usize = 6;
-/// ... and over time.
+/// Waves of smooth structure over time.
 const SLOW: usize = 10;
 
 impl Joint {
@@ -145,21 +144,6 @@ impl Joint {
         let taken = projection::orthonormal(&[&self.base(), parts].concat());
         let free = |c: &Vec<f64>| projection::without(&taken, DVector::from_column_slice(c));
         span.iter().map(|c| free(c).as_slice().to_vec()).collect()
-    }
-
-    /// Smooth structure over time, angle, torque, speed and acceleration, as laws that are nearly right leave it.
-    pub fn misfits(&self) -> Vec<Vec<f64>> {
-        let data = &self.data;
-        let over = [
-            &data.time,
-            &data.motor,
-            &self.geared,
-            &data.speed,
-            &data.acceleration,
-        ];
-        over.iter()
-            .flat_map(|c| smooth(&unit_range(c), SMOOTH))
-            .collect()
     }
 }
 

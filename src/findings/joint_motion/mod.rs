@@ -19,6 +19,7 @@ mod gear_torque;
 mod hysteresis;
 mod joint;
 mod jumps;
+mod missed;
 mod noise;
 mod patterns;
 mod presliding;
