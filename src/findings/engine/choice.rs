@@ -124,17 +124,28 @@ pub(super) fn drop_unreal(
         let Some((at, _)) = worst else {
             return (set, gains);
         };
-        let mut members = set.fit.members.clone();
-        members.remove(at);
-        let suspects = members
-            .iter()
-            .map(|m| bank.entries[*m].suspect)
-            .collect::<Vec<_>>();
-        set = match (posterior.set(&suspects), bank.fit(&members)) {
-            (Some(less), _) => less.clone(),
-            (None, Some(fit)) => Scored::of(bank, fit, &nothing(posterior).fit, judgement),
-            (None, None) => nothing(posterior),
-        };
+        set = less(bank, posterior, &set, at, judgement);
+    }
+}
+
+/// A set less one of its causes: as it was weighed, or fitted now.
+pub(super) fn less(
+    bank: &Bank,
+    posterior: &Posterior,
+    set: &Scored,
+    at: usize,
+    judgement: &Judgement,
+) -> Scored {
+    let mut members = set.fit.members.clone();
+    members.remove(at);
+    let suspects = members
+        .iter()
+        .map(|m| bank.entries[*m].suspect)
+        .collect::<Vec<_>>();
+    match (posterior.set(&suspects), bank.fit(&members)) {
+        (Some(less), _) => less.clone(),
+        (None, Some(fit)) => Scored::of(bank, fit, &nothing(posterior).fit, judgement),
+        (None, None) => nothing(posterior),
     }
 }
 

@@ -5,14 +5,14 @@ use super::choice::{material, nothing};
 use super::judgement::Judgement;
 use super::leaves::{Leaves, Weighing};
 use super::materiality::raw_parts;
-use super::picked::{Picked, picked};
+use super::picked::{Picked, carrying, picked};
 use super::posterior::Posterior;
 use super::rest::{Span, explained};
+use super::rounds;
 use super::search::{Scored, search};
 use super::statement::{Blamed, Experiment, Statement};
 use super::told::{answer, scattering};
 use super::verdict::name;
-use super::{carried, rounds};
 use crate::findings::answer::{Answer, Verdict};
 
 /// A finished diagnosis.
@@ -53,7 +53,11 @@ pub(super) fn stated(
     blamed: &[Blamed],
     uncertain: &[f64],
 ) -> Statement {
-    let mut statement = experiment.state_beside(blamed, uncertain);
+    shown(experiment.state_beside(blamed, uncertain))
+}
+
+/// A statement without suspects that change nothing.
+pub(super) fn shown(mut statement: Statement) -> Statement {
     for suspect in &mut statement.suspects {
         suspect.members.retain(|m| !m.columns.is_empty());
     }
@@ -84,12 +88,12 @@ pub(super) fn about(
     let nothing = nothing(&posterior).fit;
     let weighing = Weighing::new(statement, &bank, span.as_ref(), &nothing, judgement);
     let picked = picked(experiment, &weighing, &mut posterior, story.as_ref());
-    let Picked { set, leaves, gains } = picked;
     // where laws are only nearly right the spring itself is fitted, not stated: its gains are those that decided
-    let gains = match rough {
-        true => gains,
-        false => carried::told(statement, present, &bank, &set.fit),
+    let picked = match rough {
+        true => picked,
+        false => carrying(&weighing, &posterior, present, picked),
     };
+    let Picked { set, leaves, gains } = picked;
     let Leaves {
         left,
         mut uncertain,

@@ -1,11 +1,13 @@
-//! The set that is named: probable, real on unseen rows, and better than structure of any kind.
+//! The set of causes that is named: what is probable, real on unseen rows, beats structure of any kind, and is not outweighed by
+//! what it leaves.
 
-use super::choice::{choose, drop_unreal, loses_to_structure, nothing, plain, possible};
+use super::choice::{choose, drop_unreal, less, loses_to_structure, nothing, plain, possible};
 use super::leaves::{Leaves, Weighing};
+use super::materiality::in_noise;
 use super::posterior::Posterior;
 use super::search::Scored;
 use super::statement::Experiment;
-use super::unseen;
+use super::{carried, unseen};
 use crate::findings::gain::Gain;
 use crate::ground::stats::rms;
 
@@ -49,31 +51,83 @@ pub(super) fn picked(
     needed(weighing, posterior, &chosen, &kept).unwrap_or(kept)
 }
 
-/// Without companions that explain less of the unseen readings than is left of them beyond the noise, where something is: it may
-/// be they that stand for it. Where deviations are only relative to one another, what is beyond the noise is not known.
+/// With the gains as they are told, and without companions that surely make the simulation worse as it is used: they fit only where
+/// all that is uncertain moves against them, and stand for what it cannot do. The last cause stands where unseen rows plainly tell that
+/// something is wrong: what is uncertain may hide it.
+pub(super) fn carrying(
+    weighing: &Weighing,
+    posterior: &Posterior,
+    present: &[f64],
+    kept: Picked,
+) -> Picked {
+    let (statement, bank, judgement) = (weighing.statement, weighing.bank, weighing.judgement);
+    let Picked {
+        mut set,
+        mut leaves,
+        ..
+    } = kept;
+    loop {
+        let gains = carried::told(statement, present, bank, &set.fit);
+        let surely_worse =
+            |at: &usize| bank.suspects[set.suspects[*at]].named && gains[*at].ci95_percent[1] < 0.0;
+        let gained = |at: &usize| gains[*at].reduction_percent;
+        let named = set.suspects.iter().filter(|s| bank.suspects[**s].named);
+        let is_last = named.count() == 1;
+        let decided = |at: usize| unseen::gains(statement, bank, &set.fit)[at].reduction_percent;
+        let stands = |at: &usize| is_last && decided(*at) >= judgement.companion_gain;
+        let worse = (0..gains.len()).filter(|at| surely_worse(at) && !stands(at));
+        let Some(at) = worse.min_by(|a, b| gained(a).total_cmp(&gained(b))) else {
+            return Picked { set, gains, leaves };
+        };
+        set = less(bank, posterior, &set, at, judgement);
+        leaves = weighing.leaves(&set, None);
+    }
+}
+
+/// Without causes that explain less of the unseen readings than is left of them beyond the noise, where something is: it may
+/// be they that stand for it. The last one stands unless what is left is the story. Where deviations are only relative to one
+/// another, what is beyond the noise is not known.
 fn outweighed(weighing: &Weighing, posterior: &Posterior, mut kept: Picked) -> Picked {
-    let noise = &weighing.statement.noise;
-    if noise.rows() == 0.0 {
+    let (bank, judgement) = (weighing.bank, weighing.judgement);
+    if weighing.statement.noise.rows() == 0.0 {
         return kept;
     }
-    let noise = rms(noise.spread());
-    while kept.leaves.rest.is_left && kept.set.suspects.len() > 1 {
-        let each = kept.gains.iter().enumerate();
-        let least = each.min_by(|a, b| a.1.explained().total_cmp(&b.1.explained()));
-        let Some((at, gain)) = least else { break };
-        if gain.explained() >= gain.after.powi(2) - noise * noise {
-            break;
-        }
-        let mut suspects = kept.set.suspects.clone();
-        suspects.remove(at);
-        let Some(set) = posterior.set(&suspects).cloned() else {
+    let is_named = |kept: &Picked, at: usize| bank.suspects[kept.set.suspects[at]].named;
+    while kept.leaves.rest.is_left {
+        let named = (0..kept.set.suspects.len()).filter(|at| is_named(&kept, *at));
+        let named: Vec<usize> = named.collect();
+        let is_last = named.len() == 1 && kept.leaves.rest.share <= judgement.not_the_story;
+        let explained = |at: &usize| kept.gains[*at].explained();
+        let least = named
+            .into_iter()
+            .min_by(|a, b| explained(a).total_cmp(&explained(b)));
+        let Some(at) = least.filter(|_| !is_last) else {
             break;
         };
-        let gains = unseen::gains(weighing.statement, weighing.bank, &set.fit);
+        if explained(&at) >= beyond(weighing, &kept, at) {
+            break;
+        }
+        let set = less(bank, posterior, &kept.set, at, judgement);
+        let gains = unseen::gains(weighing.statement, bank, &set.fit);
         let leaves = weighing.leaves(&set, None);
         kept = Picked { set, gains, leaves };
     }
     kept
+}
+
+/// Mean square of what no cause explains beyond the noise: of unseen readings beside a cause, and of all where a pattern takes
+/// what nobody explains.
+fn beyond(weighing: &Weighing, kept: &Picked, at: usize) -> f64 {
+    let noise = &weighing.statement.noise;
+    let left = match kept.leaves.seen {
+        Some(_) => {
+            let left = in_noise(weighing.statement, &kept.leaves.left);
+            let each = left.iter().zip(noise.weights());
+            rms(&each.map(|(l, w)| l * w).collect::<Vec<_>>())
+        }
+        None => 0.0,
+    };
+    kept.gains[at].after.max(left).powi(2) - rms(noise.spread()).powi(2)
 }
 
 /// The set as it was chosen, where nothing is left beside it, and all that was dropped is probable and neither lowers nor

@@ -1,6 +1,6 @@
 //! Kinds that are not linear: what was found is stated anew until it settles, and then without each of its causes.
 
-use super::diagnosis::{Found, about, stated};
+use super::diagnosis::{Found, about, shown, stated};
 use super::judgement::Judgement;
 use super::materiality::in_noise;
 use super::statement::{Blamed, Experiment, Statement, Suspect};
@@ -33,6 +33,10 @@ struct Course<'a> {
 impl Course<'_> {
     fn stated(&self, blamed: &[Blamed], uncertain: &[f64]) -> Statement {
         stated(self.experiment, blamed, uncertain)
+    }
+
+    fn stated_among(&self, blamed: &[Blamed], uncertain: &[f64], names: &Names) -> Statement {
+        shown(self.experiment.state_among(blamed, uncertain, names))
     }
 
     fn about(&self, statement: &Statement) -> Found {
@@ -166,7 +170,7 @@ fn simpler(course: &Course, best: &Found) -> Option<Found> {
         let mut kept = best.blamed.clone();
         kept.remove(at);
         let names = names(&kept);
-        let mut statement = course.stated(&kept, &best.uncertain);
+        let mut statement = course.stated_among(&kept, &best.uncertain, &names);
         let alone = only(&mut statement, &names, |s| course.about(s));
         let alone = refitted(course, (&names, alone))?;
         instead(course, alone, best)
@@ -210,7 +214,7 @@ fn refitted(course: &Course, (names, mut found): (&Names, Found)) -> Option<Foun
         if found.blamed.len() < names.len() {
             return None;
         }
-        let mut statement = course.stated(&found.blamed, &found.uncertain);
+        let mut statement = course.stated_among(&found.blamed, &found.uncertain, names);
         let next = only(&mut statement, names, |s| course.about(s));
         let arrived = is_same(&found.blamed, &next.blamed);
         found = next;

@@ -218,6 +218,15 @@ pub trait Experiment: Sync {
     fn state_beside(&self, about: &[Blamed], _uncertain: &[f64]) -> Statement {
         self.state(about)
     }
+    /// The same where only some suspects (effect, site) are asked for; whoever else is in it is not looked at.
+    fn state_among(
+        &self,
+        about: &[Blamed],
+        uncertain: &[f64],
+        _names: &[(&'static str, String)],
+    ) -> Statement {
+        self.state_beside(about, uncertain)
+    }
     /// Whether [`Experiment::state`] depends on the causes.
     fn is_linear(&self) -> bool {
         true
