@@ -12,20 +12,20 @@ use ident::measurement::table::Table;
 use std::f64::consts::TAU;
 
 const NOMINAL: [f64; 6] = [951.365, 262.597, 323.33, 11.115, 11.314, 1.105];
-const NOISE: f64 = 3.0;
+pub(crate) const NOISE: f64 = 3.0;
 
 /// A cut as it is and as the file says it is, and what the sensor makes of it.
-struct Bench {
+pub(crate) struct Bench {
     cutter: Cutter,
     said: Vec<Pass>,
     done: Vec<Pass>,
-    truth: [f64; 6],
+    pub(crate) truth: [f64; 6],
     ring: Option<[f64; 3]>,
     bandwidth_hz: Option<f64>,
 }
 
 impl Bench {
-    fn new(teeth: usize) -> Self {
+    pub(crate) fn new(teeth: usize) -> Self {
         let pass = |feed: f64, depth: f64, width: f64, side: &'static str| Pass {
             rpm: 6000.0,
             feed,
@@ -57,7 +57,7 @@ impl Bench {
     }
 
     /// Rows of cut, time and force on the workpiece.
-    fn rows(&self) -> Vec<[f64; 5]> {
+    pub(crate) fn rows(&self) -> Vec<[f64; 5]> {
         record(
             &self.cutter,
             &self.done,
@@ -76,7 +76,7 @@ impl Bench {
         self.diagnosed(&rows)
     }
 
-    fn diagnosed(&self, rows: &[[f64; 5]]) -> Found {
+    pub(crate) fn diagnosed(&self, rows: &[[f64; 5]]) -> Found {
         let k = NOMINAL;
         let nominal = format!(
             "# nominal = {{ Ktc_N_mm2 = {}, Krc_N_mm2 = {}, Kac_N_mm2 = {}, Kte_N_mm = {}, Kre_N_mm = {}, Kae_N_mm = {}, rel_std = 0.03 }}\ncut,time_s",
@@ -104,7 +104,7 @@ impl Bench {
 }
 
 /// Everybody named, alone or in groups.
-fn names(answer: &Answer) -> Vec<(&'static str, String)> {
+pub(crate) fn names(answer: &Answer) -> Vec<(&'static str, String)> {
     let causes = answer.causes.iter().map(|c| (c.effect, c.site.clone()));
     let groups = answer.groups.iter().flat_map(|g| {
         let each = g.effects.iter().zip(&g.sites);
@@ -113,7 +113,7 @@ fn names(answer: &Answer) -> Vec<(&'static str, String)> {
     causes.chain(groups).collect()
 }
 
-fn is_named(found: &Found, effect: &str) {
+pub(crate) fn is_named(found: &Found, effect: &str) {
     let answer = &found.answer;
     let named = names(answer);
     let held = named.iter().any(|n| n.0 == effect);

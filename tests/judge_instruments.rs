@@ -90,6 +90,20 @@ fn a_bend_is_no_companion() {
     }
 }
 
+/// A depth stood beside what rings and a width: it fitted only where all that is uncertain moved against it, and tripled the error of the
+/// simulation as it is used. A drift does that as well where it is all that is wrong, and unseen rows tell of it.
+#[test]
+fn a_companion_that_makes_the_simulation_worse_is_none() {
+    for (seed, expected) in [
+        (50_100_009, vec!["sensor_resonance", "width_of_cut"]),
+        (50_300_018, vec!["thermal_drift"]),
+    ] {
+        let mut all = names(seed);
+        all.sort();
+        assert_eq!(all, expected, "{seed}");
+    }
+}
+
 /// A speed that is accounted for turns no tooth: the angles were sought again as if it were not, and a depth was named in the
 /// one, a drift in the other.
 #[test]

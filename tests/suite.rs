@@ -38,6 +38,7 @@ mod diagnose_campaign;
 mod diagnose_hammer;
 mod diagnose_joint_motion;
 mod diagnose_milling_force;
+mod diagnose_milling_noise;
 mod diagnose_present;
 mod diagnose_workspace;
 mod effects_contract;

@@ -121,6 +121,11 @@ impl<'a, S: Scalar> Wave<'a, S> {
     /// The sums when tooth 1 stands at `spindle` (rad) at the tip. `blur` (rad) is the least angle over
     /// which an entry or exit is spread: the distance of the samples if the wave is to be filtered.
     pub fn basis(&self, spindle: S, blur: f64) -> Basis<S> {
+        self.basis_of(spindle, blur, |chip| chip)
+    }
+
+    /// The same where the first three sums are of some function of the chip's thickness (m), above zero, in its place.
+    pub fn basis_of(&self, spindle: S, blur: f64, chip: impl Fn(S) -> S) -> Basis<S> {
         let mut sums = [[S::constant(0.0); 3]; 6];
         let [sin, cos] = spindle.sin_cos();
         let plain = [sin.value(), cos.value()];
@@ -133,7 +138,7 @@ impl<'a, S: Scalar> Wave<'a, S> {
                     continue;
                 }
                 let direction = [sin * *c + cos * *s, cos * *c - sin * *s];
-                self.add(&mut sums, disc, direction, tooth, tips, blur);
+                self.add(&mut sums, (disc, tooth, tips), direction, blur, &chip);
             }
         }
         sums
@@ -151,11 +156,10 @@ impl<'a, S: Scalar> Wave<'a, S> {
     fn add(
         &self,
         sums: &mut Basis<S>,
-        disc: &Disc,
+        (disc, tooth, tips): (&Disc, usize, &[Tip<S>]),
         mut direction: [S; 2],
-        tooth: usize,
-        tips: &[Tip<S>],
         blur: f64,
+        chip: &impl Fn(S) -> S,
     ) {
         let mut bite = self.steady.bite(direction, tooth, tips);
         let lag = disc.lag_width_rad;
@@ -171,7 +175,7 @@ impl<'a, S: Scalar> Wave<'a, S> {
             bite = self.steady.bite(direction, tooth, tips);
         }
         let length = share * disc.edge_m;
-        let area = bite.thickness.max(S::constant(0.0)) * disc.normal[0] * length;
+        let area = chip(bite.thickness.max(S::constant(0.0))) * disc.normal[0] * length;
         let turned = Direction {
             tooth: direction,
             normal: disc.normal,

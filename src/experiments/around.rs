@@ -85,7 +85,10 @@ impl Passage {
             all.push(Complex64::new(0.0, 0.0));
             all
         };
-        if self.resonant.is_none_or(|resonant| resonant.axis.is_none()) {
+        if self
+            .resonant
+            .is_none_or(|resonant| resonant.axes == [true; 3])
+        {
             let alike = all(0);
             return [alike.clone(), alike.clone(), alike];
         }

@@ -34,11 +34,11 @@ pub const BORDER: usize = 12;
 
 /// Teeth are straight below this lag along the edge of one cut, rad.
 const STRAIGHT: f64 = 2e-3;
-/// Fewest samples of a revolution that is low-passed, and how many there are to an oscillation at the corner.
-const GRID: usize = 1440;
+/// Fewest samples of a revolution that is low-passed, of teeth along a helix and of straight ones, whose force jumps; the most;
+/// and how many there are to an oscillation at the corner. Forces are exact to 1.2e-3.
+const GRID: [usize; 2] = [360, 1440];
+const GRID_MOST: usize = 11_520;
 const PER_OSCILLATION: f64 = 32.0;
-/// Most doublings of the samples.
-const DOUBLINGS: u32 = 3;
 
 /// One cut with its samples.
 #[derive(Debug, Clone)]
@@ -103,8 +103,11 @@ impl CutScene {
 
     /// Whether the force jumps: teeth that are straight, and nothing that spreads their entry.
     pub fn jumps(&self) -> bool {
-        let lag = self.tool.helix_rad.tan().abs() * self.cut.depth_m / self.tool.radius_m;
-        self.is_direct() && lag < STRAIGHT
+        self.is_direct() && self.is_straight()
+    }
+
+    fn is_straight(&self) -> bool {
+        self.tool.helix_rad.tan().abs() * self.cut.depth_m < STRAIGHT * self.tool.radius_m
     }
 
     /// Whether the file holds the force itself.
@@ -114,16 +117,28 @@ impl CutScene {
 
     /// Forces at `p` without their slopes, N: a fraction of the work.
     pub fn force(&self, p: &[f64; UNKNOWNS]) -> Vec<V3> {
-        let wave = self.wave(p, |value, _| value);
-        let at = |angle: f64, blur: f64| force(&wave.basis(angle, blur), &p[..6]);
-        let angles = self.angles(p).into_iter();
-        if self.is_direct() {
-            return angles.map(|angle| at(angle, 0.0)).collect();
+        self.force_of(p, |chip| chip)
+    }
+
+    /// The same where the force stands to some function of the chip's thickness (m) as to the thickness itself.
+    pub fn force_of(&self, p: &[f64; UNKNOWNS], chip: impl Fn(f64) -> f64) -> Vec<V3> {
+        if !self.is_direct() {
+            return self.read_of(p, self.grid(p), chip);
         }
-        let (grid, pass) = self.grid(p);
+        let wave = self.wave(p, |value, _| value);
+        let at = |angle: f64| force(&wave.basis_of(angle, 0.0, &chip), &p[..6]);
+        self.angles(p).into_iter().map(at).collect()
+    }
+
+    /// The same by a revolution of this many samples behind the instrument.
+    fn read_of(&self, p: &[f64; UNKNOWNS], grid: usize, chip: impl Fn(f64) -> f64) -> Vec<V3> {
+        let wave = self.wave(p, |value, _| value);
         let step = TAU / grid as f64;
-        let around: Vec<V3> = (0..grid).map(|i| at(i as f64 * step, step)).collect();
-        let passed = pass.plain(&around);
+        let at = |i: usize| force(&wave.basis_of(i as f64 * step, step, &chip), &p[..6]);
+        let passed = self
+            .passage(p, grid)
+            .plain(&(0..grid).map(at).collect::<Vec<_>>());
+        let angles = self.angles(p).into_iter();
         angles
             .map(|angle| Place::of(angle, grid).read(&passed))
             .collect()
@@ -161,27 +176,40 @@ impl CutScene {
         predicted
     }
 
-    /// Samples of a revolution, and the instrument for them.
-    fn grid(&self, p: &[f64; UNKNOWNS]) -> (usize, Passage) {
-        let hertz = self.cut.spindle_rad_s / TAU;
-        let corner = self.low_pass.then(|| p[BANDWIDTH].exp());
+    /// Samples of a revolution.
+    fn grid(&self, p: &[f64; UNKNOWNS]) -> usize {
         let own = self
             .resonant
             .map_or(0.0, |resonant| resonant.resonance.at[0]);
-        let grid = samples_around(hertz, corner.unwrap_or(0.0).max(own));
-        (grid, Passage::new(grid, hertz, corner, self.resonant))
+        let corner = self.corner(p).unwrap_or(0.0);
+        let fewest = PER_OSCILLATION * corner.max(own) * TAU / self.cut.spindle_rad_s;
+        let mut grid = GRID[usize::from(self.is_straight())];
+        while grid < GRID_MOST && (grid as f64) < fewest {
+            grid *= 2;
+        }
+        grid
+    }
+
+    fn corner(&self, p: &[f64; UNKNOWNS]) -> Option<f64> {
+        self.low_pass.then(|| p[BANDWIDTH].exp())
+    }
+
+    /// The instrument for a revolution of this many samples.
+    fn passage(&self, p: &[f64; UNKNOWNS], grid: usize) -> Passage {
+        let hertz = self.cut.spindle_rad_s / TAU;
+        Passage::new(grid, hertz, self.corner(p), self.resonant)
     }
 
     fn filtered(&self, p: &[f64; UNKNOWNS]) -> Predicted {
         let wave = self.wave(p, D::variable);
-        let (grid, pass) = self.grid(p);
+        let grid = self.grid(p);
         let step = TAU / grid as f64;
         let mut around = Predicted::zeros(grid);
         for i in 0..grid {
             let basis = wave.basis(D::constant(i as f64 * step), step);
             around.set(i, &basis, &force(&basis, &p[..6]));
         }
-        let passed = Predicted::passed(&around, &pass);
+        let passed = Predicted::passed(&around, &self.passage(p, grid));
         let rate = self.cut.spindle_rad_s;
         let mut predicted = Predicted::zeros(self.time.len());
         for (i, angle) in self.angles(p).into_iter().enumerate() {
@@ -195,13 +223,6 @@ impl CutScene {
         }
         predicted
     }
-}
-
-/// Samples of a revolution that show what passes a corner (Hz).
-fn samples_around(spindle_hz: f64, corner_hz: f64) -> usize {
-    let fewest = PER_OSCILLATION * corner_hz / spindle_hz;
-    let doubled = (0..DOUBLINGS).take_while(|k| ((GRID << k) as f64) < fewest);
-    GRID << doubled.count()
 }
 
 impl Predicted {

@@ -17,8 +17,8 @@ pub struct Resonance {
 pub struct Resonant {
     /// The resonance.
     pub resonance: Resonance,
-    /// Its axis; none: all.
-    pub axis: Option<usize>,
+    /// The axes that ring.
+    pub axes: [bool; 3],
     /// Share of the force that passes it.
     pub share: f64,
 }
@@ -48,7 +48,7 @@ impl Resonant {
             true => alone.into(),
             false => low,
         };
-        match self.axis.is_none_or(|own| own == axis) {
+        match self.axes[axis] {
             true => low + (before * self.resonance.magnified(line_hz) - low) * self.share,
             false => low,
         }

@@ -31,6 +31,7 @@ pub mod off_axis;
 pub mod outliers;
 pub mod play;
 pub mod pulse;
+pub mod relaxation;
 pub mod smooth;
 pub mod spectrum;
 pub mod stabilisation;

@@ -26,13 +26,13 @@ fn scene(low_pass: bool) -> (CutScene, [f64; UNKNOWNS]) {
     (scene, p)
 }
 
-fn resonant(axis: Option<usize>, instead: bool) -> Resonant {
+fn resonant(axes: [bool; 3], instead: bool) -> Resonant {
     Resonant {
         resonance: Resonance {
             at: [700.0, 0.05],
             instead,
         },
-        axis,
+        axes,
         share: 0.9,
     }
 }
@@ -42,9 +42,9 @@ fn slopes_are_those_of_differences() {
     let sensors = [
         (true, None),
         (false, None),
-        (true, Some(resonant(Some(1), false))),
-        (true, Some(resonant(None, true))),
-        (false, Some(resonant(None, false))),
+        (true, Some(resonant([false, true, false], false))),
+        (true, Some(resonant([true; 3], true))),
+        (false, Some(resonant([true; 3], false))),
     ];
     for (low_pass, resonant) in sensors {
         let (mut scene, p) = scene(low_pass);
@@ -80,7 +80,7 @@ fn slopes_are_those_of_differences() {
 fn forces_alone_are_the_same() {
     for low_pass in [true, false] {
         let (mut scene, p) = scene(low_pass);
-        scene.resonant = low_pass.then(|| resonant(Some(0), false));
+        scene.resonant = low_pass.then(|| resonant([true, false, false], false));
         let (alone, with) = (scene.force(&p), scene.predict(&p).force);
         let pairs = alone.iter().flatten().zip(with.iter().flatten());
         assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-9));
@@ -97,4 +97,31 @@ fn a_wide_low_pass_changes_nothing_and_keeps_the_mean() {
     let rms = |f: &dyn Fn(usize) -> f64| (0..400).map(|i| f(i).powi(2)).sum::<f64>().sqrt();
     let off = rms(&|i| wide.force[i][1] - ideal.force[i][1]);
     assert!(off < 0.02 * rms(&|i| ideal.force[i][1]), "{off}");
+}
+
+#[test]
+fn a_revolution_is_sampled_finely_enough() {
+    let mut worst: f64 = 0.0;
+    for (helix_deg, teeth, width) in [
+        (0.0, 2, 1e-3),
+        (30.0, 3, 5e-3),
+        (45.0, 4, 2e-3),
+        (5.0, 1, 8e-3),
+    ] {
+        for corner in [150.0, 900.0, 3500.0] {
+            let (mut scene, mut p) = scene(true);
+            scene.tool = Tool::square(8e-3, teeth, f64::to_radians(helix_deg));
+            (p[WIDTH], p[BANDWIDTH]) = (width, f64::ln(corner));
+            let enough = scene.grid(&p);
+            let read = |grid: usize| scene.read_of(&p, grid, |chip| chip);
+            let (here, fine) = (read(enough), read(8 * GRID_MOST));
+            let size = |of: &dyn Fn(usize, usize) -> f64| {
+                let all = (0..here.len()).flat_map(|i| (0..3).map(move |k| (i, k)));
+                all.map(|(i, k)| of(i, k).powi(2)).sum::<f64>().sqrt()
+            };
+            let off = size(&|i, k| here[i][k] - fine[i][k]) / size(&|i, k| fine[i][k]);
+            worst = worst.max(off);
+        }
+    }
+    assert!(worst < 1.2e-3, "{worst}");
 }

@@ -38,8 +38,8 @@ struct Anew {
     followed: Vec<f64>,
 }
 
-/// The statement about some causes.
-pub(super) fn about(case: &Case, blamed: &[Blamed]) -> Statement {
+/// The statement about some causes, with the suspects that are asked for.
+pub(super) fn about(case: &Case, blamed: &[Blamed], asked: impl Fn(&str) -> bool) -> Statement {
     let anew = Anew::of(case, blamed);
     let mut statement = anew.all.statement();
     let reading = &mut statement.reading;
@@ -51,11 +51,11 @@ pub(super) fn about(case: &Case, blamed: &[Blamed]) -> Statement {
         add_to(reading, &forces, 1.0);
         add_to(reading, &without.forces(), -1.0);
     }
-    let mut suspects: Vec<Suspect> = EFFECTS.iter().flat_map(|e| anew.suspects(e)).collect();
-    suspects.extend(table::patterns(
-        PATTERNS,
-        anew.still.as_ref().unwrap_or(&anew.all),
-    ));
+    let effects = EFFECTS.iter().filter(|e| asked(e.name));
+    let mut suspects: Vec<Suspect> = effects.flat_map(|e| anew.suspects(e)).collect();
+    let beside = anew.still.as_ref().unwrap_or(&anew.all);
+    let patterns = PATTERNS.iter().filter(|p| asked(p.name));
+    suspects.extend(patterns.flat_map(|p| table::patterns(std::slice::from_ref(p), beside)));
     Statement {
         suspects,
         ..statement

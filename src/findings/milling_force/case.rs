@@ -6,6 +6,7 @@ mod samples;
 
 use super::aim::Aim;
 use super::lines::{Line, lines};
+use super::noise::{Colour, Filter};
 use super::sensor::{SOUND, Sensor};
 use super::setting::{Places, Present, Setting, Slopes};
 use super::start::fitted;
@@ -42,6 +43,8 @@ struct Data {
     lines: Vec<Line>,
     stated: bool,
     noise: Vec<f64>,
+    /// What whitens it; none: it is white.
+    filter: Option<Arc<Filter>>,
     worth: f64,
     nominal: [f64; 6],
 }
@@ -76,9 +79,12 @@ impl Case {
         for (i, cut) in cuts.iter().enumerate() {
             offset[places.speed(i)] = cut.present.speed;
         }
+        let colour = Colour::of(&account, &cuts);
+        let times: Vec<f64> = cuts.iter().flat_map(|c| &c.time).copied().collect();
         let data = Data {
-            lines: lines(&account, &cuts),
-            noise: noise(&file.facts, &account),
+            lines: lines(&account, &cuts, colour.as_ref()),
+            noise: noise(&file.facts, &account, colour.as_ref()),
+            filter: colour.map(|c| Arc::new(c.filter(&times))),
             worth: WORTH[usize::from(file.facts.sensor_noise_n.is_none())],
             file,
             cuts,
@@ -173,6 +179,11 @@ impl Case {
     /// Noise of x, y and z, N.
     pub(super) fn noise(&self) -> &[f64] {
         &self.data.noise
+    }
+
+    /// What whitens the noise; none: it is white.
+    pub(super) fn filter(&self) -> Option<Arc<Filter>> {
+        self.data.filter.clone()
     }
 
     /// Spread of every row, N.

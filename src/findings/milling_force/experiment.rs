@@ -1,11 +1,14 @@
 //! The statement of a milling-force file for the engine.
 
 use super::aim::Loose;
+use super::noise::Coloured;
 use super::patterns::PATTERNS;
 use super::{Case, EFFECTS};
 use crate::cutting::wave::Side;
 use crate::experiments::milling_force::RUNOUT;
-use crate::findings::engine::{Aspects, Blamed, Experiment, Nuisance, Remaining, Statement, White};
+use crate::findings::engine::{
+    Aspects, Blamed, Experiment, Noise, Nuisance, Remaining, Statement, White,
+};
 use crate::findings::table;
 use crate::ground::stats::rms;
 use crate::sheet::number::fixed;
@@ -15,6 +18,8 @@ use std::f64::consts::TAU;
 const SPEED: f64 = 5e-4;
 /// Spread of a width that is as stated, m.
 pub(super) const WIDTH_SPREAD: f64 = 2e-5;
+/// Spread of a depth that is as stated, m: tools are set to the stock by paper or a probe. A choice.
+pub(super) const DEPTH_SPREAD: f64 = 2e-5;
 /// Share of a stated runout within which it is as stated.
 const RUNOUT_SHARE: f64 = 0.15;
 /// Share of it by which its tip may stand aside: nobody states where it points.
@@ -46,8 +51,17 @@ impl Experiment for Case {
                 .concat(),
                 ..self.statement()
             },
-            _ => super::anew::about(self, about),
+            _ => super::anew::about(self, about, |_| true),
         }
+    }
+
+    fn state_among(
+        &self,
+        about: &[Blamed],
+        _uncertain: &[f64],
+        names: &[(&'static str, String)],
+    ) -> Statement {
+        super::anew::about(self, about, |effect| names.iter().any(|n| n.0 == effect))
     }
 
     fn parameters(&self, blamed: &Blamed) -> Vec<(&'static str, f64, &'static str)> {
@@ -107,15 +121,24 @@ impl Case {
     pub(super) fn statement(&self) -> Statement {
         Statement {
             reading: self.reading(),
-            noise: Box::new(White {
-                spread: self.spread(),
-                rows: self.worth(),
-            }),
+            noise: self.noise_of_rows(),
             nuisances: self.nuisances(),
             suspects: Vec::new(),
             span: self.span(),
             splits: self.splits(),
             aspects: self.aspects(),
+        }
+    }
+
+    fn noise_of_rows(&self) -> Box<dyn Noise> {
+        let (spread, rows) = (self.spread(), self.worth());
+        match self.filter() {
+            Some(filter) => Box::new(Coloured {
+                filter,
+                spread,
+                rows,
+            }),
+            None => Box::new(White { spread, rows }),
         }
     }
 
@@ -140,6 +163,7 @@ impl Case {
         for (c, cut) in self.cuts().iter().enumerate() {
             all.push(loose(places.phase(c), self.turn(c)));
             all.push(loose(places.speed(c), SPEED));
+            all.push(loose(places.depth(c), DEPTH_SPREAD));
             if cut.present.scene.cut.side != Side::Slot {
                 all.push(loose(places.width(c), WIDTH_SPREAD));
             }

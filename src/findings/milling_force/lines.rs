@@ -1,6 +1,7 @@
 //! Lines of the spectrum between the harmonics of the spindle, in what a fit of the whole cut leaves.
 
 use super::case::CutSamples;
+use super::noise::Colour;
 use crate::fit::cut_force::{Account, CutFit};
 use crate::ground::stats::median;
 use rustfft::FftPlanner;
@@ -24,28 +25,37 @@ const HIGH: f64 = 18.0;
 const MOST: usize = 2;
 /// Resolutions within which a line belongs to a harmonic of the spindle: its place is told to a tenth of one.
 const NEAR: f64 = 0.6;
+/// Share of the rate of sampling from which a line may be a harmonic folded at half of it: farther beyond, none is high.
+const FOLDED: f64 = 0.375;
 /// Times by which the record is lengthened with zeros.
 const FINER: usize = 4;
 
-/// The lines of all cuts, by cut, the highest first.
-pub fn lines(account: &Account, cuts: &[CutSamples]) -> Vec<Line> {
+/// The lines of all cuts, by cut, the highest first; `colour`: that of the noise they stand out of, none where it is white.
+pub fn lines(account: &Account, cuts: &[CutSamples], colour: Option<&Colour>) -> Vec<Line> {
     let each = account.cuts.iter().zip(cuts).enumerate();
-    each.flat_map(|(i, (fit, cut))| of_cut(i, fit, cut))
+    each.flat_map(|(i, (fit, cut))| of_cut(i, fit, cut, colour))
         .collect()
 }
 
-fn of_cut(number: usize, fit: &CutFit, cut: &CutSamples) -> Vec<Line> {
+fn of_cut(number: usize, fit: &CutFit, cut: &CutSamples, colour: Option<&Colour>) -> Vec<Line> {
     let time = &fit.data.scene.time;
     let length = time.last().copied().unwrap_or(0.0);
     if length <= 0.0 {
         return Vec::new();
     }
     let spindle_hz = cut.present.scene.cut.spindle_rad_s / TAU;
-    let (power, step_hz) = power(fit, length);
-    let between = |hz: f64| {
+    let (mut power, step_hz) = power(fit, length);
+    if let Some(colour) = colour {
+        let each = power.iter_mut().enumerate();
+        each.for_each(|(i, p)| *p /= colour.power(i as f64 * step_hz));
+    }
+    let is_off = |hz: f64| {
         let turn = (hz / spindle_hz).rem_euclid(1.0);
         turn.min(1.0 - turn) * spindle_hz > NEAR / length
     };
+    // a harmonic beyond half the rate of sampling is folded back
+    let rate = step_hz * (2 * power.len()) as f64;
+    let between = |hz: f64| is_off(hz) && (hz < FOLDED * rate || is_off(rate - hz));
     let typical = median(&power).max(f64::MIN_POSITIVE);
     let mut found: Vec<Line> = (FINER..power.len().saturating_sub(1))
         .filter(|i| power[*i] >= power[i - 1] && power[*i] > power[i + 1])

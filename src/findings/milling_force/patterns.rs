@@ -1,6 +1,8 @@
 //! Forces that no cause of the library makes. They compete with the causes and are never named.
 
 use super::Case;
+use super::lines::Line;
+use super::setting::Places;
 use crate::findings::engine::Member;
 use crate::findings::table::{self, Pattern};
 use crate::inference::gaussian::Size;
@@ -24,53 +26,136 @@ pub(super) const PATTERNS: &[Pattern<Case>] = &[
         summary: "a channel is not in proportion to its force",
         members: bends,
     },
+    Pattern {
+        name: "sway",
+        summary: "the spindle runs unevenly: the angle of the teeth swings within the cuts",
+        members: sways,
+    },
+    Pattern {
+        name: "swing",
+        summary: "the spindle runs unevenly: the angle of the teeth swings at a frequency of its own",
+        members: swings,
+    },
+    Pattern {
+        name: "swing",
+        summary: "the spindle runs unevenly: the angle of the teeth swings at one frequency",
+        members: swings,
+    },
+    Pattern {
+        name: "law",
+        summary: "the force is not in proportion to the thickness of the chip",
+        members: laws,
+    },
 ];
 
 /// Pieces of the record whose force may be more or less than simulated.
 const PIECES: usize = 24;
 /// Harmonics of the mains that are tried: rectifiers make them.
 const HARMONICS: [f64; 3] = [1.0, 2.0, 3.0];
-/// Nats from which a hum is worth a comparison.
-const HUM: f64 = 12.0;
+/// Nats from which a hum or a swing is worth a comparison.
+const SEEN: f64 = 12.0;
 
 /// Within the cuts: what differs from cut to cut is what causes do.
 fn uneven(case: &Case) -> Vec<Member> {
-    let hat = |piece: usize| {
-        let near = |c: usize, i: usize| {
-            let apart = case.progress(c, i) * (PIECES - 1) as f64 - piece as f64;
-            (1.0 - apart.abs()).max(0.0)
-        };
-        let means = case.cuts().iter().enumerate().map(|(c, cut)| {
-            let count = cut.time.len();
-            (0..count).map(|i| near(c, i)).sum::<f64>() / count.max(1) as f64
-        });
-        let means: Vec<f64> = means.collect();
-        case.column(|c, i, k| (near(c, i) - means[c]) * case.simulated(c, i)[k])
+    let forces = case.forces();
+    table::flexible(
+        (0..PIECES)
+            .map(|piece| within(case, piece, &forces))
+            .collect(),
+    )
+}
+
+/// What a milliradian of the spindle changes.
+fn turned(case: &Case) -> Vec<f64> {
+    let places = case.places();
+    case.along(&places.of_every_cut(Places::phase, |_| 1e-3))
+}
+
+/// The angle of the teeth, in the same pieces.
+fn sways(case: &Case) -> Vec<Member> {
+    let turned = turned(case);
+    table::flexible(
+        (0..PIECES)
+            .map(|piece| within(case, piece, &turned))
+            .collect(),
+    )
+}
+
+/// The angle of the teeth at a frequency that makes a line of the spectrum beside a harmonic of the spindle or of its teeth, in every cut
+/// with a phase of its own.
+fn swings(case: &Case) -> Vec<Member> {
+    let turned = turned(case);
+    let swung = |hz: f64| {
+        waves(case, hz, |c, i, k| {
+            turned[3 * (case.cuts()[c].first + i) + k]
+        })
     };
-    table::flexible((0..PIECES).map(hat).collect())
+    let beside = |line: &Line| {
+        let spindle = case.cuts()[line.cut].present.scene.cut.spindle_rad_s / TAU;
+        [1, case.places().teeth].map(|teeth| {
+            let harmonic = spindle * teeth as f64;
+            let turn = (line.frequency_hz / harmonic).rem_euclid(1.0);
+            swung(turn.min(1.0 - turn) * harmonic)
+        })
+    };
+    best(case, case.lines().iter().flat_map(beside))
+}
+
+/// The columns that suit the readings best, where they are worth a comparison.
+fn best(case: &Case, tried: impl Iterator<Item = Vec<Vec<f64>>>) -> Vec<Member> {
+    let gains = tried.map(|w| (case.aim().gain_of(&w), w));
+    let best = gains.reduce(|a, b| if b.0 > a.0 { b } else { a });
+    let worth = best.filter(|(gain, _)| *gain > SEEN).into_iter();
+    worth.flat_map(|(_, w)| table::flexible(w)).collect()
+}
+
+/// A column at a frequency, in every cut with a phase of its own.
+fn waves(case: &Case, hz: f64, of: impl Fn(usize, usize, usize) -> f64) -> Vec<Vec<f64>> {
+    let phases = (0..case.cuts().len()).flat_map(|cut| [0.0, 0.25].map(|q| (cut, q)));
+    let one = |(cut, quarter): (usize, f64)| {
+        case.column(|c, i, k| match c == cut {
+            true => of(c, i, k) * (TAU * (hz * case.cuts()[c].time[i] - quarter)).cos(),
+            false => 0.0,
+        })
+    };
+    phases.map(one).collect()
+}
+
+/// A column in a piece of the file, less its share of every cut.
+fn within(case: &Case, piece: usize, column: &[f64]) -> Vec<f64> {
+    let near = |c: usize, i: usize| {
+        let apart = case.progress(c, i) * (PIECES - 1) as f64 - piece as f64;
+        (1.0 - apart.abs()).max(0.0)
+    };
+    let means = case.cuts().iter().enumerate().map(|(c, cut)| {
+        let count = cut.time.len();
+        (0..count).map(|i| near(c, i)).sum::<f64>() / count.max(1) as f64
+    });
+    let means: Vec<f64> = means.collect();
+    case.column(|c, i, k| (near(c, i) - means[c]) * column[3 * (case.cuts()[c].first + i) + k])
+}
+
+/// Thickness of a chip in which its logarithm is counted, m: what a power makes of it is a coefficient as well.
+const CHIP: f64 = 5e-5;
+/// Powers of the logarithm: a force by a power of the chip (Kienzle 1952) is their sum.
+const POWERS: [i32; 2] = [1, 2];
+
+/// Tangential, radial and axial force over the chip's thickness times its logarithm.
+fn laws(case: &Case) -> Vec<Member> {
+    let columns = POWERS.iter().flat_map(|power| {
+        let bent = move |h: f64| h * (h.max(1e-9) / CHIP).ln().powi(*power);
+        (0..3).map(move |own| case.of_chips(own, bent))
+    });
+    table::flexible(columns.collect())
 }
 
 /// One channel at the frequency that suits it best, in every cut with a phase of its own.
 fn hums(case: &Case) -> Vec<Member> {
-    let wave = |axis: usize, hz: f64| -> Vec<Vec<f64>> {
-        let phases = (0..case.cuts().len()).flat_map(|cut| [0.0, 0.25].map(|q| (cut, q)));
-        let one = |(cut, quarter): (usize, f64)| {
-            case.column(|c, i, k| match c == cut && k == axis {
-                true => (TAU * (hz * case.cuts()[c].time[i] - quarter)).cos(),
-                false => 0.0,
-            })
-        };
-        phases.map(one).collect()
+    let tried = |axis: usize| {
+        let harmonics = HARMONICS.iter().flat_map(|n| MAINS_HZ.map(|hz| n * hz));
+        harmonics.map(move |hz| waves(case, hz, |_, _, k| f64::from(u8::from(k == axis))))
     };
-    let best = |axis: usize| {
-        let tried = HARMONICS.iter().flat_map(|n| MAINS_HZ.map(|hz| n * hz));
-        let waves = tried.map(|hz| wave(axis, hz));
-        let gains = waves.map(|w| (case.aim().gain_of(&w), w));
-        gains.reduce(|a, b| if b.0 > a.0 { b } else { a })
-    };
-    let waves = (0..3).filter_map(best);
-    let worth = waves.filter(|(gain, _)| *gain > HUM);
-    worth.flat_map(|(_, w)| table::flexible(w)).collect()
+    (0..3).flat_map(|axis| best(case, tried(axis))).collect()
 }
 
 /// Shares of its largest force from which a channel may show less.

@@ -67,12 +67,12 @@ impl<'a> Lines<'a> {
         self.range[1]
     }
 
-    /// The best resonance of one axis (3: of all), beside the low pass that is stated or in its place.
-    pub fn best(&self, axis: usize, instead: bool) -> Ringing {
+    /// The best resonance of some axes, beside the low pass that is stated or in its place.
+    pub fn best(&self, axes: [bool; 3], instead: bool) -> Ringing {
         let [low, high] = self.range;
         let hz = |i: usize| low * (high / low).powf(i as f64 / (STEPS - 1) as f64);
         let grid = (0..STEPS).flat_map(|i| DAMPING.map(|d| [hz(i), d]));
-        let fitted = |at: [f64; 2]| self.fitted(axis, Resonance { at, instead });
+        let fitted = |at: [f64; 2]| self.fitted(axes, Resonance { at, instead });
         let all = grid.map(fitted);
         let least = |a: Ringing, b: Ringing| if b.misfit < a.misfit { b } else { a };
         let mut best = all
@@ -100,17 +100,17 @@ impl<'a> Lines<'a> {
             at: [f64::INFINITY, 0.0],
             instead: false,
         };
-        self.fitted(0, resonance).misfit
+        self.fitted([false; 3], resonance).misfit
     }
 
-    fn fitted(&self, axis: usize, resonance: Resonance) -> Ringing {
+    fn fitted(&self, axes: [bool; 3], resonance: Resonance) -> Ringing {
         let mut found = Ringing {
             resonance,
             turns: Vec::new(),
             misfit: 0.0,
         };
         for cut in &self.cuts {
-            let (turn, misfit) = self.turn(cut, axis, resonance);
+            let (turn, misfit) = self.turn(cut, axes, resonance);
             found.turns.push(turn);
             // a line's parts scatter by twice the noise over the root of its samples
             found.misfit += 0.25 * cut.samples * misfit;
@@ -119,7 +119,7 @@ impl<'a> Lines<'a> {
     }
 
     /// Angle that suits a cut best, and what it leaves.
-    fn turn(&self, cut: &Cut, axis: usize, resonance: Resonance) -> (f64, f64) {
+    fn turn(&self, cut: &Cut, axes: [bool; 3], resonance: Resonance) -> (f64, f64) {
         let parts: Vec<(f64, f64, Complex64)> = cut
             .lines
             .iter()
@@ -128,7 +128,7 @@ impl<'a> Lines<'a> {
                 let mut square = 0.0;
                 let mut cross = Complex64::new(0.0, 0.0);
                 for k in 0..3 {
-                    let own = match axis == k || axis == 3 {
+                    let own = match axes[k] {
                         true => simulated[k] * rings,
                         false => simulated[k],
                     };

@@ -24,8 +24,10 @@ pub(super) const EFFECT: Effect<Case> = Effect {
             ("damping_ratio", blamed.shape[3], "1"),
             ("share", blamed.amounts[0], "1"),
         ];
-        if blamed.shape[1] < 3.0 {
-            told.push(("axis", blamed.shape[1], "1"));
+        let axes = AXES[blamed.shape[1] as usize];
+        match axes {
+            [true, true, true] => {}
+            _ => told.extend((0..3).filter(|k| axes[*k]).map(|k| ("axis", k as f64, "1"))),
         }
         told
     },
@@ -44,8 +46,14 @@ const ROUNDS: usize = 3;
 const TRIED: usize = 2;
 /// Squared noise deviations that a resonance must take of the lines to be looked at further.
 const SEEN: f64 = 20.0;
-/// All axes.
-const ALL: usize = 3;
+/// Axes that ring: one, all, or those of the table, across which a plate on four cells is soft.
+const AXES: [[bool; 3]; 5] = [
+    [true, false, false],
+    [false, true, false],
+    [false, false, true],
+    [true, true, true],
+    [true, true, false],
+];
 
 /// The best of every axis and of all, brought closer.
 fn members(case: &Case) -> Vec<Member> {
@@ -54,15 +62,17 @@ fn members(case: &Case) -> Vec<Member> {
     let silent = lines.silent();
     let passes = case.cuts().iter().any(|c| c.present.scene.low_pass);
     let ways: &[bool] = if passes { &[false, true] } else { &[false] };
-    let tried = ways.iter().flat_map(|w| (0..=ALL).map(|axis| (axis, *w)));
+    let tried = ways
+        .iter()
+        .flat_map(|w| (0..AXES.len()).map(|axes| (axes, *w)));
     let mut all: Vec<(usize, Ringing)> = tried
-        .map(|(axis, instead)| (axis, lines.best(axis, instead)))
+        .map(|(axes, instead)| (axes, lines.best(AXES[axes], instead)))
         .collect();
     all.retain(|(_, ringing)| ringing.misfit < silent - SEEN);
     all.sort_by(|a, b| a.1.misfit.total_cmp(&b.1.misfit));
     all.iter()
         .take(TRIED)
-        .map(|(axis, ringing)| member(case, &lines, *axis, ringing))
+        .map(|(axes, ringing)| member(case, &lines, *axes, ringing))
         .filter(|m| m.columns[0].iter().any(|x| *x != 0.0))
         .collect()
 }
@@ -73,7 +83,8 @@ fn revolutions(case: &Case, to: &[f64]) -> Vec<Revolution> {
     (0..case.cuts().len()).map(one).collect()
 }
 
-fn member(case: &Case, lines: &Lines, axis: usize, ringing: &Ringing) -> Member {
+fn member(case: &Case, lines: &Lines, number: usize, ringing: &Ringing) -> Member {
+    let axes = AXES[number];
     let (aim, places) = (case.aim(), case.places());
     let mut to = vec![0.0; places.len()];
     for (c, turn) in ringing.turns.iter().enumerate() {
@@ -82,21 +93,21 @@ fn member(case: &Case, lines: &Lines, axis: usize, ringing: &Ringing) -> Member 
     let mut resonance = ringing.resonance;
     let highest = lines.highest_hz();
     let beyond = |to: &[f64]| less(&case.step(to), &case.along(to));
-    let ringing = added(case, axis, resonance, &revolutions(case, &to));
+    let ringing = added(case, axes, resonance, &revolutions(case, &to));
     let mut column = sum(&ringing, &beyond(&to));
     for _ in 0..ROUNDS {
         let amount = aim.amounts(std::slice::from_ref(&column))[0].clamp(0.2, 1.5);
         to = aim.uncertain(case, amount, &column);
         let (own, here) = (revolutions(case, &to), beyond(&to));
         let before = resonance;
-        resonance = closer(case, axis, resonance, &own, &here);
+        resonance = closer(case, axes, resonance, &own, &here);
         resonance.at[0] = resonance.at[0].min(highest);
-        column = sum(&added(case, axis, resonance, &own), &here);
+        column = sum(&added(case, axes, resonance, &own), &here);
         if resonance == before {
             break;
         }
     }
-    let mut shape = vec![SENSOR, axis as f64, resonance.at[0], resonance.at[1]];
+    let mut shape = vec![SENSOR, number as f64, resonance.at[0], resonance.at[1]];
     shape.push(f64::from(u8::from(resonance.instead)));
     shape.extend((0..places.cuts).map(|c| case.offset[places.phase(c)] + to[places.phase(c)]));
     Member::free(column).positive().shaped(&shape)
@@ -104,7 +115,7 @@ fn member(case: &Case, lines: &Lines, axis: usize, ringing: &Ringing) -> Member 
 
 /// How the sensor rings.
 pub(super) fn resonant(blamed: &Blamed) -> Option<Resonant> {
-    let [_, axis, hz, damping, instead, ..] = blamed.shape[..] else {
+    let [_, number, hz, damping, instead, ..] = blamed.shape[..] else {
         return None;
     };
     (blamed.effect == EFFECT.name).then(|| Resonant {
@@ -112,7 +123,7 @@ pub(super) fn resonant(blamed: &Blamed) -> Option<Resonant> {
             at: [hz, damping],
             instead: instead > 0.0,
         },
-        axis: Some(axis as usize).filter(|a| *a < ALL),
+        axes: AXES[number as usize],
         share: blamed.amounts[0],
     })
 }
@@ -126,10 +137,14 @@ pub(super) fn angles(blamed: &Blamed) -> &[f64] {
 }
 
 /// What the ringing adds.
-fn added(case: &Case, axis: usize, resonance: Resonance, revolutions: &[Revolution]) -> Vec<f64> {
+fn added(
+    case: &Case,
+    axes: [bool; 3],
+    resonance: Resonance,
+    revolutions: &[Revolution],
+) -> Vec<f64> {
     let map = case.sensor().map;
-    let own = |k: usize| axis == ALL || axis == k;
-    let shown = |f: V3| rotate(&map, [0, 1, 2].map(|k| if own(k) { f[k] } else { 0.0 }));
+    let shown = |f: V3| rotate(&map, [0, 1, 2].map(|k| if axes[k] { f[k] } else { 0.0 }));
     let of = |r: &Revolution| r.ringing(resonance).into_iter().map(shown).collect();
     let ringing: Vec<Vec<V3>> = revolutions.iter().map(of).collect();
     case.column(|c, i, k| ringing[c][i][k])
@@ -138,14 +153,14 @@ fn added(case: &Case, axis: usize, resonance: Resonance, revolutions: &[Revoluti
 /// A resonance a little better than this one.
 fn closer(
     case: &Case,
-    axis: usize,
+    axes: [bool; 3],
     resonance: Resonance,
     own: &[Revolution],
     here: &[f64],
 ) -> Resonance {
     let fitness = |resonance: Resonance| {
         case.aim()
-            .gain(&sum(&added(case, axis, resonance, own), here))
+            .gain(&sum(&added(case, axes, resonance, own), here))
     };
     let mut best = (resonance, fitness(resonance));
     for width in CLOSER {

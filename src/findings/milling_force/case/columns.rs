@@ -63,6 +63,24 @@ impl Case {
         added
     }
 
+    /// What one coefficient of the chip (0 to 2: tangential, radial, axial) adds where it multiplies a function of the chip's
+    /// thickness, m.
+    pub(in super::super) fn of_chips(
+        &self,
+        own: usize,
+        chip: impl Fn(f64) -> f64 + Sync,
+    ) -> Vec<f64> {
+        let one = |c: usize| {
+            let present = &self.cuts()[c].present;
+            let (scene, mut p) = present.moved(self.setting(c, &self.offset));
+            (0..6).filter(|j| *j != own).for_each(|j| p[j] = 0.0);
+            let force = scene.force_of(&p, &chip);
+            force.iter().map(|f| self.shown(f)).collect()
+        };
+        let all: Vec<Vec<V3>> = (0..self.cuts().len()).into_par_iter().map(one).collect();
+        self.column(|c, i, k| all[c][i][k])
+    }
+
     /// Measured less simulated and less what is known, with the speeds of the records as what is stated.
     pub(in super::super) fn reading(&self) -> Vec<f64> {
         let error = |c: usize| self.cuts()[c].present.speed - self.speeds[c];

@@ -5,6 +5,7 @@ use super::jumps::{placed, steady};
 use crate::cutting::LINEAR_EDGE;
 use crate::experiments::milling_force::{BANDWIDTH, PHASE, RUNOUT, SPEED, WIDTH};
 use crate::findings::milling_force::direction::Direction;
+use crate::findings::milling_force::noise::Colour;
 use crate::findings::milling_force::setting::Present;
 use crate::fit::cut_force::{Account, CutFit};
 use crate::ground::stats::{median, rms};
@@ -130,14 +131,15 @@ fn pieces(count: usize, share: usize) -> Vec<usize> {
 
 /// Noise of each axis: as stated, else from how consecutive samples of what a fit leaves differ; and what
 /// the law misses.
-pub(super) fn noise(facts: &Facts, account: &Account) -> Vec<f64> {
+pub(super) fn noise(facts: &Facts, account: &Account, colour: Option<&Colour>) -> Vec<f64> {
+    let rough = colour.map_or(1.0, Colour::rough);
     let axis = |k: usize| {
         let differences = account.cuts.iter().flat_map(|c| {
             let own = c.residual.windows(3);
             own.map(|w| (w[0][k] - 2.0 * w[1][k] + w[2][k]).abs())
         });
         // second differences of white noise have six times its variance; median of |x| is 0.6745 σ
-        let own = median(&differences.collect::<Vec<_>>()) / (0.6745 * 6.0_f64.sqrt());
+        let own = median(&differences.collect::<Vec<_>>()) / (0.6745 * 6.0_f64.sqrt() * rough);
         let forces = account.cuts.iter().flat_map(|c| &c.data.force);
         let squares: Vec<f64> = forces.map(|f| f[0].hypot(f[1]).hypot(f[2])).collect();
         let size = LAW * rms(&squares);

@@ -1,0 +1,222 @@
+//! The colour of the noise of a dynamometer, from what a fit of everything leaves between the harmonics of the spindle: a charge
+//! amplifier is the noisier the slower one looks.
+
+use super::case::CutSamples;
+use crate::findings::engine::Noise;
+use crate::fit::cut_force::{Account, CutFit};
+use crate::ground::products::{gram, tr_mul};
+use crate::ground::stats::median;
+use crate::signal::relaxation::{Band, Relaxations, Whitening};
+use nalgebra::DMatrix;
+use rustfft::FftPlanner;
+use rustfft::num_complex::Complex64;
+use std::f64::consts::{LN_2, TAU};
+use std::sync::Arc;
+
+/// Resolutions of a record on either side of a harmonic of the spindle that belong to it: the harmonics themselves are taken out, and
+/// the window makes one of a line that is missing as far as its next neighbour.
+const LOBE: f64 = 1.5;
+/// Revolutions from which there is something between them.
+const TURNS: f64 = 3.5;
+/// Ratio of the ends of a band of frequencies.
+const RATIO: f64 = 1.5;
+/// Share of its lines that a band is worth: a window makes neighbours alike, and a median knows less than a mean.
+const WORTH: f64 = 0.3;
+/// Share of the rate of sampling up to which waves are taken out: at half of it a wave has one phase alone.
+const HIGHEST: f64 = 0.49;
+/// Steps of time that differ by more than this share are not those of the others.
+const EVEN: f64 = 0.02;
+
+/// Noise that rises towards low frequencies, alike on all channels.
+#[derive(Debug, Clone)]
+pub struct Colour {
+    noise: Relaxations,
+    step_s: f64,
+}
+
+impl Colour {
+    /// From what a fit leaves; `None`: nothing speaks against white noise. Medians over bands of frequencies see no line, whoever
+    /// makes it: what stands out of its neighbours is for causes.
+    pub fn of(account: &Account, cuts: &[CutSamples]) -> Option<Self> {
+        let steps: Vec<f64> = account.cuts.iter().filter_map(step).collect();
+        let step_s = *steps.first()?;
+        let mut lines: Vec<[f64; 2]> = Vec::new();
+        for (fit, cut) in account.cuts.iter().zip(cuts) {
+            let same = step(fit).is_some_and(|s| (s / step_s - 1.0).abs() < EVEN);
+            let spindle_hz = cut.present.scene.cut.spindle_rad_s / TAU;
+            if same && spindle_hz * step_s * fit.residual.len() as f64 > TURNS {
+                lines.extend(between(fit, spindle_hz, step_s));
+            }
+        }
+        let (noise, _) = Relaxations::of(&bands(lines), step_s)?;
+        let noise = noise.slower(length(cuts));
+        Some(Self { noise, step_s })
+    }
+
+    /// Power at a frequency, Hz, one in the mean over all.
+    pub fn power(&self, hz: f64) -> f64 {
+        self.noise.power(hz, self.step_s)
+    }
+
+    /// Deviation of its second differences over that of white noise of the same size.
+    pub fn rough(&self) -> f64 {
+        self.noise.rough(self.step_s).sqrt()
+    }
+
+    /// In words.
+    fn words(&self) -> String {
+        let corner = self.noise.corner_hz(self.step_s);
+        format!("coloured: it rises towards low frequencies, below about {corner:.0} Hz")
+    }
+
+    /// The filter of samples at these times, s.
+    pub fn filter(self, times: &[f64]) -> Filter {
+        Filter {
+            words: self.words(),
+            whitening: self.noise.whitening(times),
+        }
+    }
+}
+
+/// From the first sample to the last, s.
+fn length(cuts: &[CutSamples]) -> f64 {
+    let times = || cuts.iter().flat_map(|c| &c.time).copied();
+    times().fold(f64::MIN, f64::max) - times().fold(f64::MAX, f64::min)
+}
+
+/// Step of the time of a cut that is evenly sampled, s.
+fn step(fit: &CutFit) -> Option<f64> {
+    let time = &fit.data.scene.time;
+    let mean = time.last()? / (time.len().max(2) - 1) as f64;
+    let even = |w: &[f64]| (w[1] - w[0] - mean).abs() < EVEN * mean;
+    (mean > 0.0 && time.windows(2).all(even)).then_some(mean)
+}
+
+/// Frequency and power, in that of a typical line, of what is left of a cut off the harmonics of the spindle; all channels.
+fn between(fit: &CutFit, spindle_hz: f64, step_s: f64) -> Vec<[f64; 2]> {
+    let count = fit.residual.len();
+    let resolution = (count as f64 * step_s).recip();
+    let is_between = |hz: f64| {
+        let turn = (hz / spindle_hz).rem_euclid(1.0);
+        turn.min(1.0 - turn) * spindle_hz > LOBE * resolution
+    };
+    // the lowest lines are those of what was taken out: a level and a slope
+    let kept = |i: &usize| *i >= 2 && is_between(*i as f64 * resolution);
+    let kept: Vec<usize> = (0..count / 2).filter(kept).collect();
+    let mut all = Vec::new();
+    let Some(left) = levelled(fit, spindle_hz, step_s) else {
+        return all;
+    };
+    for k in 0..3 {
+        let power = power(left.column(k).as_slice());
+        let own: Vec<f64> = kept.iter().map(|i| power[*i]).collect();
+        let typical = median(&own).max(f64::MIN_POSITIVE);
+        let each = kept.iter().zip(own);
+        all.extend(each.map(|(i, p)| [*i as f64 * resolution, p / typical]));
+    }
+    all
+}
+
+/// What is left of the channels, less a level, a slope and all waves over the turn of the spindle: what a law misses is far
+/// larger than the noise, and would leak.
+fn levelled(fit: &CutFit, spindle_hz: f64, step_s: f64) -> Option<DMatrix<f64>> {
+    let count = fit.residual.len();
+    let orders = (HIGHEST / (step_s * spindle_hz)) as usize;
+    let column = |row: usize, at: usize| {
+        let turn = TAU * spindle_hz * step_s * row as f64 * (at / 2) as f64;
+        match at {
+            0 => 1.0,
+            1 => row as f64 / count as f64 - 0.5,
+            _ if at.is_multiple_of(2) => turn.cos(),
+            _ => turn.sin(),
+        }
+    };
+    let columns = DMatrix::from_fn(count, 2 + 2 * orders, column);
+    let left = DMatrix::from_fn(count, 3, |row, k| fit.residual[row][k]);
+    let mut inner = gram(&columns);
+    (0..inner.nrows()).for_each(|i| inner[(i, i)] *= 1.0 + 1e-9);
+    let taken = inner.cholesky()?.solve(&tr_mul(&columns, &left));
+    Some(left - columns * taken)
+}
+
+/// Power under a window without edges, at the resolution of the record.
+fn power(values: &[f64]) -> Vec<f64> {
+    let count = values.len();
+    let window = |i: usize| 0.5 - 0.5 * (TAU * (i as f64 + 0.5) / count as f64).cos();
+    let each = values.iter().enumerate();
+    let mut wave: Vec<Complex64> = each
+        .map(|(i, v)| Complex64::new(window(i) * v, 0.0))
+        .collect();
+    FftPlanner::new().plan_fft_forward(count).process(&mut wave);
+    wave.iter().map(Complex64::norm_sqr).collect()
+}
+
+/// Medians of lines (frequency, power) in bands, by frequency.
+fn bands(mut lines: Vec<[f64; 2]>) -> Vec<Band> {
+    lines.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let band = |lines: &[[f64; 2]]| {
+        let powers: Vec<f64> = lines.iter().map(|l| l[1]).collect();
+        let frequencies: Vec<f64> = lines.iter().map(|l| l[0]).collect();
+        Band {
+            hz: median(&frequencies),
+            // of exponentially distributed numbers of mean one
+            power: median(&powers) / LN_2,
+            lines: WORTH * lines.len() as f64,
+        }
+    };
+    pieces(&lines).into_iter().map(band).collect()
+}
+
+/// Pieces of ascending frequencies, none wider than the ratio of a band.
+fn pieces(lines: &[[f64; 2]]) -> Vec<&[[f64; 2]]> {
+    let (mut pieces, mut first) = (Vec::new(), 0);
+    while first < lines.len() {
+        let end = RATIO * lines[first][0];
+        let next = lines.partition_point(|l| l[0] < end).max(first + 1);
+        pieces.push(&lines[first..next]);
+        first = next;
+    }
+    pieces
+}
+
+/// The filter that whitens the samples of all cuts, channel by channel.
+#[derive(Debug, Clone)]
+pub struct Filter {
+    whitening: Whitening,
+    words: String,
+}
+
+/// Coloured noise of rows that are samples by axes x, y, z.
+pub struct Coloured {
+    /// Standard deviation of every row, N.
+    pub spread: Vec<f64>,
+    /// See [`Noise::rows`].
+    pub rows: f64,
+    /// Its colour.
+    pub filter: Arc<Filter>,
+}
+
+impl Noise for Coloured {
+    fn whiten(&self, column: &[f64]) -> Vec<f64> {
+        let mut white = vec![0.0; column.len()];
+        for k in 0..3 {
+            let own = column.iter().zip(&self.spread).skip(k).step_by(3);
+            let own = self.filter.whitening.apply(own.map(|(c, s)| c / s));
+            let places = white.iter_mut().skip(k).step_by(3);
+            places.zip(own).for_each(|(w, o)| *w = o);
+        }
+        white
+    }
+
+    fn spread(&self) -> &[f64] {
+        &self.spread
+    }
+
+    fn rows(&self) -> f64 {
+        self.rows
+    }
+
+    fn describe(&self) -> String {
+        self.filter.words.clone()
+    }
+}
