@@ -32,6 +32,8 @@ pub const WIDTH: usize = 11;
 /// Place of the share of the ray before the border of the stock that counts as chip.
 pub const BORDER: usize = 12;
 
+/// Steps by which a stamp may stray from its clock: half a step is the next reading's.
+const STRAY: f64 = 0.5;
 /// Teeth are straight below this lag along the edge of one cut, rad.
 const STRAIGHT: f64 = 2e-3;
 /// Fewest samples of a revolution that is low-passed, of teeth along a helix and of straight ones, whose force jumps; the most;
@@ -104,6 +106,13 @@ impl CutScene {
     /// Whether the force jumps: teeth that are straight, and nothing that spreads their entry.
     pub fn jumps(&self) -> bool {
         self.is_direct() && self.is_straight()
+    }
+
+    /// Step of the clock of the samples, s; `None`: they follow none. Stamps that are rounded, or shake, stay near it.
+    pub fn step_s(&self) -> Option<f64> {
+        let mean = self.time.last()? / (self.time.len().max(2) - 1) as f64;
+        let is_near = |(i, t): (usize, &f64)| (t - i as f64 * mean).abs() < STRAY * mean;
+        (mean > 0.0 && self.time.iter().enumerate().all(is_near)).then_some(mean)
     }
 
     fn is_straight(&self) -> bool {

@@ -2,6 +2,11 @@
 //! 1/f between the slowest and the fastest (van der Ziel 1950). A relaxation forgets with time, so readings need not be evenly
 //! spaced and records may have gaps.
 
+mod whitening;
+
+use whitening::Step;
+pub use whitening::Whitening;
+
 /// A noise of variance one, as far as its slowest relaxation was seen.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Relaxations {
@@ -35,7 +40,7 @@ const NONE: f64 = 1e-3;
 /// Nats by which bands must prefer a coloured noise to a white one: to take white noise for a little coloured costs little, to take
 /// slow noise for a cause costs a wrong name.
 const PREFERRED: f64 = 3.0;
-/// Times the power at the highest frequency from which noise is called higher.
+/// Times the power at the highest frequency from which noise is called higher, and coloured.
 const HIGHER: f64 = 2.0;
 
 impl Relaxations {
@@ -64,15 +69,27 @@ impl Relaxations {
             .map(|(r, v)| [*r, v / total]);
         let each: Vec<[f64; 2]> = each.filter(|e| e[1] > NONE).collect();
         let relaxing: f64 = each.iter().map(|e| e[1]).sum();
-        let white = 1.0 - relaxing;
-        (gained > PREFERRED && relaxing > 0.0).then_some((
-            Self {
-                white,
-                each,
-                slowest: rates.first().copied(),
-            },
-            total,
-        ))
+        let found = Self {
+            white: 1.0 - relaxing,
+            each,
+            slowest: rates.first().copied(),
+        };
+        let rises = found.power(low, step_s) > HIGHER * found.power(0.5 / step_s, step_s);
+        (gained > PREFERRED && rises).then_some((found, total))
+    }
+
+    /// White noise.
+    pub fn white() -> Self {
+        Self {
+            white: 1.0,
+            each: Vec::new(),
+            slowest: None,
+        }
+    }
+
+    /// Whether it has no colour.
+    pub fn is_white(&self) -> bool {
+        self.each.is_empty()
     }
 
     /// The same going on as it rises until a time (s): bands begin where the records that they were taken from end, and nobody
@@ -93,7 +110,7 @@ impl Relaxations {
         self
     }
 
-    /// Power at a frequency (Hz) of readings a step (s) apart, one in the mean over all.
+    /// Power at a frequency (Hz) of readings a step (s) apart, one in the mean over all that it was estimated from.
     pub fn power(&self, hz: f64, step_s: f64) -> f64 {
         let each = self.each.iter();
         self.white
@@ -136,7 +153,7 @@ impl Relaxations {
             before = Some(*time);
             self.stepped(&mut known, passed.unwrap_or(f64::INFINITY))
         };
-        Whitening(times.iter().map(step).collect())
+        Whitening::new(times.iter().map(step).collect())
     }
 
     /// One reading of the filter (Kalman 1960): `known` is the covariance of the relaxations before and after.
@@ -159,38 +176,6 @@ impl Relaxations {
             gain: seen.iter().map(|s| s / variance).collect(),
             over: variance.sqrt().recip(),
         }
-    }
-}
-
-/// A linear filter that makes coloured readings independent, of variance one.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Whitening(Vec<Step>);
-
-/// One reading of the filter.
-#[derive(Debug, Clone, PartialEq)]
-struct Step {
-    /// What every relaxation still has of itself.
-    kept: Vec<f64>,
-    /// What it takes of the innovation.
-    gain: Vec<f64>,
-    /// Inverse of the deviation of the innovation.
-    over: f64,
-}
-
-impl Whitening {
-    /// Whitens readings.
-    pub fn apply(&self, readings: impl Iterator<Item = f64>) -> Vec<f64> {
-        let mut state = vec![0.0; self.0.first().map_or(0, |s| s.kept.len())];
-        let one = |(step, reading): (&Step, f64)| {
-            state.iter_mut().zip(&step.kept).for_each(|(s, k)| *s *= k);
-            let new = reading - state.iter().sum::<f64>();
-            state
-                .iter_mut()
-                .zip(&step.gain)
-                .for_each(|(s, g)| *s += g * new);
-            new * step.over
-        };
-        self.0.iter().zip(readings).map(one).collect()
     }
 }
 

@@ -125,3 +125,14 @@ fn a_revolution_is_sampled_finely_enough() {
     }
     assert!(worst < 1.2e-3, "{worst}");
 }
+
+#[test]
+fn stamps_that_are_rounded_follow_a_clock() {
+    let (mut scene, _) = scene(true);
+    let at = |round: f64| (0..400).map(move |i| (f64::from(i) / 6400.0 / round).round() * round);
+    scene.time = at(1e-5).collect();
+    let step = scene.step_s().unwrap();
+    assert!((step * 6400.0 - 1.0).abs() < 1e-3);
+    scene.time[200..].iter_mut().for_each(|t| *t += step);
+    assert_eq!(scene.step_s(), None);
+}

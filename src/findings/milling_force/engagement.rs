@@ -62,7 +62,7 @@ fn starts(case: &Case) -> Vec<f64> {
 const MOST: f64 = 3e-3;
 
 /// Spreads of a width or a depth as stated, beyond which it is wrong: the 95 % within which nothing is. A width of 15 µm was named
-/// beside another cause on seeds 461 to 464 of `tests/judge`, a depth of 88 of 4100 in a sound file on 503.
+/// beside another cause on seeds 461 to 464 of `tests/judge`, a depth of 88 µm of 4.1 mm in a sound file on 503.
 const BEYOND: f64 = 2.0;
 
 /// Whether a width is off by more than what is uncertain of it anyway.

@@ -1,11 +1,9 @@
 //! Lines of the spectrum between the harmonics of the spindle, in what a fit of the whole cut leaves.
 
 use super::case::CutSamples;
-use super::noise::Colour;
+use super::noise::{self, Colour};
 use crate::fit::cut_force::{Account, CutFit};
 use crate::ground::stats::median;
-use rustfft::FftPlanner;
-use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
 
 /// A line of one cut.
@@ -44,11 +42,7 @@ fn of_cut(number: usize, fit: &CutFit, cut: &CutSamples, colour: Option<&Colour>
         return Vec::new();
     }
     let spindle_hz = cut.present.scene.cut.spindle_rad_s / TAU;
-    let (mut power, step_hz) = power(fit, length);
-    if let Some(colour) = colour {
-        let each = power.iter_mut().enumerate();
-        each.for_each(|(i, p)| *p /= colour.power(i as f64 * step_hz));
-    }
+    let (power, step_hz) = power(fit, length, colour);
     let is_off = |hz: f64| {
         let turn = (hz / spindle_hz).rem_euclid(1.0);
         turn.min(1.0 - turn) * spindle_hz > NEAR / length
@@ -80,22 +74,23 @@ fn peak(power: &[f64], i: usize) -> f64 {
     }
 }
 
-/// Power of x and y together, and the step of its frequencies, Hz.
-fn power(fit: &CutFit, length: f64) -> (Vec<f64>, f64) {
+/// Power of x and y together over that of their noise, and the step of its frequencies, Hz.
+fn power(fit: &CutFit, length: f64, colour: Option<&Colour>) -> (Vec<f64>, f64) {
     let count = fit.residual.len();
     let padded = (FINER * count).next_power_of_two();
     let rate = (count.max(2) - 1) as f64 / length;
-    let plan = FftPlanner::new().plan_fft_forward(padded);
+    let step_hz = rate / padded as f64;
     let mut power = vec![0.0; padded / 2];
     for k in 0..2 {
-        let mut wave = vec![Complex64::new(0.0, 0.0); padded];
-        for (i, (to, from)) in wave.iter_mut().zip(&fit.residual).enumerate() {
-            let window = 0.5 - 0.5 * (TAU * (i as f64 + 0.5) / count as f64).cos();
-            to.re = window * from[k];
-        }
-        plan.process(&mut wave);
-        let each = power.iter_mut().zip(&wave);
-        each.for_each(|(p, w)| *p += w.norm_sqr());
+        let noise = |i: usize| {
+            colour.map_or(1.0, |colour| {
+                colour.power(k, i as f64 * step_hz, rate.recip())
+            })
+        };
+        let own: Vec<f64> = fit.residual.iter().map(|left| left[k]).collect();
+        let own = noise::power(&own, padded);
+        let each = power.iter_mut().zip(own).enumerate();
+        each.for_each(|(i, (all, own))| *all += own / noise(i));
     }
-    (power, rate / padded as f64)
+    (power, step_hz)
 }

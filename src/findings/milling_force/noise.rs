@@ -24,13 +24,16 @@ const RATIO: f64 = 1.5;
 const WORTH: f64 = 0.3;
 /// Share of the rate of sampling up to which waves are taken out: at half of it a wave has one phase alone.
 const HIGHEST: f64 = 0.49;
-/// Steps of time that differ by more than this share are not those of the others.
+/// Steps of the clocks of two cuts that differ by more than this share are two.
 const EVEN: f64 = 0.02;
+/// Waves over the turn of the spindle that are taken out at most: what a law misses is small in higher ones, and a window without edges
+/// keeps it near them.
+const WAVES: usize = 64;
 
-/// Noise that rises towards low frequencies, alike on all channels.
+/// Noise that rises towards low frequencies, channel by channel: amplifiers differ.
 #[derive(Debug, Clone)]
 pub struct Colour {
-    noise: Relaxations,
+    noise: [Relaxations; 3],
     step_s: f64,
 }
 
@@ -38,42 +41,55 @@ impl Colour {
     /// From what a fit leaves; `None`: nothing speaks against white noise. Medians over bands of frequencies see no line, whoever
     /// makes it: what stands out of its neighbours is for causes.
     pub fn of(account: &Account, cuts: &[CutSamples]) -> Option<Self> {
-        let steps: Vec<f64> = account.cuts.iter().filter_map(step).collect();
-        let step_s = *steps.first()?;
-        let mut lines: Vec<[f64; 2]> = Vec::new();
+        let step = |fit: &CutFit| fit.data.scene.step_s();
+        let step_s = account.cuts.iter().find_map(step)?;
+        let mut lines: [Vec<[f64; 2]>; 3] = Default::default();
         for (fit, cut) in account.cuts.iter().zip(cuts) {
             let same = step(fit).is_some_and(|s| (s / step_s - 1.0).abs() < EVEN);
             let spindle_hz = cut.present.scene.cut.spindle_rad_s / TAU;
             if same && spindle_hz * step_s * fit.residual.len() as f64 > TURNS {
-                lines.extend(between(fit, spindle_hz, step_s));
+                let own = between(fit, spindle_hz, step_s);
+                lines.iter_mut().zip(own).for_each(|(all, l)| all.extend(l));
             }
         }
-        let (noise, _) = Relaxations::of(&bands(lines), step_s)?;
-        let noise = noise.slower(length(cuts));
-        Some(Self { noise, step_s })
+        let length = length(cuts);
+        let noise = lines.map(|own| {
+            let found = Relaxations::of(&bands(own), step_s);
+            found.map_or_else(Relaxations::white, |(noise, _)| noise.slower(length))
+        });
+        let any = noise.iter().any(|n| !n.is_white());
+        any.then_some(Self { noise, step_s })
     }
 
-    /// Power at a frequency, Hz, one in the mean over all.
-    pub fn power(&self, hz: f64) -> f64 {
-        self.noise.power(hz, self.step_s)
+    /// Power of a channel at a frequency, Hz, of readings a step (s) apart, one in the mean over all but for what is slower than the
+    /// records.
+    pub fn power(&self, channel: usize, hz: f64, step_s: f64) -> f64 {
+        self.noise[channel].power(hz, step_s)
     }
 
-    /// Deviation of its second differences over that of white noise of the same size.
-    pub fn rough(&self) -> f64 {
-        self.noise.rough(self.step_s).sqrt()
+    /// Deviation of a channel's second differences over that of white noise of the same size.
+    pub fn rough(&self, channel: usize) -> f64 {
+        self.noise[channel].rough(self.step_s).sqrt()
     }
 
     /// In words.
     fn words(&self) -> String {
-        let corner = self.noise.corner_hz(self.step_s);
-        format!("coloured: it rises towards low frequencies, below about {corner:.0} Hz")
+        let own = self.noise.iter().zip(["x", "y", "z"]);
+        let own = own.filter(|(noise, _)| !noise.is_white());
+        let corner = |noise: &Relaxations| noise.corner_hz(self.step_s);
+        let each = own.map(|(n, name)| format!("below about {:.0} Hz on {name}", corner(n)));
+        let each: Vec<String> = each.collect();
+        format!(
+            "coloured: it rises towards low frequencies, {}",
+            each.join(", ")
+        )
     }
 
     /// The filter of samples at these times, s.
     pub fn filter(self, times: &[f64]) -> Filter {
         Filter {
             words: self.words(),
-            whitening: self.noise.whitening(times),
+            whitening: self.noise.map(|noise| noise.whitening(times)),
         }
     }
 }
@@ -84,16 +100,8 @@ fn length(cuts: &[CutSamples]) -> f64 {
     times().fold(f64::MIN, f64::max) - times().fold(f64::MAX, f64::min)
 }
 
-/// Step of the time of a cut that is evenly sampled, s.
-fn step(fit: &CutFit) -> Option<f64> {
-    let time = &fit.data.scene.time;
-    let mean = time.last()? / (time.len().max(2) - 1) as f64;
-    let even = |w: &[f64]| (w[1] - w[0] - mean).abs() < EVEN * mean;
-    (mean > 0.0 && time.windows(2).all(even)).then_some(mean)
-}
-
-/// Frequency and power, in that of a typical line, of what is left of a cut off the harmonics of the spindle; all channels.
-fn between(fit: &CutFit, spindle_hz: f64, step_s: f64) -> Vec<[f64; 2]> {
+/// Frequency and power, in that of a typical line, of what is left of a cut off the harmonics of the spindle; by channel.
+fn between(fit: &CutFit, spindle_hz: f64, step_s: f64) -> [Vec<[f64; 2]>; 3] {
     let count = fit.residual.len();
     let resolution = (count as f64 * step_s).recip();
     let is_between = |hz: f64| {
@@ -103,25 +111,25 @@ fn between(fit: &CutFit, spindle_hz: f64, step_s: f64) -> Vec<[f64; 2]> {
     // the lowest lines are those of what was taken out: a level and a slope
     let kept = |i: &usize| *i >= 2 && is_between(*i as f64 * resolution);
     let kept: Vec<usize> = (0..count / 2).filter(kept).collect();
-    let mut all = Vec::new();
-    let Some(left) = levelled(fit, spindle_hz, step_s) else {
-        return all;
-    };
-    for k in 0..3 {
-        let power = power(left.column(k).as_slice());
+    let left = levelled(fit, spindle_hz, step_s);
+    [0, 1, 2].map(|k| {
+        let Some(left) = &left else {
+            return Vec::new();
+        };
+        let power = power(left.column(k).as_slice(), count);
         let own: Vec<f64> = kept.iter().map(|i| power[*i]).collect();
         let typical = median(&own).max(f64::MIN_POSITIVE);
         let each = kept.iter().zip(own);
-        all.extend(each.map(|(i, p)| [*i as f64 * resolution, p / typical]));
-    }
-    all
+        each.map(|(i, p)| [*i as f64 * resolution, p / typical])
+            .collect()
+    })
 }
 
 /// What is left of the channels, less a level, a slope and all waves over the turn of the spindle: what a law misses is far
 /// larger than the noise, and would leak.
 fn levelled(fit: &CutFit, spindle_hz: f64, step_s: f64) -> Option<DMatrix<f64>> {
     let count = fit.residual.len();
-    let orders = (HIGHEST / (step_s * spindle_hz)) as usize;
+    let orders = ((HIGHEST / (step_s * spindle_hz)) as usize).min(WAVES);
     let column = |row: usize, at: usize| {
         let turn = TAU * spindle_hz * step_s * row as f64 * (at / 2) as f64;
         match at {
@@ -139,15 +147,17 @@ fn levelled(fit: &CutFit, spindle_hz: f64, step_s: f64) -> Option<DMatrix<f64>> 
     Some(left - columns * taken)
 }
 
-/// Power under a window without edges, at the resolution of the record.
-fn power(values: &[f64]) -> Vec<f64> {
-    let count = values.len();
-    let window = |i: usize| 0.5 - 0.5 * (TAU * (i as f64 + 0.5) / count as f64).cos();
-    let each = values.iter().enumerate();
-    let mut wave: Vec<Complex64> = each
-        .map(|(i, v)| Complex64::new(window(i) * v, 0.0))
-        .collect();
-    FftPlanner::new().plan_fft_forward(count).process(&mut wave);
+/// Power under a window without edges, of values with zeros behind them up to a length.
+pub(super) fn power(values: &[f64], length: usize) -> Vec<f64> {
+    let count = values.len() as f64;
+    let window = |i: usize| 0.5 - 0.5 * (TAU * (i as f64 + 0.5) / count).cos();
+    let mut wave = vec![Complex64::new(0.0, 0.0); length];
+    for (i, (to, value)) in wave.iter_mut().zip(values).enumerate() {
+        to.re = window(i) * value;
+    }
+    FftPlanner::new()
+        .plan_fft_forward(length)
+        .process(&mut wave);
     wave.iter().map(Complex64::norm_sqr).collect()
 }
 
@@ -182,7 +192,7 @@ fn pieces(lines: &[[f64; 2]]) -> Vec<&[[f64; 2]]> {
 /// The filter that whitens the samples of all cuts, channel by channel.
 #[derive(Debug, Clone)]
 pub struct Filter {
-    whitening: Whitening,
+    whitening: [Whitening; 3],
     words: String,
 }
 
@@ -201,7 +211,7 @@ impl Noise for Coloured {
         let mut white = vec![0.0; column.len()];
         for k in 0..3 {
             let own = column.iter().zip(&self.spread).skip(k).step_by(3);
-            let own = self.filter.whitening.apply(own.map(|(c, s)| c / s));
+            let own = self.filter.whitening[k].apply(own.map(|(c, s)| c / s));
             let places = white.iter_mut().skip(k).step_by(3);
             places.zip(own).for_each(|(w, o)| *w = o);
         }

@@ -37,11 +37,6 @@ pub(super) const PATTERNS: &[Pattern<Case>] = &[
         members: swings,
     },
     Pattern {
-        name: "swing",
-        summary: "the spindle runs unevenly: the angle of the teeth swings at one frequency",
-        members: swings,
-    },
-    Pattern {
         name: "law",
         summary: "the force is not in proportion to the thickness of the chip",
         members: laws,
@@ -54,6 +49,9 @@ const PIECES: usize = 24;
 const HARMONICS: [f64; 3] = [1.0, 2.0, 3.0];
 /// Nats from which a hum or a swing is worth a comparison.
 const SEEN: f64 = 12.0;
+/// Highest lines beside which a swing is sought, and swings that are compared: beside a large cause the best is not always the first.
+const LINES: usize = 4;
+const MEMBERS: usize = 3;
 
 /// Within the cuts: what differs from cut to cut is what causes do.
 fn uneven(case: &Case) -> Vec<Member> {
@@ -81,7 +79,7 @@ fn sways(case: &Case) -> Vec<Member> {
     )
 }
 
-/// The angle of the teeth at a frequency that makes a line of the spectrum beside a harmonic of the spindle or of its teeth, in every cut
+/// The angle of the teeth at frequencies that make a line of the spectrum beside a harmonic of the spindle or of its teeth, in every cut
 /// with a phase of its own.
 fn swings(case: &Case) -> Vec<Member> {
     let turned = turned(case);
@@ -90,23 +88,31 @@ fn swings(case: &Case) -> Vec<Member> {
             turned[3 * (case.cuts()[c].first + i) + k]
         })
     };
-    let beside = |line: &Line| {
-        let spindle = case.cuts()[line.cut].present.scene.cut.spindle_rad_s / TAU;
-        [1, case.places().teeth].map(|teeth| {
-            let harmonic = spindle * teeth as f64;
-            let turn = (line.frequency_hz / harmonic).rem_euclid(1.0);
-            swung(turn.min(1.0 - turn) * harmonic)
-        })
-    };
-    best(case, case.lines().iter().flat_map(beside))
+    let mut lines: Vec<&Line> = case.lines().iter().collect();
+    lines.sort_by(|a, b| b.height.total_cmp(&a.height));
+    let beside = lines.iter().take(LINES).flat_map(|l| apart(case, l));
+    best(case, MEMBERS, beside.map(swung))
+}
+
+/// Distances of a line from harmonics of the spindle and of its teeth, Hz.
+fn apart(case: &Case, line: &Line) -> impl Iterator<Item = f64> {
+    let spindle = case.cuts()[line.cut].present.scene.cut.spindle_rad_s / TAU;
+    let hz = line.frequency_hz;
+    [1, case.places().teeth].into_iter().flat_map(move |teeth| {
+        let harmonic = spindle * teeth as f64;
+        let nearest = (hz / harmonic).round();
+        [-1.0, 0.0, 1.0].map(|beside| (hz - (nearest + beside) * harmonic).abs())
+    })
 }
 
 /// The columns that suit the readings best, where they are worth a comparison.
-fn best(case: &Case, tried: impl Iterator<Item = Vec<Vec<f64>>>) -> Vec<Member> {
+fn best(case: &Case, most: usize, tried: impl Iterator<Item = Vec<Vec<f64>>>) -> Vec<Member> {
     let gains = tried.map(|w| (case.aim().gain_of(&w), w));
-    let best = gains.reduce(|a, b| if b.0 > a.0 { b } else { a });
-    let worth = best.filter(|(gain, _)| *gain > SEEN).into_iter();
-    worth.flat_map(|(_, w)| table::flexible(w)).collect()
+    let mut worth: Vec<(f64, Vec<Vec<f64>>)> = gains.filter(|(gain, _)| *gain > SEEN).collect();
+    worth.sort_by(|a, b| b.0.total_cmp(&a.0));
+    worth.dedup_by(|a, b| a.0 == b.0);
+    let first = worth.into_iter().take(most);
+    first.flat_map(|(_, w)| table::flexible(w)).collect()
 }
 
 /// A column at a frequency, in every cut with a phase of its own.
@@ -155,7 +161,7 @@ fn hums(case: &Case) -> Vec<Member> {
         let harmonics = HARMONICS.iter().flat_map(|n| MAINS_HZ.map(|hz| n * hz));
         harmonics.map(move |hz| waves(case, hz, |_, _, k| f64::from(u8::from(k == axis))))
     };
-    (0..3).flat_map(|axis| best(case, tried(axis))).collect()
+    (0..3).flat_map(|axis| best(case, 1, tried(axis))).collect()
 }
 
 /// Shares of its largest force from which a channel may show less.
@@ -188,5 +194,17 @@ fn bend(case: &Case, axes: &[usize]) -> Member {
         size: Size::Free,
         positive: None,
         shape: vec![axes.len() as f64],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::PATTERNS;
+
+    #[test]
+    fn every_pattern_stands_once() {
+        let mut names: Vec<&str> = PATTERNS.iter().map(|pattern| pattern.name).collect();
+        names.sort_unstable();
+        assert!(names.windows(2).all(|w| w[0] != w[1]), "{names:?}");
     }
 }

@@ -123,7 +123,7 @@ pub(super) fn resonant(blamed: &Blamed) -> Option<Resonant> {
             at: [hz, damping],
             instead: instead > 0.0,
         },
-        axes: AXES[number as usize],
+        axes: AXES.get(number as usize).copied().unwrap_or_default(),
         share: blamed.amounts[0],
     })
 }

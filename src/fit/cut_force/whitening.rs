@@ -6,8 +6,6 @@ use crate::signal::autoregression::Autoregression;
 
 /// Most past samples that the colour of the noise spans.
 const MOST_ORDER: usize = 12;
-/// Steps of time that differ by more than this share leave the colour unknown.
-const EVEN: f64 = 0.05;
 
 /// The noise of each channel.
 #[derive(Debug, Clone)]
@@ -21,7 +19,7 @@ impl Whitening {
 
     /// From the residuals of all cuts.
     pub fn of(cuts: &[CutData], residuals: &[Vec<V3>]) -> Self {
-        let most = if cuts.iter().all(is_even) {
+        let most = if cuts.iter().all(|cut| cut.scene.step_s().is_some()) {
             MOST_ORDER
         } else {
             0
@@ -42,11 +40,4 @@ impl Whitening {
         };
         self.0.iter().enumerate().flat_map(of).collect()
     }
-}
-
-fn is_even(cut: &CutData) -> bool {
-    let time = &cut.scene.time;
-    let mean = time.last().unwrap_or(&0.0) / (time.len().max(2) - 1) as f64;
-    time.windows(2)
-        .all(|w| (w[1] - w[0] - mean).abs() < EVEN * mean)
 }

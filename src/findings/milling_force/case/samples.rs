@@ -132,8 +132,8 @@ fn pieces(count: usize, share: usize) -> Vec<usize> {
 /// Noise of each axis: as stated, else from how consecutive samples of what a fit leaves differ; and what
 /// the law misses.
 pub(super) fn noise(facts: &Facts, account: &Account, colour: Option<&Colour>) -> Vec<f64> {
-    let rough = colour.map_or(1.0, Colour::rough);
     let axis = |k: usize| {
+        let rough = colour.map_or(1.0, |colour| colour.rough(k));
         let differences = account.cuts.iter().flat_map(|c| {
             let own = c.residual.windows(3);
             own.map(|w| (w[0][k] - 2.0 * w[1][k] + w[2][k]).abs())
