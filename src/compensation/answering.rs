@@ -7,7 +7,7 @@
 //!
 //! Where a mode answers thirty times and more, its inverse is right only where its frequency is: half a hertz beside it the
 //! tip answers with the other sign, and learning drives the swing that it should take away. The inverse is the one that
-//! leaves least on average over how well frequencies are known, L = (E[TᴴT] + c)⁻¹ E[T]ᴴ: whatever the frequency, E|1 − TL|² is below 1.
+//! leaves least on average over how well frequencies are known, `L = (E[TᴴT] + c)⁻¹ E[T]ᴴ`: whatever the frequency, E|1 − TL|² is below 1.
 
 use crate::ground::problem::Outcome;
 use crate::ground::spatial::{V3, rotate};

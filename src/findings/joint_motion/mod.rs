@@ -3,7 +3,7 @@
 //! The difference of the encoders is torsion under the torque transmitted, and whatever the
 //! instruments add. Every joint is an experiment of the common engine ([`crate::findings::engine`]): channels
 //! (averaged, smoothed) → what the torque shows of friction, which periods and jumps the twist suggests → noise (its
-//! colour) → statement. Its own are the scales, which no column tells: a stiffness ([`stiffness`]) where every
+//! colour) → statement. Its own are the scales, which no column tells: a stiffness (`stiffness`) where every
 //! piece of the record and every account agree on it, and the constant zero.
 
 mod backlash;
