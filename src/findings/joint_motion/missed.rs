@@ -2,6 +2,7 @@
 
 use super::joint::Joint;
 use super::projection::{orthonormal, without};
+use super::{encoder_ripple, sensor_offset, time_skew, viscous_friction};
 use crate::findings::engine::{Blamed, Nuisance};
 use crate::findings::table::{unit_range, waves};
 use crate::ground::stats::rms;
@@ -27,12 +28,19 @@ use Over::{Acceleration, Angle, Speed, Time, Torque};
 
 const ALL: [Over; 5] = [Time, Angle, Torque, Speed, Acceleration];
 
+/// Causes whose law misses nothing.
+const EXACT: [&str; 3] = [
+    sensor_offset::EFFECT.name,
+    encoder_ripple::EFFECT.name,
+    time_skew::EFFECT.name,
+];
+
 /// Where the law of a cause may miss nature, once it is told: a jump is a jump, a ripple has its period and a delay the
 /// speed, so that they miss nothing; oil drags by another power of the speed, and of nothing else.
 fn may_miss(effect: &str) -> &'static [Over] {
     match effect {
-        "sensor_offset" | "encoder_ripple" | "time_skew" => &[],
-        "viscous_friction" => &[Speed],
+        exact if EXACT.contains(&exact) => &[],
+        oil if oil == viscous_friction::EFFECT.name => &[Speed],
         _ => &ALL,
     }
 }

@@ -43,10 +43,7 @@ fn of_cut(number: usize, fit: &CutFit, cut: &CutSamples, colour: Option<&Colour>
     }
     let spindle_hz = cut.present.scene.cut.spindle_rad_s / TAU;
     let (power, step_hz) = power(fit, length, colour);
-    let is_off = |hz: f64| {
-        let turn = (hz / spindle_hz).rem_euclid(1.0);
-        turn.min(1.0 - turn) * spindle_hz > NEAR / length
-    };
+    let is_off = |hz: f64| off_harmonic(hz, spindle_hz) > NEAR / length;
     // a harmonic beyond half the rate of sampling is folded back
     let rate = step_hz * (2 * power.len()) as f64;
     let between = |hz: f64| is_off(hz) && (hz < FOLDED * rate || is_off(rate - hz));
@@ -63,6 +60,11 @@ fn of_cut(number: usize, fit: &CutFit, cut: &CutSamples, colour: Option<&Colour>
     found.sort_by(|a, b| b.height.total_cmp(&a.height));
     found.truncate(MOST);
     found
+}
+
+/// Distance of a frequency from the nearest harmonic of another, Hz.
+pub(super) fn off_harmonic(hz: f64, of_hz: f64) -> f64 {
+    (hz - (hz / of_hz).round() * of_hz).abs()
 }
 
 fn peak(power: &[f64], i: usize) -> f64 {

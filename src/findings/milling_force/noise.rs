@@ -2,14 +2,14 @@
 //! amplifier is the noisier the slower one looks.
 
 use super::case::CutSamples;
+use super::lines::off_harmonic;
 use crate::findings::engine::Noise;
 use crate::fit::cut_force::{Account, CutFit};
 use crate::ground::products::{gram, tr_mul};
 use crate::ground::stats::median;
 use crate::signal::relaxation::{Band, Relaxations, Whitening};
+use crate::signal::spectrum::Transform;
 use nalgebra::DMatrix;
-use rustfft::FftPlanner;
-use rustfft::num_complex::Complex64;
 use std::f64::consts::{LN_2, TAU};
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ use std::sync::Arc;
 const LOBE: f64 = 1.5;
 /// Revolutions from which there is something between them.
 const TURNS: f64 = 3.5;
-/// Ratio of the ends of a band of frequencies.
+/// Ratio of the ends of a band of frequencies: a choice, fine enough for a slope and with lines enough for a median.
 const RATIO: f64 = 1.5;
 /// Share of its lines that a band is worth: a window makes neighbours alike, and a median knows less than a mean.
 const WORTH: f64 = 0.3;
@@ -104,10 +104,7 @@ fn length(cuts: &[CutSamples]) -> f64 {
 fn between(fit: &CutFit, spindle_hz: f64, step_s: f64) -> [Vec<[f64; 2]>; 3] {
     let count = fit.residual.len();
     let resolution = (count as f64 * step_s).recip();
-    let is_between = |hz: f64| {
-        let turn = (hz / spindle_hz).rem_euclid(1.0);
-        turn.min(1.0 - turn) * spindle_hz > LOBE * resolution
-    };
+    let is_between = |hz: f64| off_harmonic(hz, spindle_hz) > LOBE * resolution;
     // the lowest lines are those of what was taken out: a level and a slope
     let kept = |i: &usize| *i >= 2 && is_between(*i as f64 * resolution);
     let kept: Vec<usize> = (0..count / 2).filter(kept).collect();
@@ -151,14 +148,11 @@ fn levelled(fit: &CutFit, spindle_hz: f64, step_s: f64) -> Option<DMatrix<f64>> 
 pub(super) fn power(values: &[f64], length: usize) -> Vec<f64> {
     let count = values.len() as f64;
     let window = |i: usize| 0.5 - 0.5 * (TAU * (i as f64 + 0.5) / count).cos();
-    let mut wave = vec![Complex64::new(0.0, 0.0); length];
-    for (i, (to, value)) in wave.iter_mut().zip(values).enumerate() {
-        to.re = window(i) * value;
-    }
-    FftPlanner::new()
-        .plan_fft_forward(length)
-        .process(&mut wave);
-    wave.iter().map(Complex64::norm_sqr).collect()
+    let each = values.iter().enumerate();
+    let mut record: Vec<f64> = each.map(|(i, value)| window(i) * value).collect();
+    record.resize(length, 0.0);
+    let lines = Transform::new(length).of(record, length / 2);
+    lines.iter().map(|line| line.norm_sqr()).collect()
 }
 
 /// Medians of lines (frequency, power) in bands, by frequency.

@@ -50,17 +50,13 @@ const HARMONICS: [f64; 3] = [1.0, 2.0, 3.0];
 /// Nats from which a hum or a swing is worth a comparison.
 const SEEN: f64 = 12.0;
 /// Highest lines beside which a swing is sought, and swings that are compared: beside a large cause the best is not always the first.
+/// Choices: every swing costs the columns of all cuts.
 const LINES: usize = 4;
 const MEMBERS: usize = 3;
 
 /// Within the cuts: what differs from cut to cut is what causes do.
 fn uneven(case: &Case) -> Vec<Member> {
-    let forces = case.forces();
-    table::flexible(
-        (0..PIECES)
-            .map(|piece| within(case, piece, &forces))
-            .collect(),
-    )
+    pieces(case, &case.forces())
 }
 
 /// What a milliradian of the spindle changes.
@@ -71,12 +67,7 @@ fn turned(case: &Case) -> Vec<f64> {
 
 /// The angle of the teeth, in the same pieces.
 fn sways(case: &Case) -> Vec<Member> {
-    let turned = turned(case);
-    table::flexible(
-        (0..PIECES)
-            .map(|piece| within(case, piece, &turned))
-            .collect(),
-    )
+    pieces(case, &turned(case))
 }
 
 /// The angle of the teeth at frequencies that make a line of the spectrum beside a harmonic of the spindle or of its teeth, in every cut
@@ -125,6 +116,12 @@ fn waves(case: &Case, hz: f64, of: impl Fn(usize, usize, usize) -> f64) -> Vec<V
         })
     };
     phases.map(one).collect()
+}
+
+/// A column in every piece of the file.
+fn pieces(case: &Case, column: &[f64]) -> Vec<Member> {
+    let own = (0..PIECES).map(|piece| within(case, piece, column));
+    table::flexible(own.collect())
 }
 
 /// A column in a piece of the file, less its share of every cut.
