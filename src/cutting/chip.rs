@@ -131,11 +131,16 @@ impl<S: Scalar> Steady<S> {
         let (q, teeth) = (self.feed_per_radian, tips.len());
         let turn = |k: usize| TAU * k as f64 / teeth as f64;
         let plain = ray.map(Scalar::value);
-        // which tooth left the farthest surface is told without derivatives
+        // which tooth left the farthest surface is told without derivatives, to second order of the feed: where two
+        // are as far to 0.1 um, either will do
+        let over = 1.0 / tips[tooth].radius.value();
         let reach = |k: &usize| {
             let tip = &tips[(tooth + k) % teeth];
-            let aside = tip.aside.value() - tips[tooth].aside.value();
-            left_by(q, plain, aside + turn(*k), tip.radius.value())
+            let back = q * (tip.aside.value() - tips[tooth].aside.value() + turn(*k));
+            let across = back * plain[1];
+            tip.radius.value()
+                - (back - q * across * over) * plain[0]
+                - 0.5 * across * across * over
         };
         let farthest = (1..=teeth).map(|k| (k, if teeth > 1 { reach(&k) } else { 0.0 }));
         let last = |a: (usize, f64), b: (usize, f64)| if b.1 > a.1 { b } else { a };
@@ -161,7 +166,7 @@ fn left_by<S: Scalar>(q: f64, [sin, cos]: [S; 2], turn: S, radius: S) -> S {
 }
 
 /// A direction across the axis turned by a small angle, to second order.
-fn turned<S: Scalar>([sin, cos]: [S; 2], by: S) -> [S; 2] {
+pub(super) fn turned<S: Scalar>([sin, cos]: [S; 2], by: S) -> [S; 2] {
     let near = S::constant(1.0) - by * by * 0.5;
     [sin * near + cos * by, cos * near - sin * by]
 }

@@ -3,7 +3,7 @@
 //! Both families of sums that the linear law needs are gathered once: forces for any coefficients, and
 //! their derivatives, are then products.
 
-use super::chip::{Steady, Stock, Tip};
+use super::chip::{Steady, Stock, Tip, turned};
 use super::law::Direction;
 use super::tool::{Disc, Tool};
 use crate::ground::dual::Scalar;
@@ -170,8 +170,7 @@ impl<'a, S: Scalar> Wave<'a, S> {
         if share.value() < 1.0 && lag > 0.0 {
             // the middle of that part of the edge that is in
             let further = (-share + 1.0) * (0.5 * lag * bite.side);
-            let ([sin, cos], [s, c]) = (direction, further.sin_cos());
-            direction = [sin * c + cos * s, cos * c - sin * s];
+            direction = turned(direction, further);
             bite = self.steady.bite(direction, tooth, tips);
         }
         let length = share * disc.edge_m;

@@ -98,6 +98,11 @@ impl Aim {
 
     /// Amounts of some columns together; zeros where they show nothing.
     pub fn amounts(&self, columns: &[Vec<f64>]) -> Vec<f64> {
+        self.together(columns).0
+    }
+
+    /// The same with how each column pulls.
+    fn together(&self, columns: &[Vec<f64>]) -> (Vec<f64>, DVector<f64>) {
         let own: Vec<DVector<f64>> = columns.iter().map(|c| white(c, &self.spread)).collect();
         let (matrix, free) = (
             DMatrix::from_columns(&own),
@@ -105,9 +110,10 @@ impl Aim {
         );
         let mut inner = matrix.tr_mul(&free);
         (0..own.len()).for_each(|i| inner[(i, i)] *= 1.0 + 1e-9);
-        let right = free.tr_mul(&self.reading);
-        let solved = inner.cholesky().map(|root| root.solve(&right));
-        solved.map_or(vec![0.0; own.len()], |s| s.as_slice().to_vec())
+        let pull = free.tr_mul(&self.reading);
+        let solved = inner.cholesky().map(|root| root.solve(&pull));
+        let amounts = solved.map_or(vec![0.0; own.len()], |s| s.as_slice().to_vec());
+        (amounts, pull)
     }
 
     /// By how much one column lowers the misfit, nats.
@@ -123,9 +129,12 @@ impl Aim {
 
     /// By how much some columns together lower the misfit, nats.
     pub fn gain_of(&self, columns: &[Vec<f64>]) -> f64 {
-        let each = columns.iter().zip(self.amounts(columns));
-        let pull = |c: &Vec<f64>| self.free(&white(c, &self.spread)).dot(&self.reading);
-        0.5 * each.map(|(c, amount)| amount * pull(c)).sum::<f64>()
+        let (amounts, pull) = self.together(columns);
+        0.5 * amounts
+            .iter()
+            .zip(pull.iter())
+            .map(|(a, p)| a * p)
+            .sum::<f64>()
     }
 
     /// The column of a direction of the vector as the way to where it fits best, at most `most` far. It begins
@@ -162,7 +171,7 @@ impl Aim {
     }
 
     /// By how much an amount of a column lowers the misfit, nats.
-    fn worth(&self, column: &[f64], amount: f64) -> f64 {
+    pub fn worth(&self, column: &[f64], amount: f64) -> f64 {
         let own = white(column, &self.spread);
         let free = self.free(&own);
         amount * free.dot(&self.reading) - 0.5 * amount * amount * free.dot(&own)

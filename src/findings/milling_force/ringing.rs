@@ -30,8 +30,9 @@ pub struct Ringing {
     pub misfit: f64,
 }
 
-/// Lines of one cut: order, weight by axis, measured and simulated by axis.
+/// Lines of one cut.
 struct Cut<'a> {
+    /// Order, measured and simulated by axis: of the tooth passing, and of all its multiples in turn.
     lines: Vec<(usize, [Complex64; 3], [Complex64; 3])>,
     revolution: &'a Revolution,
     /// Samples that a line is the mean of.
@@ -120,7 +121,7 @@ impl<'a> Lines<'a> {
 
     /// Angle that suits a cut best, and what it leaves.
     fn turn(&self, cut: &Cut, axes: [bool; 3], resonance: Resonance) -> (f64, f64) {
-        let parts: Vec<(f64, f64, Complex64)> = cut
+        let parts: Vec<(f64, Complex64)> = cut
             .lines
             .iter()
             .map(|(order, measured, simulated)| {
@@ -135,14 +136,15 @@ impl<'a> Lines<'a> {
                     square += self.weight[k] * (measured[k].norm_sqr() + own.norm_sqr());
                     cross += measured[k] * own.conj() * self.weight[k];
                 }
-                (*order as f64, square, cross)
+                (square, cross)
             })
             .collect();
-        let misfit = |turn: f64| -> f64 {
-            let one = |(order, square, cross): &(f64, f64, Complex64)| {
-                square - 2.0 * (cross * Complex64::from_polar(1.0, -order * turn)).re
+        let misfit = |turn: f64| {
+            let pitch = Complex64::from_polar(1.0, -TAU / self.pitch * turn);
+            let one = |(sum, back): (f64, Complex64), (square, cross): &(f64, Complex64)| {
+                (sum + square - 2.0 * (cross * back).re, back * pitch)
             };
-            parts.iter().map(one).sum()
+            parts.iter().fold((0.0, pitch), one).0
         };
         let mut step = self.pitch / ANGLES as f64;
         let first = (0..ANGLES).map(|i| (i as f64 - 0.5 * ANGLES as f64) * step);
