@@ -2,12 +2,14 @@
 
 use super::Case;
 use super::aim::is_wild;
+use super::case::CutSamples;
 use super::coefficients::moved;
 use super::setting::PROCESS;
 use crate::experiments::milling_force::RUNOUT;
 use crate::findings::engine::Member;
 use crate::findings::table::{Effect, Place};
 use crate::inference::gaussian::Size;
+use std::f64::consts::{FRAC_PI_2 as QUARTER, TAU};
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "runout",
@@ -42,48 +44,127 @@ const ROUNDS: usize = 8;
 /// Change of either, as a share, at which it has arrived.
 const ARRIVED: f64 = 3e-3;
 
+/// Directions and sizes from which it is sought, as shares of the feed per tooth, where the slopes tell of more than a
+/// twentieth of that: with larger ones a tooth cuts air for a part of its way, and slopes lead astray, across as well. No
+/// other values were tried.
+const DIRECTIONS: usize = 6;
+const SIZES: [f64; 2] = [0.1, 0.3];
+const STRAIGHT: f64 = 0.05;
+/// Turn over which the slope across is taken there, rad.
+const TURNED: f64 = 0.05;
+
+/// A runout on its way: its angle, and the columns of the way there and of the slope across.
+#[derive(Debug, Clone)]
+struct Way {
+    angle: f64,
+    columns: Vec<Vec<f64>>,
+}
+
 /// The way to where a runout fits best, and its slope across.
 fn whole(case: &Case) -> Member {
-    let towards = |angle: f64| {
-        let mut direction = vec![0.0; case.places().len()];
-        (direction[RUNOUT], direction[RUNOUT + 1]) = (UNIT * angle.cos(), UNIT * angle.sin());
-        direction
-    };
-    let quarter = std::f64::consts::FRAC_PI_2;
-    let (mut angle, mut before) = (0.0, 0.0);
-    let mut columns = vec![case.along(&towards(0.0)), case.along(&towards(quarter))];
-    for _ in 0..ROUNDS {
-        let amounts = case.aim().amounts(&columns);
-        let size = amounts[0].hypot(amounts[1]).min(MOST);
-        let turn = amounts[1].atan2(amounts[0]);
-        if size < 1e-3 || (size / before - 1.0_f64).abs().max(turn.abs()) < ARRIVED {
-            break;
-        }
-        before = size;
-        let known: Vec<f64> = columns[0]
-            .iter()
-            .zip(&columns[1])
-            .map(|(a, b)| a * turn.cos() + b * turn.sin())
-            .collect();
-        angle += turn;
-        let slope = case.along(&towards(angle));
-        let way = case.aim().reached(case, &towards(angle), size, &known);
-        let is_wild = is_wild(&way, &slope);
-        columns = vec![
-            if is_wild { slope } else { way },
-            case.along(&towards(angle + quarter)),
-        ];
-        if is_wild {
-            break;
-        }
+    let slopes = Way::slopes(case, 0.0);
+    let amounts = case.aim().amounts(&slopes.columns);
+    let feed = feed_per_tooth(case) / UNIT;
+    let mut ways = vec![slopes];
+    if amounts[0].hypot(amounts[1]) > STRAIGHT * feed {
+        ways.extend(started(case, feed));
     }
-    let directions = [towards(angle), towards(angle + quarter)];
+    let better = |a: (f64, Way), b: (f64, Way)| if b.0 > a.0 { b } else { a };
+    let arrived = ways.into_iter().map(|way| way.arrived(case));
+    let best = arrived.reduce(better).map(|best| best.1);
+    let way = best.unwrap_or_else(|| Way::slopes(case, 0.0));
+    let directions = [0.0, QUARTER].map(|by| towards(case, way.angle + by));
     Member {
-        columns,
+        columns: way.columns,
         size: Size::Free,
         positive: None,
         shape: std::iter::once(PROCESS)
             .chain(directions.into_iter().flatten())
             .collect(),
+    }
+}
+
+/// One unit of runout at an angle ahead of tooth 1.
+fn towards(case: &Case, angle: f64) -> Vec<f64> {
+    let mut direction = vec![0.0; case.places().len()];
+    (direction[RUNOUT], direction[RUNOUT + 1]) = (UNIT * angle.cos(), UNIT * angle.sin());
+    direction
+}
+
+/// The largest of all cuts, m.
+fn feed_per_tooth(case: &Case) -> f64 {
+    let own = |cut: &CutSamples| cut.present.scene.cut.feed_per_tooth(case.places().teeth);
+    case.cuts().iter().map(own).fold(0.0, f64::max)
+}
+
+/// The best way from afar.
+fn started(case: &Case, feed: f64) -> Option<Way> {
+    let angles = (0..DIRECTIONS).map(|k| TAU * k as f64 / DIRECTIONS as f64);
+    let all = angles.flat_map(|angle| SIZES.map(|share| (angle, share * feed)));
+    let tried = all.map(|(angle, size)| {
+        let slopes = Way::slopes(case, angle);
+        let way = slopes.reaching(case, size, &slopes.columns[0]);
+        (case.aim().worth(&way.columns[0], size), way)
+    });
+    let better = |a: (f64, Way), b: (f64, Way)| if b.0 > a.0 { b } else { a };
+    tried.reduce(better).map(|best| best.1)
+}
+
+impl Way {
+    fn slopes(case: &Case, angle: f64) -> Self {
+        let columns = [0.0, QUARTER].map(|by| case.along(&towards(case, angle + by)));
+        Self {
+            angle,
+            columns: columns.into(),
+        }
+    }
+
+    /// The way to a size at this angle, and the slope across there; `known`: the way as known so far.
+    fn reaching(&self, case: &Case, size: f64, known: &[f64]) -> Self {
+        let reached = |angle: f64, known: &[f64]| {
+            case.aim().reached(case, &towards(case, angle), size, known)
+        };
+        let way = reached(self.angle, known);
+        let across = match size > STRAIGHT * feed_per_tooth(case) / UNIT {
+            true => {
+                let turned = reached(self.angle + TURNED, &way);
+                let each = turned.iter().zip(&way);
+                each.map(|(there, here)| (there - here) / TURNED).collect()
+            }
+            false => self.columns[1].clone(),
+        };
+        Self {
+            angle: self.angle,
+            columns: vec![way, across],
+        }
+    }
+
+    /// The best of the ways there, with what it lowers the misfit by, nats.
+    fn arrived(mut self, case: &Case) -> (f64, Self) {
+        let mut best = None;
+        let mut before = 0.0;
+        for _ in 0..ROUNDS {
+            let gain = case.aim().gain_of(&self.columns);
+            if best.as_ref().is_none_or(|(least, _)| gain > *least) {
+                best = Some((gain, self.clone()));
+            }
+            let amounts = case.aim().amounts(&self.columns);
+            let size = amounts[0].hypot(amounts[1]).min(MOST);
+            let turn = amounts[1].atan2(amounts[0]);
+            if size < 1e-3 || (size / before - 1.0_f64).abs().max(turn.abs()) < ARRIVED {
+                break;
+            }
+            before = size;
+            let turned = |(a, b): (&f64, &f64)| a * turn.cos() + b * turn.sin();
+            let known = self.columns[0].iter().zip(&self.columns[1]).map(turned);
+            let known: Vec<f64> = known.collect();
+            let slopes = Self::slopes(case, self.angle + turn);
+            let way = slopes.reaching(case, size, &known);
+            if is_wild(&way.columns[0], &slopes.columns[0]) {
+                break;
+            }
+            self = way;
+        }
+        best.unwrap_or((0.0, self))
     }
 }
