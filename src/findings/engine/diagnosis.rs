@@ -30,6 +30,8 @@ pub struct Found {
     pub left: Vec<f64>,
     /// Most probable amounts of the nuisances beside the causes.
     pub(super) uncertain: Vec<f64>,
+    /// Nats that these cost by what is known of them.
+    pub(super) strain: f64,
     /// The best set of causes whether or not they are named: what a kind that is not linear is stated about.
     pub(super) lead: Vec<Blamed>,
     /// Evidence of every set that was compared, over that of no cause, no prior in it: (effect and site of
@@ -97,6 +99,7 @@ pub(super) fn about(
     let Leaves {
         left,
         mut uncertain,
+        strain,
         seen,
         rest,
     } = leaves;
@@ -141,6 +144,7 @@ pub(super) fn about(
         explained,
         left,
         uncertain,
+        strain,
         lead,
         evidence,
     }

@@ -27,6 +27,8 @@ pub(super) struct Leaves {
     pub left: Vec<f64>,
     /// Most probable amounts of the nuisances beside the set.
     pub uncertain: Vec<f64>,
+    /// Nats that these cost by what is known of them.
+    pub strain: f64,
     /// What patterns of the set look like.
     pub seen: Option<&'static str>,
     /// What counts of it.
@@ -71,6 +73,15 @@ impl<'a> Weighing<'a> {
         (left, amounts)
     }
 
+    /// Nats that amounts of what is uncertain cost by what is known of them.
+    fn strain(&self, amounts: &[f64]) -> f64 {
+        let each = self.statement.nuisances.iter().zip(amounts);
+        let known = each.filter(|(nuisance, _)| nuisance.spread.is_finite());
+        known
+            .map(|(nuisance, amount)| 0.5 * (amount / nuisance.spread).powi(2))
+            .sum()
+    }
+
     /// What a set leaves, and, where it names nothing, the best `story` that anyone would tell.
     pub fn leaves(&self, set: &Scored, story: Option<&Scored>) -> Leaves {
         let (seen, pattern) = self.pattern(&set.fit);
@@ -85,6 +96,7 @@ impl<'a> Weighing<'a> {
             .scattering(noise, self.judgement);
         Leaves {
             left: beside.iter().zip(&pattern).map(|(l, p)| l + p).collect(),
+            strain: self.strain(&uncertain),
             uncertain,
             seen,
             rest: match story.filter(|_| set.suspects.is_empty()) {

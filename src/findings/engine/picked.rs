@@ -53,7 +53,7 @@ pub(super) fn picked(
 
 /// With the gains as they are told, and without companions that surely make the simulation worse as it is used: they fit only where
 /// all that is uncertain moves against them, and stand for what it cannot do. The last cause stands where unseen rows plainly tell that
-/// something is wrong: what is uncertain may hide it.
+/// something is wrong: what is uncertain may hide it; and so does a companion without which they are missed by far.
 pub(super) fn carrying(
     weighing: &Weighing,
     posterior: &Posterior,
@@ -74,7 +74,11 @@ pub(super) fn carrying(
         let named = set.suspects.iter().filter(|s| bank.suspects[**s].named);
         let is_last = named.count() == 1;
         let decided = |at: usize| unseen::gains(statement, bank, &set.fit)[at].reduction_percent;
-        let stands = |at: &usize| is_last && decided(*at) >= judgement.companion_gain;
+        let least = match is_last {
+            true => judgement.companion_gain,
+            false => judgement.stands_percent,
+        };
+        let stands = |at: &usize| decided(*at) >= least;
         let worse = (0..gains.len()).filter(|at| surely_worse(at) && !stands(at));
         let Some(at) = worse.min_by(|a, b| gained(a).total_cmp(&gained(b))) else {
             return Picked { set, gains, leaves };
@@ -131,7 +135,8 @@ fn beyond(weighing: &Weighing, kept: &Picked, at: usize) -> f64 {
 }
 
 /// The set as it was chosen, where nothing is left beside it, and all that was dropped is probable and neither lowers nor
-/// raises the error of unseen rows: all that is uncertain may stand in for it there, far from where it is known to be.
+/// raises the error of unseen rows: all that is uncertain may stand in for it there, far from where it is known to be. Where that
+/// alone costs more than the price of a cause, unseen rows may show a little of it as well.
 /// Where laws are only nearly right, a probable cause may be what they miss, and something must be left without it.
 fn needed(
     weighing: &Weighing,
@@ -156,8 +161,13 @@ fn needed(
     let probable: Vec<usize> = own.filter(|s| !is_dropped(s) || is_probable(s)).collect();
     let chosen = posterior.set(&probable)?.clone();
     let gains = unseen::gains(weighing.statement, bank, &chosen.fit);
-    let changes_nothing =
-        |gain: &Gain| !gain.is_real() && gain.reduction_percent > -judgement.companion_gain;
+    let leaves = weighing.leaves(&chosen, None);
+    let is_strained = kept.leaves.strain > leaves.strain + judgement.further();
+    let changes_nothing = |gain: &Gain| {
+        let at_all =
+            gain.is_real() && !(is_strained && gain.reduction_percent < judgement.companion_gain);
+        !at_all && gain.reduction_percent > -judgement.companion_gain
+    };
     let mut each = chosen.suspects.iter().zip(&gains);
     let all = each
         .all(|(s, gain)| !is_dropped(s) || changes_nothing(gain) && !judgement.is_negligible(gain));
@@ -167,8 +177,8 @@ fn needed(
     if loses_to_structure(bank, posterior, &chosen, weighing.span, judgement) {
         return None;
     }
-    let leaves = weighing.leaves(&chosen, None);
-    (!leaves.rest.is_left).then_some(Picked {
+    let is_better = is_strained && kept.leaves.rest.is_left;
+    (!leaves.rest.is_left || is_better).then_some(Picked {
         set: chosen,
         gains,
         leaves,

@@ -181,14 +181,17 @@ fn simpler(course: &Course, best: &Found) -> Option<Found> {
     }
 }
 
-/// What is found from causes that were fitted alone, if that takes fewer causes and leaves no more.
+/// What is found from causes that were fitted alone, if that takes fewer causes and leaves no more, nor moves what is uncertain
+/// so far from what is known of it that a cause is cheaper.
 fn instead(course: &Course, alone: Found, best: &Found) -> Option<Found> {
     let most = WORSE * rms(&best.left);
-    if rms(&alone.left) > most {
+    let strained = best.strain + course.judgement.further();
+    let is_as_good = |found: &Found| rms(&found.left) <= most && found.strain <= strained;
+    if !is_as_good(&alone) {
         return None;
     }
     let found = again(course, &alone);
-    (found.blamed.len() < best.blamed.len() && rms(&found.left) <= most).then_some(found)
+    (found.blamed.len() < best.blamed.len() && is_as_good(&found)).then_some(found)
 }
 
 /// What is found where everybody competes beside causes that were fitted alone.
