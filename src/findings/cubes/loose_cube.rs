@@ -3,6 +3,7 @@
 use super::Case;
 use crate::findings::engine::{Blamed, Member};
 use crate::findings::table::{Effect, Place};
+use crate::ground::spatial::{cross, sub};
 use crate::inference::gaussian::Size;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
@@ -47,7 +48,7 @@ fn members(case: &Case, cube: usize) -> Vec<Member> {
     if !case.rows.iter().any(|row| row.cube == cube) {
         return Vec::new();
     }
-    let ways = 1 + neighbours(case, cube).len();
+    let ways = 1 + 2 * neighbours(case, cube).len();
     let targets: Vec<Vec<f64>> = (0..ways)
         .map(|way| target(case, cube, way, &case.fixed))
         .collect();
@@ -94,27 +95,50 @@ pub(super) fn follows(blamed: &Blamed) -> bool {
     blamed.effect == EFFECT.name && blamed.shape.len() == 1
 }
 
-/// What a cube shows more that follows standing still (way 0) or one of its neighbours altogether.
+/// What a cube shows more that follows standing still (way 0), or one of its neighbours altogether: moved alike, or swung
+/// with it as if it stood on its link.
 pub(super) fn target(case: &Case, cube: usize, way: usize, fixed: &[f64]) -> Vec<f64> {
-    let neighbour = way
-        .checked_sub(1)
-        .and_then(|n| neighbours(case, cube).get(n).copied());
-    let at = |i: usize| {
-        let row = case.rows[i];
-        let same = |j: &usize| {
-            Some(case.rows[*j].cube) == neighbour
-                && case.rows[*j].test == row.test
-                && case.rows[*j].component == row.component
+    let neighbours = neighbours(case, cube);
+    let Some(way) = way.checked_sub(1).filter(|_| !neighbours.is_empty()) else {
+        let still = |i: usize| {
+            if case.rows[i].cube == cube {
+                -fixed[i]
+            } else {
+                0.0
+            }
         };
-        match (row.cube == cube, way) {
-            (false, _) => 0.0,
-            (true, 0) => -fixed[i],
-            (true, _) => (0..case.rows.len())
-                .find(same)
-                .map_or(0.0, |j| fixed[j] - fixed[i]),
+        return (0..case.rows.len()).map(still).collect();
+    };
+    let neighbour = neighbours[way % neighbours.len()];
+    let lever = match way < neighbours.len() {
+        true => [0.0; 3],
+        false => {
+            let centre = |c: usize| case.test.facts.cubes[c].centre;
+            sub(centre(cube), centre(neighbour))
         }
     };
-    (0..case.rows.len()).map(at).collect()
+    let shown = |test: i64, component: usize| {
+        let mut own = case.rows.iter().zip(fixed);
+        let found = own.find(|(row, _)| {
+            row.cube == neighbour && row.test == test && row.component == component
+        });
+        found.map(|(_, moved)| *moved)
+    };
+    let moved = |i: usize| {
+        let row = &case.rows[i];
+        let turn = [3, 4, 5].map(|k| shown(row.test, k).unwrap_or(0.0) / case.arm);
+        let swung = cross(turn, lever);
+        let more = swung.get(row.component).copied().unwrap_or(0.0);
+        shown(row.test, row.component).map_or(0.0, |moved| moved + more - fixed[i])
+    };
+    let own = |i: usize| {
+        if case.rows[i].cube == cube {
+            moved(i)
+        } else {
+            0.0
+        }
+    };
+    (0..case.rows.len()).map(own).collect()
 }
 
 /// The cubes before and behind it.
