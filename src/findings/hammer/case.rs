@@ -104,12 +104,19 @@ impl Case<'_> {
         1.0 / mean.max(1.0) / (1.0 + FORMULA_ERROR.powi(2) * nats.max(0.0) / TOLERATED_NATS)
     }
 
+    /// Hits to fit and hits to judge by; lines, where a direction was hit but once.
+    fn apart(&self) -> Vec<[Data; 2]> {
+        let hits = (0..FOLDS).map(|k| Data::fold(&self.frf, self.grid, k, FOLDS));
+        let lines = || (0..FOLDS).map(|k| Data::of(&self.frf, self.grid).stretches(k, FOLDS));
+        hits.collect::<Option<_>>()
+            .unwrap_or_else(|| lines().collect())
+    }
+
     /// Names the causes of `best`, one after the other dropping those without a gain.
     fn name(&self, posterior: &Posterior, best: &Fit) -> Outcome<(Fit, Named)> {
         let mut chosen = best.clone();
         loop {
-            let parts = (0..FOLDS).filter_map(|k| Data::fold(&self.frf, self.grid, k, FOLDS));
-            let folds = folds(&self.machine, parts.collect(), &chosen);
+            let folds = folds(&self.machine, self.apart(), &chosen);
             let each = chosen.point.each();
             let gains = each.iter().map(|(s, _)| gain(&self.machine, &folds, s));
             let gains: Vec<Gain> = gains.collect();

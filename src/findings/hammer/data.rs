@@ -78,6 +78,30 @@ impl Data {
         Some([fitted, Self::with(frf, &part(true)?, grid, share)])
     }
 
+    /// Every so many lines left out, and those alone: part `k` of `folds`, in stretches that share no window. For tests of which
+    /// no hit can be left out.
+    pub fn stretches(&self, k: usize, folds: usize) -> [Self; 2] {
+        let wide = self.correlated.ceil().max(1.0) as usize;
+        [false, true].map(|mine| self.only(|line| (line / wide % folds == k) == mine))
+    }
+
+    fn only(&self, kept: impl Fn(usize) -> bool) -> Self {
+        fn of<T: Copy>(all: &[T], kept: impl Fn(usize) -> bool) -> Vec<T> {
+            let own = all.iter().enumerate().filter(|(line, _)| kept(*line));
+            own.map(|(_, value)| *value).collect()
+        }
+        let pair = |pair: &Pair| Pair {
+            frf: of(&pair.frf, &kept),
+            weight: of(&pair.weight, &kept),
+            ..*pair
+        };
+        Self {
+            s: of(&self.s, &kept),
+            pairs: self.pairs.iter().map(pair).collect(),
+            correlated: self.correlated,
+        }
+    }
+
     fn with(frf: &HammerFrf, sums: &[CrossSpectra], grid: Grid, share: f64) -> Self {
         let lines = lines(frf, grid);
         let all = every_line(frf, grid);
