@@ -56,8 +56,7 @@ impl Cutter {
     }
 
     fn of_keys(keys: &Keys<'_>) -> Outcome<Self> {
-        let diameter = keys.positive("diameter_mm")?.map(|mm| mm * 1e-3);
-        let diameter = diameter.ok_or_else(|| keys.missing("diameter_mm", "diameter_mm = 16.0"))?;
+        let diameter = diameter(keys)?;
         let teeth = teeth(keys, diameter)?;
         Ok(Self {
             diameter,
@@ -70,6 +69,17 @@ impl Cutter {
             runout_angle: keys.number("runout_angle_deg")?.unwrap_or(0.0) * DEGREE,
         })
     }
+}
+
+/// No tool is wider, mm: heads that face engine blocks have 500.
+const WIDEST_MM: f64 = 2000.0;
+
+fn diameter(keys: &Keys<'_>) -> Outcome<f64> {
+    let remedy = "give the diameter in millimetres, at most 2000";
+    let is_tool = |mm: f64| mm > 0.0 && mm <= WIDEST_MM;
+    let mm = keys.judged("diameter_mm", is_tool, "no diameter of a tool", remedy)?;
+    let mm = mm.ok_or_else(|| keys.missing("diameter_mm", "diameter_mm = 16.0"))?;
+    Ok(1e-3 * mm)
 }
 
 fn teeth(keys: &Keys<'_>, diameter: f64) -> Outcome<Option<usize>> {

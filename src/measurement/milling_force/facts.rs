@@ -94,7 +94,7 @@ const MOST_TEETH: f64 = 64.0;
 impl Facts {
     pub(super) fn of(front: &Front) -> Outcome<Self> {
         front.only(KEYS)?;
-        let diameter_m = required(front, "diameter_mm", "16.0")? * 1e-3;
+        let diameter_m = diameter(front)?;
         Ok(Self {
             diameter_m,
             teeth: teeth(front)?,
@@ -107,6 +107,21 @@ impl Facts {
             runout_m: front.not_negative("runout_um")?.map(|um| um * 1e-6),
             synthetic: front.synthetic(),
         })
+    }
+}
+
+/// No tool is wider, mm: heads that face engine blocks have 500.
+const WIDEST_MM: f64 = 2000.0;
+
+fn diameter(front: &Front) -> Outcome<f64> {
+    let mm = required(front, "diameter_mm", "16.0")?;
+    match mm <= WIDEST_MM {
+        true => Ok(1e-3 * mm),
+        false => Err(front.problem(
+            "diameter_mm",
+            format!("is {mm}"),
+            format!("give the diameter in millimetres, at most {WIDEST_MM}"),
+        )),
     }
 }
 

@@ -12,7 +12,20 @@ pub const RULE: Rule = Rule {
     look,
 };
 
+/// Readings with which nothing can be held against anything.
+const FEWEST: usize = 3;
+
 fn look(on: &Loaded) -> Said {
+    match on.test.readings.len() {
+        n if n < FEWEST => vec![(
+            Weight::Fatal,
+            format!("the file holds {n} of the {FEWEST} readings that a comparison needs"),
+        )],
+        _ => lost(on),
+    }
+}
+
+fn lost(on: &Loaded) -> Said {
     let mut cubes: BTreeMap<i64, BTreeSet<usize>> = BTreeMap::new();
     for r in &on.test.readings {
         cubes.entry(r.test).or_default().insert(r.cube);

@@ -1,4 +1,4 @@
-//! A run that was broken off.
+//! A run that was broken off, or a file that holds next to nothing.
 
 use super::{Axis, Rule};
 use crate::fit::suitability::{Said, Weight};
@@ -7,15 +7,34 @@ use std::collections::BTreeMap;
 /// The rule.
 pub const RULE: Rule = Rule {
     name: "few",
-    about: "A file that was cut off holds runs with fewer readings than the others.",
-    remedy: "check that the whole file was copied",
+    about: "A file that was cut off holds runs with fewer readings than the others, and two places of an axis tell no shape.",
+    remedy: "check that the whole file was copied, and measure at three targets or more along the axis",
     look,
 };
 
 /// Share of the usual number of readings below which a run is broken off.
 const BROKEN_OFF: f64 = 0.75;
+/// Targets without which an axis has no shape.
+const FEWEST: usize = 3;
 
 fn look(on: &Axis) -> Said {
+    let targets = on.test.readings.iter().map(|r| r.target);
+    let mut targets: Vec<f64> = targets.collect();
+    targets.sort_by(f64::total_cmp);
+    targets.dedup();
+    match targets.len() < FEWEST {
+        true => vec![(
+            Weight::Fatal,
+            format!(
+                "the axis stood at {} of the {FEWEST} targets that a shape needs",
+                targets.len()
+            ),
+        )],
+        false => broken_off(on),
+    }
+}
+
+fn broken_off(on: &Axis) -> Said {
     let mut counts: BTreeMap<(i64, bool), usize> = BTreeMap::new();
     for r in &on.test.readings {
         *counts.entry((r.run, r.forward)).or_default() += 1;
