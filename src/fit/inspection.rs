@@ -111,7 +111,7 @@ fn lines(file: &LoadCycle, found: &Inspection, jitter: f64) -> Vec<(String, Stri
 
 fn sensor_noise(data: &Observation) -> f64 {
     let candidates = Candidates::new(&crate::effects::shapes(crate::effects::EFFECTS), data);
-    screen(data, &candidates).colour.rms
+    screen(data, &candidates).rms
 }
 
 fn range(values: &[f64]) -> (f64, f64) {

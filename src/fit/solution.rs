@@ -30,8 +30,6 @@ pub struct Solution {
     pub residual: Vec<f64>,
     /// Root mean square of the residual.
     pub rms: f64,
-    /// Rows that counted.
-    pub rows: usize,
 }
 
 /// Relative standard error beyond which a parameter counts as not supported by the data.
@@ -160,7 +158,6 @@ fn conclude(problem: &Problem, optimum: Optimum) -> Solution {
         covariance: pinned,
         colour: problem.colour.clone(),
         rms,
-        rows: counted.len(),
         residual,
         p: optimum.p,
     }

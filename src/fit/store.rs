@@ -113,11 +113,6 @@ impl StoredFit {
         Ok((model, p))
     }
 
-    /// Writes it, replacing what was there.
-    pub fn write(&self, path: &Path) -> Outcome<()> {
-        files::replace(path, self.text()?.as_bytes())
-    }
-
     /// Its text.
     pub fn text(&self) -> Outcome<String> {
         stored_text(self, self.synthetic)

@@ -40,11 +40,6 @@ pub fn log_sum_exp(values: impl Iterator<Item = f64> + Clone) -> f64 {
     }
 }
 
-/// Sum of products.
-pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
 /// 97.5 % point of Student's t, for intervals whose variance rests on few degrees of freedom (at least 1).
 pub fn t95(freedom: f64) -> f64 {
     use statrs::distribution::{ContinuousCDF, StudentsT};

@@ -68,7 +68,7 @@ pub fn hide(
 pub fn noise_of(file: &LoadCycle) -> f64 {
     let data = Observation::of(file, 2000);
     let candidates = Candidates::new(&crate::effects::shapes(crate::effects::EFFECTS), &data);
-    screen(&data, &candidates).colour.rms
+    screen(&data, &candidates).rms
 }
 
 fn draw(effect: &dyn Effect, scene: &Scene, random: &mut Random) -> Vec<f64> {

@@ -42,8 +42,6 @@ pub struct Test<F: Kind> {
     pub facts: F,
     /// The readings, in the order of the file.
     pub readings: Vec<F::Reading>,
-    /// Data rows of the file.
-    pub rows: usize,
     /// Rows left out for an empty cell.
     pub left_out: usize,
 }
@@ -72,7 +70,6 @@ impl<F: Kind> Test<F> {
         }
         Ok(Self {
             left_out: table.rows - readings.len(),
-            rows: table.rows,
             sha256: table.sha256,
             path: table.path,
             facts,

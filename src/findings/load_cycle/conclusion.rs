@@ -1,6 +1,5 @@
 //! From named causes to the verdict: what is left, and how far the present simulation is off.
 
-use super::adequacy::Adequacy;
 use super::case::Case;
 use super::diagnosis::Diagnosis;
 use super::naming::Named;
@@ -52,14 +51,8 @@ impl Case<'_> {
             doubts: Vec::new(),
             ..self.found.answer.clone()
         };
-        let adequacy = Adequacy {
-            p_value: answer.p_value,
-            unexplained: answer.unexplained.share_of_variance,
-            test: "generic structure",
-        };
         Diagnosis {
             answer,
-            adequacy,
             model,
             p,
             simulated,

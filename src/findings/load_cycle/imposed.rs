@@ -5,7 +5,6 @@
 //! own error is far above the noise, and a channel's fault would be blamed for it. For the same
 //! reason no evidence is compared: the probability of a cause is that of its gain on unseen cycles.
 
-use super::adequacy::Adequacy;
 use super::diagnosis::Diagnosis;
 use super::structure;
 use super::unseen::{Split, gain, held_out};
@@ -152,11 +151,6 @@ fn conclude(
     };
     Diagnosis {
         answer,
-        adequacy: Adequacy {
-            p_value: 0.0,
-            unexplained: share,
-            test: "lack of fit",
-        },
         simulated: fitted(&plain),
         extended: fitted(&chosen),
         model: chosen.model.clone(),

@@ -33,23 +33,10 @@ pub enum Weight {
     Fatal,
 }
 
-impl Weight {
-    /// As in the JSON.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Note => "note",
-            Self::Odd => "odd",
-            Self::Fatal => "fatal",
-        }
-    }
-}
-
 /// One rule of the gate; `L` is the function that looks at a kind of measurement.
 pub struct Rule<L> {
     /// Its name, as in the JSON.
     pub name: &'static str,
-    /// What it looks at and why that matters, one sentence.
-    pub about: &'static str,
     /// What to do about what it finds, imperative.
     pub remedy: &'static str,
     /// What it finds: how grave, and one clause each.

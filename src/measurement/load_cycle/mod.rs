@@ -11,7 +11,7 @@ pub use port::{Axis, Port};
 use super::table::Table;
 use crate::ground::problem::{Outcome, Problem};
 use channels::Channels;
-pub(crate) use channels::{check_time, dialect};
+pub(crate) use channels::check_time;
 use std::path::{Path, PathBuf};
 
 /// One load-cycle file, SI, rows with a missing load or deflection left out (and counted).

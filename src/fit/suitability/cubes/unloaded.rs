@@ -3,10 +3,9 @@
 use super::{Loaded, Rule};
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// Without a load nothing moves, and noise passes for it.
 pub const RULE: Rule = Rule {
     name: "unchanging",
-    about: "Without a load nothing moves, and noise passes for it.",
     remedy: "write the load of every reading, loaded less unloaded",
     look,
 };

@@ -4,10 +4,9 @@ use super::{Rule, Turned};
 use crate::fit::suitability::{Said, Weight};
 use crate::ground::spatial::{cross, dot};
 
-/// The rule.
+/// The forces of a weight are a turned vector; a wrong sign or two swapped axes mirror it.
 pub const RULE: Rule = Rule {
     name: "reversed",
-    about: "The forces of a weight are a turned vector; a wrong sign or two swapped axes mirror it.",
     remedy: "turn the sign of that channel (load on the sensor), or correct the order of the axes",
     look,
 };

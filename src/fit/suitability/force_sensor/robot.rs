@@ -4,10 +4,9 @@ use super::{Rule, Turned};
 use crate::fit::suitability::{Said, Weight};
 use crate::robot::load::load;
 
-/// The rule.
+/// A file that names a robot is meant to belong to it.
 pub const RULE: Rule = Rule {
     name: "robot",
-    about: "A file that names a robot is meant to belong to it.",
     remedy: "correct `robot`, or put the robot file beside the measurement",
     look,
 };

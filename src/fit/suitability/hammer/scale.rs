@@ -7,10 +7,9 @@ use crate::sheet::number::{engineering, significant};
 use crate::signal::judge::FORCE_N;
 use crate::signal::outliers::median;
 
-/// The rule.
+/// A hammer hits with some hundred newtons, and a robot answers as some kilograms to some tonnes do.
 pub const RULE: Rule = Rule {
     name: "scale",
-    about: "A hammer hits with some hundred newtons, and a robot answers as some kilograms to some tonnes do.",
     remedy: "check the units at the ends of the column names",
     look,
 };

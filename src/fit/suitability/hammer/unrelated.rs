@@ -4,10 +4,9 @@ use super::Rule;
 use crate::fit::suitability::{Said, Weight};
 use crate::measurement::hammer::{HammerRecord, HammerRun};
 
-/// The rule.
+/// An acceleration that is the same before and after the hit does not answer it.
 pub const RULE: Rule = Rule {
     name: "unrelated",
-    about: "An acceleration that is the same before and after the hit does not answer it.",
     remedy: "check which sensor was recorded in this column, and its range",
     look,
 };

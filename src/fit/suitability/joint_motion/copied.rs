@@ -3,10 +3,9 @@
 use super::{Moving, Rule};
 use crate::fit::suitability::{Said, Weight, extent};
 
-/// The rule.
+/// Two encoders never agree to the last digit: a gear twists, and both have noise.
 pub const RULE: Rule = Rule {
     name: "copied",
-    about: "Two encoders never agree to the last digit: a gear twists, and both have noise.",
     remedy: "check which channel of the controller each column was taken from",
     look,
 };

@@ -4,10 +4,9 @@ use super::{Moving, Rule};
 use crate::fit::suitability::channel::sum;
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// Friction, inertia and weight tie a torque to the motion; noise and other channels are not.
 pub const RULE: Rule = Rule {
     name: "unrelated",
-    about: "Friction, inertia and weight tie a torque to the motion; noise and other channels are not.",
     remedy: "check which channel was recorded as torque, and that all are on one clock",
     look,
 };

@@ -3,10 +3,9 @@
 use super::{Course, Rule};
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// Readings that mostly repeat the one before hide noise and small effects.
 pub const RULE: Rule = Rule {
     name: "coarse",
-    about: "Readings that mostly repeat the one before hide noise and small effects.",
     remedy: "use a finer range of the converter",
     look,
 };

@@ -5,10 +5,9 @@ use crate::fit::suitability::{Said, Weight};
 use crate::ground::stats::rms;
 use crate::ground::units::DEGREE;
 
-/// The rule.
+/// A deflection with the digits of the load is the load's own column, in another unit or not.
 pub const RULE: Rule = Rule {
     name: "copied",
-    about: "A deflection with the digits of the load is the load's own column, in another unit or not.",
     remedy: "export the sensor's own channel",
     look,
 };

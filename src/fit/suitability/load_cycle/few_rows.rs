@@ -3,10 +3,9 @@
 use super::{Course, Rule};
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// Shape and noise of a ramp need readings on it.
 pub const RULE: Rule = Rule {
     name: "few-rows",
-    about: "Shape and noise of a ramp need readings on it.",
     remedy: "sample faster, or load more slowly",
     look,
 };

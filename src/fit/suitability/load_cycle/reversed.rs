@@ -3,10 +3,9 @@
 use super::{Course, Rule};
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// A spring gives way along its load, never against it.
 pub const RULE: Rule = Rule {
     name: "reversed",
-    about: "A spring gives way along its load, never against it.",
     remedy: "turn the sign of one column, or swap the columns back",
     look,
 };

@@ -4,10 +4,9 @@ use super::{Course, Rule};
 use crate::fit::suitability::{Said, Weight};
 use crate::robot::load::load;
 
-/// The rule.
+/// A stiffness goes into the robot that the file names.
 pub const RULE: Rule = Rule {
     name: "robot",
-    about: "A stiffness goes into the robot that the file names.",
     remedy: "correct `robot`, or put the robot file beside the measurement",
     look,
 };

@@ -3,10 +3,9 @@
 use super::{Course, Rule};
 use crate::fit::suitability::{Said, Weight, extent};
 
-/// The rule.
+/// A load or a response that stays the same says nothing of a spring.
 pub const RULE: Rule = Rule {
     name: "unchanging",
-    about: "A load or a response that stays the same says nothing of a spring.",
     remedy: "check cable and channel, and measure again",
     look,
 };

@@ -4,10 +4,9 @@ use super::{Probed, Rule};
 use crate::fit::suitability::channel;
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// A part whose every component never changes was not probed.
 pub const RULE: Rule = Rule {
     name: "dead",
-    about: "A part whose every component never changes was not probed.",
     remedy: "check the cable of the probe, and measure again",
     look,
 };

@@ -3,10 +3,9 @@
 use super::{Probed, Rule};
 use crate::fit::suitability::{Said, channel};
 
-/// The rule.
+/// One absurd reading turns every mean and every fit.
 pub const RULE: Rule = Rule {
     name: "wild",
-    about: "One absurd reading turns every mean and every fit.",
     remedy: "empty that cell, or correct it",
     look,
 };

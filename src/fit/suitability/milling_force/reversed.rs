@@ -3,10 +3,9 @@
 use super::{Cutting, Rule, mean};
 use crate::fit::suitability::{Said, Weight, extent};
 
-/// The rule.
+/// A chip resists: the mean force on the tool points against its edges.
 pub const RULE: Rule = Rule {
     name: "reversed",
-    about: "A chip resists: the mean force on the tool points against its edges.",
     remedy: "correct `force_on` (workpiece or tool), the signs of the channels, or the side of the cut",
     look,
 };

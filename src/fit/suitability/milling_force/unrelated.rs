@@ -5,10 +5,9 @@ use crate::fit::suitability::{Said, Weight};
 use crate::measurement::milling_force::Record;
 use std::f64::consts::TAU;
 
-/// The rule.
+/// A cutting force repeats with every turn of the spindle; noise and other channels do not.
 pub const RULE: Rule = Rule {
     name: "unrelated",
-    about: "A cutting force repeats with every turn of the spindle; noise and other channels do not.",
     remedy: "check which channel was recorded in this column, the time column and the spindle speed",
     look,
 };

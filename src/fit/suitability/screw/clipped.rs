@@ -4,10 +4,9 @@ use super::{Axis, Rule};
 use crate::fit::suitability::Said;
 use crate::fit::suitability::channel;
 
-/// The rule.
+/// A channel at the end of its range repeats one number while the test goes on.
 pub const RULE: Rule = Rule {
     name: "clipped",
-    about: "A channel at the end of its range repeats one number while the test goes on.",
     remedy: "measure again with a wider range of that channel",
     look,
 };

@@ -4,10 +4,9 @@ use super::{Axis, Rule};
 use crate::fit::suitability::Said;
 use crate::fit::suitability::channel;
 
-/// The rule.
+/// A scale that never changes passes for an axis that stands still.
 pub const RULE: Rule = Rule {
     name: "dead",
-    about: "A scale that never changes passes for an axis that stands still.",
     remedy: "check the cable of that channel, and measure again",
     look,
 };

@@ -4,10 +4,9 @@ use super::{Axis, Rule};
 use crate::fit::suitability::{Said, Weight};
 use std::collections::BTreeMap;
 
-/// The rule.
+/// A file that was cut off holds runs with fewer readings than the others.
 pub const RULE: Rule = Rule {
     name: "few",
-    about: "A file that was cut off holds runs with fewer readings than the others.",
     remedy: "check that the whole file was copied",
     look,
 };

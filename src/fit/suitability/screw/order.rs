@@ -3,10 +3,9 @@
 use super::{Axis, Rule};
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// With the directions swapped the backlash is corrected the wrong way.
 pub const RULE: Rule = Rule {
     name: "direction",
-    about: "With the directions swapped the backlash is corrected the wrong way.",
     remedy: "correct the column `direction`: forward approaches towards larger targets",
     look,
 };

@@ -4,10 +4,9 @@ use super::{Axis, Rule};
 use crate::fit::suitability::Said;
 use crate::fit::suitability::channel;
 
-/// The rule.
+/// One absurd reading turns every mean and every fit.
 pub const RULE: Rule = Rule {
     name: "wild",
-    about: "One absurd reading turns every mean and every fit.",
     remedy: "empty that cell, or correct it",
     look,
 };

@@ -4,10 +4,9 @@ use super::{Loaded, Rule};
 use crate::fit::suitability::{Said, Weight, extent};
 use crate::measurement::workspace_test::DIRECTIONS;
 
-/// The rule.
+/// A channel that never changes passes for a direction without compliance.
 pub const RULE: Rule = Rule {
     name: "dead",
-    about: "A channel that never changes passes for a direction without compliance.",
     remedy: "leave the cells of that column empty, or measure again",
     look,
 };

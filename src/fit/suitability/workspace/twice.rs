@@ -4,10 +4,9 @@ use super::{Loaded, Rule};
 use crate::fit::suitability::{Said, Weight};
 use crate::measurement::workspace_test::Step;
 
-/// The rule.
+/// A step that is copied counts twice and makes every interval too narrow.
 pub const RULE: Rule = Rule {
     name: "twice",
-    about: "A step that is copied counts twice and makes every interval too narrow.",
     remedy: "remove the copies",
     look,
 };

@@ -3,10 +3,9 @@
 use super::{Loaded, Rule, names};
 use crate::fit::suitability::{Said, Weight, extent};
 
-/// The rule.
+/// Without a change of force there is no stiffness.
 pub const RULE: Rule = Rule {
     name: "unchanging",
-    about: "Without a change of force there is no stiffness.",
     remedy: "check the channel of the force, and measure again",
     look,
 };
