@@ -1,7 +1,7 @@
 //! What may be wrong with one channel, whatever was measured: it is dead, clipped, wild, or follows
 //! nothing.
 
-use super::{Said, Weight, extent, range};
+use super::{Rule, Said, Weight, extent, range};
 use nalgebra::{DMatrix, DVector};
 
 /// A channel beside what drives it, reading by reading.
@@ -49,6 +49,15 @@ pub fn is_dead(values: &[f64]) -> bool {
     values.iter().filter(|v| v.is_finite()).count() >= FEW && extent(values) <= STILL * size
 }
 
+/// A channel that never changes passes for a load that is not there.
+pub const fn dead_rule<L>(look: L) -> Rule<L> {
+    Rule {
+        name: "dead",
+        remedy: "check the cable of that channel, and measure again",
+        look,
+    }
+}
+
 /// Channels that never change.
 pub fn dead(channels: &[Channel]) -> Said {
     let dead = channels.iter().filter(|c| is_dead(&c.values));
@@ -57,6 +66,15 @@ pub fn dead(channels: &[Channel]) -> Said {
         (Weight::Fatal, what)
     })
     .collect()
+}
+
+/// A channel at the end of its range repeats one number while the test goes on.
+pub const fn clipped_rule<L>(look: L) -> Rule<L> {
+    Rule {
+        name: "clipped",
+        remedy: "measure again with a wider range of that channel",
+        look,
+    }
 }
 
 /// Channels that stand at an extreme while the drive goes on.
@@ -112,6 +130,15 @@ pub fn copied<T: Ord>(readings: impl Iterator<Item = T>) -> Said {
             format!("{copies} of {rows} readings are exact copies of others"),
         )],
         false => Vec::new(),
+    }
+}
+
+/// One absurd reading turns every mean and every fit.
+pub const fn wild_rule<L>(look: L) -> Rule<L> {
+    Rule {
+        name: "wild",
+        remedy: "empty that cell, or correct it",
+        look,
     }
 }
 

@@ -1,8 +1,9 @@
 //! Whether data can carry a number at all. Every verb passes this gate before it says `identified`,
 //! `explained` or `sufficient`.
 //!
-//! One rule is one file and one line in the table of its kind (`RULES` of each module here): what it looks at, what it finds odd, how grave that is, and
-//! what to do about it. What a rule finds is a [`Doubt`].
+//! One rule is one file and one line in the table of its kind (`RULES` of each module here): what it finds odd, how
+//! grave that is, and what to do about it. Rules about single channels stand in [`channel`]. What a rule finds is a
+//! [`Doubt`].
 
 pub mod channel;
 pub mod cubes;

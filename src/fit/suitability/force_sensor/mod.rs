@@ -1,14 +1,12 @@
 //! The gate for readings of a force-torque sensor that touches nothing.
 
-mod clipped;
 mod dead;
 mod reversed;
 mod robot;
 mod scale;
 mod unrelated;
-mod wild;
 
-use super::channel::{Channel, Sum, sum};
+use super::channel::{self, Channel, Sum, sum};
 use super::{Doubt, Said};
 use crate::ground::spatial::{V3, norm, rotate_back};
 use crate::measurement::force_sensor::{CHANNELS, SensorTest, matrix};
@@ -30,8 +28,8 @@ pub type Rule = super::Rule<for<'a, 'b> fn(&'b Turned<'a>) -> Said>;
 /// Every rule, in the order in which its findings are said.
 pub const RULES: &[Rule] = &[
     dead::RULE,
-    wild::RULE,
-    clipped::RULE,
+    channel::wild_rule(|on| channel::wild(&on.channels)),
+    channel::clipped_rule(|on| channel::clipped(&on.channels)),
     unrelated::RULE,
     reversed::RULE,
     scale::RULE,
