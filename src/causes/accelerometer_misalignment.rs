@@ -3,6 +3,7 @@
 use super::contract::{Accelerance, Amount, Card, Cause, Sight};
 use crate::effects::Family;
 use crate::ground::spatial::{V3, cross};
+use crate::ground::stats::length;
 use crate::robot::Robot;
 use nalgebra::Complex;
 
@@ -64,7 +65,7 @@ impl Cause for AccelerometerMisalignment {
 
 /// Rows of Rᵀ for the rotation vector φ: R = 1 + sin φ/φ [φ]× + (1 − cos φ)/φ² [φ]×².
 fn turned_back(phi: V3) -> [V3; 3] {
-    let size = phi.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let size = length(&phi);
     let (a, b) = match size > 1e-9 {
         true => (size.sin() / size, (1.0 - size.cos()) / (size * size)),
         false => (1.0, 0.5),

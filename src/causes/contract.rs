@@ -8,6 +8,7 @@
 use crate::effects::Family;
 use crate::experiments::drive_law::{Law, STOP};
 use crate::ground::spatial::{M3, V3};
+use crate::ground::stats::largest;
 use crate::robot::Robot;
 use nalgebra::Complex;
 
@@ -107,7 +108,6 @@ pub trait Cause: Sync {
 
     /// Size that each amount has where the cause is of ordinary strength, in the units of the amounts.
     fn scale(&self, _robot: &Robot, _site: &str) -> Vec<f64> {
-        let largest = |starts: &[f64]| starts.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
         let own = self.card().amounts.iter();
         own.map(|amount| largest(amount.starts)).collect()
     }

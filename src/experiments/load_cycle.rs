@@ -1,6 +1,7 @@
 //! The load-cycle experiment: what a joint model says of one settled cycle, and its charts.
 
 use crate::effects::{Composite, Scene};
+use crate::ground::stats::largest;
 use crate::measurement::load_cycle::LoadCycle;
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
 use crate::sheet::number::prefix;
@@ -275,10 +276,6 @@ struct Scales {
     load: (f64, String),
     deflection: (f64, String),
     residual: (f64, String),
-}
-
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0_f64, |m, x| m.max(x.abs()))
 }
 
 fn pairs(x: &[f64], xs: f64, y: &[f64], ys: f64) -> Vec<[f64; 2]> {

@@ -1,4 +1,4 @@
-//! Means, quantiles and sums of exponentials: written once.
+//! Means, sizes, quantiles and sums of exponentials: written once.
 
 /// 97.5 % point of the normal distribution: half width of a 95 % interval in standard deviations.
 pub const Z95: f64 = 1.959_963_984_540_054;
@@ -11,6 +11,23 @@ pub fn mean(values: &[f64]) -> f64 {
 /// Root of the mean square, not less the mean; 0 of nothing.
 pub fn rms(values: &[f64]) -> f64 {
     (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
+}
+
+/// Length as of a vector: root of the sum of squares.
+pub fn length(values: &[f64]) -> f64 {
+    values.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+/// Largest size, sign apart; 0 of nothing.
+pub fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, v| most.max(v.abs()))
+}
+
+/// Smallest and largest; the ends of all numbers, upside down, of nothing.
+pub fn ends(values: &[f64]) -> (f64, f64) {
+    values.iter().fold((f64::MAX, f64::MIN), |(low, high), v| {
+        (low.min(*v), high.max(*v))
+    })
 }
 
 /// Value below which the share `q` (0 to 1) of the values lies, linear between order statistics; 0 of nothing.

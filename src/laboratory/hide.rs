@@ -7,6 +7,7 @@ use crate::fit::observation::Observation;
 use crate::fit::screen::screen;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::random::Random;
+use crate::ground::stats::ends;
 use crate::measurement::load_cycle::LoadCycle;
 
 /// An effect made to show with a given strength.
@@ -74,10 +75,7 @@ pub fn noise_of(file: &LoadCycle) -> f64 {
 fn draw(effect: &dyn Effect, scene: &Scene, random: &mut Random) -> Vec<f64> {
     let parameters = effect.card().parameters;
     let value = |q: &crate::effects::Parameter| {
-        let (low, high) = q
-            .grid
-            .iter()
-            .fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
+        let (low, high) = ends(q.grid);
         random.uniform(low, high) * q.scale.of(scene)
     };
     let mut p: Vec<f64> = parameters.iter().map(value).collect();

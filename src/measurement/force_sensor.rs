@@ -7,6 +7,7 @@ use super::table::Table;
 use super::test::{Kind, Test};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::M3;
+use crate::ground::stats::length;
 use crate::ground::units::Dimension;
 
 /// Farthest centre of mass of a tool from its sensor, m: as far as a whole robot reaches. Beyond, millimetres were meant.
@@ -154,7 +155,7 @@ impl<'a> Turn<'a> {
 const LENGTH: f64 = 0.01;
 
 fn unit(q: [f64; 4]) -> Outcome<[f64; 4]> {
-    let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let length = length(&q);
     match (length - 1.0).abs() <= LENGTH {
         true => Ok(q.map(|x| x / length)),
         false => Err(Problem::new(

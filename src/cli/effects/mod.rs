@@ -12,6 +12,7 @@ use crate::findings::load_cycle::look_alikes::{Picture, look_alikes, picture};
 use crate::fit::solution::unit_of;
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
+use crate::ground::stats::largest;
 use crate::measurement::load_cycle::Port;
 use crate::report::{json, svg, text};
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
@@ -202,11 +203,7 @@ fn card(effect: &'static dyn Effect) -> String {
 fn sketch(picture: &Picture) -> String {
     const WIDTH: usize = 61;
     const HEIGHT: usize = 13;
-    let largest = picture
-        .misfit
-        .iter()
-        .fold(0.0_f64, |m, v| m.max(v.abs()))
-        .max(f64::MIN_POSITIVE);
+    let largest = largest(&picture.misfit).max(f64::MIN_POSITIVE);
     let mut rows = vec![vec![' '; WIDTH]; HEIGHT];
     rows[HEIGHT / 2] = vec!['·'; WIDTH];
     for (u, y) in picture.load.iter().zip(&picture.misfit) {

@@ -4,6 +4,7 @@ use super::Case;
 use crate::findings::engine::Member;
 use crate::findings::table::{Effect, Place};
 use crate::ground::spatial::{V3, cross, sub};
+use crate::ground::stats::length;
 use crate::inference::gaussian::Size;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
@@ -14,15 +15,12 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     law_error: 0.3,
     can_be: |_, _| true,
     places: |case| vec![Place::new("frame", members(case))],
-    parameters: |_, blamed| {
-        let size = |own: &[f64]| own.iter().map(|x| x * x).sum::<f64>().sqrt();
-        match blamed.shape[..] {
-            [_, tests] => vec![("shift_rms", size(&blamed.amounts) / tests.sqrt(), "m")],
-            _ => vec![
-                ("shift", size(&blamed.amounts[..3]), "m"),
-                ("test", blamed.shape[0], "1"),
-            ],
-        }
+    parameters: |_, blamed| match blamed.shape[..] {
+        [_, tests] => vec![("shift_rms", length(&blamed.amounts) / tests.sqrt(), "m")],
+        _ => vec![
+            ("shift", length(&blamed.amounts[..3]), "m"),
+            ("test", blamed.shape[0], "1"),
+        ],
     },
     would_tell: "measure a cube on the foundation too",
 };

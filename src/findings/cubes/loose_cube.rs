@@ -3,6 +3,7 @@
 use super::Case;
 use crate::findings::engine::{Blamed, Member};
 use crate::findings::table::{Effect, Place};
+use crate::ground::stats::length;
 use crate::inference::gaussian::Size;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
@@ -24,11 +25,7 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     },
     parameters: |_, blamed| match blamed.shape.get(1) {
         Some(test) if blamed.amounts.len() > 1 => {
-            let size = blamed.amounts[..3]
-                .iter()
-                .map(|x| x * x)
-                .sum::<f64>()
-                .sqrt();
+            let size = length(&blamed.amounts[..3]);
             vec![("slip", size, "m"), ("test", *test, "1")]
         }
         Some(test) => vec![("share", blamed.amounts[0], "1"), ("test", *test, "1")],

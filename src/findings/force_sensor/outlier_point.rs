@@ -5,6 +5,7 @@ use super::Case;
 use crate::findings::engine::Member;
 use crate::findings::table::{Effect, Place};
 use crate::ground::spatial::{V3, cross};
+use crate::ground::stats::length;
 use crate::inference::gaussian::Size;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
@@ -22,20 +23,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
         }
     },
     parameters: |_, blamed| match blamed.shape[0] {
-        0.0 => vec![(
-            "turn",
-            blamed.amounts.iter().map(|x| x * x).sum::<f64>().sqrt(),
-            "rad",
-        )],
-        _ => vec![(
-            "force",
-            blamed.amounts[..3]
-                .iter()
-                .map(|x| x * x)
-                .sum::<f64>()
-                .sqrt(),
-            "N",
-        )],
+        0.0 => vec![("turn", length(&blamed.amounts), "rad")],
+        _ => vec![("force", length(&blamed.amounts[..3]), "N")],
     },
     would_tell: "repeat that orientation",
 };

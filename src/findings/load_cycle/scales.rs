@@ -5,6 +5,7 @@
 
 use crate::experiments::load_cycle::Settled;
 use crate::fit::second::log_ratio;
+use crate::ground::stats::ends;
 use crate::measurement::load_cycle::LoadCycle;
 
 /// What the scales say.
@@ -40,9 +41,7 @@ pub fn nominal_excess(file: &LoadCycle, spring: f64, settled: &Settled) -> Optio
         .filter(|k| **k > 0.0)
         .map(|k| (nominal / k).ln())
         .collect();
-    let (low, high) = logs
-        .iter()
-        .fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
+    let (low, high) = ends(&logs);
     if logs.is_empty() {
         return None;
     }

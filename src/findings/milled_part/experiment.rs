@@ -7,6 +7,7 @@ use super::{Case, EFFECTS, Stated};
 use crate::findings::engine::{Aspects, Blamed, Experiment, Remaining, Statement};
 use crate::findings::physics;
 use crate::findings::table;
+use crate::ground::stats::largest;
 
 /// Readings that a stated noise is worth.
 const WORTH: f64 = 60.0;
@@ -131,7 +132,7 @@ impl Case {
                 span.push(column.collect::<Vec<f64>>());
             }
         }
-        let sizes = self.simulated.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
+        let sizes = largest(&self.simulated);
         if sizes > 0.0 {
             let missed = missed(self).into_iter();
             span.extend(missed.map(|m| m.iter().map(|x| x / sizes).collect()));

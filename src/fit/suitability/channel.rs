@@ -2,6 +2,7 @@
 //! nothing.
 
 use super::{Rule, Said, Weight, extent, range};
+use crate::ground::stats::largest;
 use nalgebra::{DMatrix, DVector};
 
 /// A channel beside what drives it, reading by reading.
@@ -45,7 +46,7 @@ const USUAL: f64 = 0.9;
 
 /// Whether values never change.
 pub fn is_dead(values: &[f64]) -> bool {
-    let size = values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let size = largest(values);
     values.iter().filter(|v| v.is_finite()).count() >= FEW && extent(values) <= STILL * size
 }
 
@@ -183,11 +184,13 @@ pub fn sum(values: &[f64], columns: &[Vec<f64>]) -> Option<Sum> {
         let middle = mean(v);
         rows.iter().map(|i| v[*i] - middle).collect()
     };
-    let size = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     let y = centred(values);
     let own: Vec<Vec<f64>> = columns.iter().map(|c| centred(c)).collect();
-    let sizes: Vec<f64> = own.iter().map(|c| size(c).max(f64::MIN_POSITIVE)).collect();
-    let scale = size(&y);
+    let sizes: Vec<f64> = own
+        .iter()
+        .map(|c| largest(c).max(f64::MIN_POSITIVE))
+        .collect();
+    let scale = largest(&y);
     if !(scale.is_finite() && scale > 0.0) {
         return None;
     }

@@ -2,6 +2,7 @@
 
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::V3;
+use crate::ground::stats::largest;
 use crate::measurement::front::Front;
 use crate::measurement::uff::{Node, Trace, UniversalFile};
 use std::collections::BTreeMap;
@@ -146,7 +147,7 @@ fn distinct(nodes: &[Node]) -> Outcome<BTreeMap<i64, &Node>> {
         let Some(first) = found.insert(node.label, node) else {
             continue;
         };
-        let size = node.position.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let size = largest(&node.position);
         let apart = |k: usize| (node.position[k] - first.position[k]).abs() > SAME * size;
         if (0..3).any(apart) {
             let what = format!(

@@ -2,6 +2,7 @@
 
 use super::{Loaded, Rule};
 use crate::fit::suitability::{Said, Weight, extent};
+use crate::ground::stats::largest;
 use crate::measurement::workspace_test::DIRECTIONS;
 
 /// A channel that never changes passes for a direction without compliance.
@@ -18,7 +19,7 @@ fn look(on: &Loaded) -> Said {
     };
     let dead = (0..3).filter(|k| {
         let own = values(*k);
-        own.len() > 2 && extent(&own) <= 1e-12 * own.iter().fold(0.0_f64, |m, v| m.max(v.abs()))
+        own.len() > 2 && extent(&own) <= 1e-12 * largest(&own)
     });
     dead.map(|k| {
         (

@@ -2,6 +2,7 @@
 
 use super::{Loaded, Rule, names};
 use crate::fit::suitability::{Said, Weight, extent};
+use crate::ground::stats::largest;
 
 /// Without a change of force there is no stiffness.
 pub const RULE: Rule = Rule {
@@ -12,7 +13,7 @@ pub const RULE: Rule = Rule {
 
 fn look(on: &Loaded) -> Said {
     let force: Vec<f64> = on.test.steps.iter().map(|s| s.force).collect();
-    if extent(&force) <= 1e-12 * force.iter().fold(0.0_f64, |m, f| m.max(f.abs())) {
+    if extent(&force) <= 1e-12 * largest(&force) {
         return vec![(Weight::Fatal, "the force never changes".into())];
     }
     let none = |s: &&crate::fit::force_steps::Setup| s.lines.iter().all(Option::is_none);
