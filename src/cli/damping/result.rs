@@ -54,10 +54,7 @@ impl Damped {
         let mut tests = self.input.tests.iter();
         let left =
             tests.any(|t| !t.frf.remarks.is_empty() || t.frf.screened.iter().any(|h| !h.used()));
-        match left || !self.met() || !self.of_model().is_empty() {
-            true => Ending::Attention,
-            false => Ending::Done,
-        }
+        Ending::attention_if(left || !self.met() || !self.of_model().is_empty())
     }
 
     /// Whether every pair is met in shape and scale.

@@ -86,10 +86,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
     };
     print(&said)?;
     let fine = |one: &DiagnosedFile| one.found.answer().is_fine();
-    Ok(match results.iter().all(fine) {
-        true => Ending::Done,
-        false => Ending::Attention,
-    })
+    Ok(Ending::done_if(results.iter().all(fine)))
 }
 
 fn misplaced(what: &str) -> Problem {

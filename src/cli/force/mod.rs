@@ -138,10 +138,7 @@ impl Found {
 fn ending(found: &Found) -> Ending {
     let open = |s: &Status| *s == Status::NotIdentifiable;
     let coefficients = &found.account.parameters[..6];
-    match is_odd(&found.doubts) || coefficients.iter().any(|p| open(&p.status)) {
-        true => Ending::Attention,
-        false => Ending::Done,
-    }
+    Ending::attention_if(is_odd(&found.doubts) || coefficients.iter().any(|p| open(&p.status)))
 }
 
 fn write(found: &Found) -> Outcome<Vec<PathBuf>> {

@@ -83,10 +83,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
         true => json::print(account.json),
         false => account.lines.join("\n") + "\n",
     })?;
-    Ok(match account.odd.is_empty() {
-        true => Ending::Done,
-        false => Ending::Attention,
-    })
+    Ok(Ending::done_if(account.odd.is_empty()))
 }
 
 /// Who reads a file of this kind; a file that does not say its kind is taken for load cycles.

@@ -90,10 +90,7 @@ pub fn run(arguments: &super::Arguments) -> Outcome<Ending> {
         false if arguments.dry_run => print(&text)?,
         false => print(&account(&robot, &guessed, &remarks, [&path, &picture]))?,
     }
-    Ok(match remarks.is_empty() {
-        true => Ending::Done,
-        false => Ending::Attention,
-    })
+    Ok(Ending::done_if(remarks.is_empty()))
 }
 
 fn said(remark: &Remark) -> String {

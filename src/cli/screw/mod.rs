@@ -225,10 +225,7 @@ fn read(name: &Path) -> Outcome<ScrewTest> {
 
 impl Judged {
     fn ending(&self) -> Ending {
-        match self.account.figures.a {
-            Some(_) if !is_odd(&self.doubts) => Ending::Done,
-            _ => Ending::Attention,
-        }
+        Ending::done_if(self.account.figures.a.is_some() && !is_odd(&self.doubts))
     }
 
     fn stem(&self) -> String {

@@ -167,10 +167,8 @@ fn only_apply(file: &Path, arguments: &Arguments) -> Outcome<Ending> {
 
 impl Identified {
     fn ending(&self) -> Ending {
-        match self.account.fitted.known[..10].iter().all(|known| *known) {
-            true if !is_odd(&self.doubts) => Ending::Done,
-            _ => Ending::Attention,
-        }
+        let known = &self.account.fitted.known[..10];
+        Ending::done_if(known.iter().all(|known| *known) && !is_odd(&self.doubts))
     }
 
     fn stem(&self) -> String {

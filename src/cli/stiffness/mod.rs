@@ -191,10 +191,7 @@ fn one(path: PathBuf, request: &Request) -> Outcome<Result> {
 
 /// 1 when something needs attention: no stiffness, or data that are odd.
 fn ending(results: &[Result]) -> Ending {
-    match results.iter().all(|r| r.account.is_fine()) {
-        true => Ending::Done,
-        false => Ending::Attention,
-    }
+    Ending::done_if(results.iter().all(|r| r.account.is_fine()))
 }
 
 fn write(results: &[Result]) -> Outcome<()> {

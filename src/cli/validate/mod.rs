@@ -111,10 +111,7 @@ pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
 }
 
 fn ending(validated: &Validated) -> Ending {
-    match needs_attention(&validated.found) {
-        true => Ending::Attention,
-        false => Ending::Done,
-    }
+    Ending::attention_if(needs_attention(&validated.found))
 }
 
 /// Writes the identified robot of a campaign after its axis tests changed: with what the points of

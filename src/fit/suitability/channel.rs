@@ -1,7 +1,7 @@
 //! What may be wrong with one channel, whatever was measured: it is dead, clipped, wild, or follows
 //! nothing.
 
-use super::{Rule, Said, Weight, extent, range};
+use super::{Rule, Said, Weight, extent, range, said_if};
 use crate::ground::stats::largest;
 use nalgebra::{DMatrix, DVector};
 
@@ -125,13 +125,11 @@ pub fn copied<T: Ord>(readings: impl Iterator<Item = T>) -> Said {
     all.sort_unstable();
     all.dedup();
     let copies = rows - all.len();
-    match copies as f64 > MANY * rows as f64 {
-        true => vec![(
-            Weight::Odd,
-            format!("{copies} of {rows} readings are exact copies of others"),
-        )],
-        false => Vec::new(),
-    }
+    said_if(
+        copies as f64 > MANY * rows as f64,
+        Weight::Odd,
+        format!("{copies} of {rows} readings are exact copies of others"),
+    )
 }
 
 /// One absurd reading turns every mean and every fit.

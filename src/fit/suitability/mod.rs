@@ -19,6 +19,7 @@ pub mod screw;
 pub mod workspace;
 
 use crate::ground::problem::{Outcome, Problem};
+use crate::robot::load::load;
 use serde::Serialize;
 use std::path::Path;
 
@@ -69,6 +70,21 @@ impl Doubt {
 
 /// What a rule says: how grave, and what is odd.
 pub type Said = Vec<(Weight, String)>;
+
+/// What a rule says that finds one thing or nothing.
+pub(crate) fn said_if(odd: bool, weight: Weight, what: impl Into<String>) -> Said {
+    odd.then(|| (weight, what.into())).into_iter().collect()
+}
+
+/// A robot that a file names, and nobody knows.
+pub(crate) fn strange_robot(robot: Option<&String>, file: &Path) -> Said {
+    let strange = robot.filter(|name| load(name, Some(file)).is_err());
+    let what = |name: &String| format!("the robot `{name}` is not known here");
+    strange
+        .map(|name| (Weight::Note, what(name)))
+        .into_iter()
+        .collect()
+}
 
 /// What a table of rules finds when each is called, the gravest first.
 pub fn doubts<L: Copy>(rules: &[Rule<L>], call: impl Fn(L) -> Said) -> Vec<Doubt> {

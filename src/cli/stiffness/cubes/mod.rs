@@ -176,10 +176,7 @@ impl Identified {
     }
 
     fn ending(&self) -> Ending {
-        match self.contradiction() || is_odd(&self.doubts) {
-            true => Ending::Attention,
-            false => Ending::Done,
-        }
+        Ending::attention_if(self.contradiction() || is_odd(&self.doubts))
     }
 
     /// Whether the cubes contradict the model beyond the stated noise.

@@ -1,7 +1,7 @@
 //! Signs and order of the axes: a weight turns with the sensor, it is not mirrored.
 
 use super::{Rule, Turned};
-use crate::fit::suitability::{Said, Weight};
+use crate::fit::suitability::{Said, Weight, said_if};
 use crate::ground::spatial::{cross, dot};
 
 /// The forces of a weight are a turned vector; a wrong sign or two swapped axes mirror it.
@@ -21,11 +21,9 @@ fn look(on: &Turned) -> Said {
         return Vec::new();
     };
     let volume = dot(x, cross(y, z)) / weights.iter().product::<f64>();
-    match volume < MIRRORED {
-        true => vec![(
-            Weight::Fatal,
-            "the forces are the mirror image of a weight: one sign or all three are wrong, or two axes are swapped".into(),
-        )],
-        false => Vec::new(),
-    }
+    said_if(
+        volume < MIRRORED,
+        Weight::Fatal,
+        "the forces are the mirror image of a weight: one sign or all three are wrong, or two axes are swapped",
+    )
 }

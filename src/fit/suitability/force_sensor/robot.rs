@@ -1,8 +1,7 @@
 //! The robot that the file names.
 
 use super::{Rule, Turned};
-use crate::fit::suitability::{Said, Weight};
-use crate::robot::load::load;
+use crate::fit::suitability::{Said, strange_robot};
 
 /// A file that names a robot is meant to belong to it.
 pub const RULE: Rule = Rule {
@@ -12,14 +11,5 @@ pub const RULE: Rule = Rule {
 };
 
 fn look(on: &Turned) -> Said {
-    let Some(name) = &on.test.facts.robot else {
-        return Vec::new();
-    };
-    match load(name, Some(&on.test.path)) {
-        Ok(_) => Vec::new(),
-        Err(_) => vec![(
-            Weight::Note,
-            format!("the robot `{name}` is not known here"),
-        )],
-    }
+    strange_robot(on.test.facts.robot.as_ref(), &on.test.path)
 }

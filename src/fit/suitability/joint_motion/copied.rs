@@ -1,7 +1,7 @@
 //! One encoder in both columns.
 
 use super::{Moving, Rule};
-use crate::fit::suitability::{Said, Weight, extent};
+use crate::fit::suitability::{Said, Weight, extent, said_if};
 
 /// Two encoders never agree to the last digit: a gear twists, and both have noise.
 pub const RULE: Rule = Rule {
@@ -17,11 +17,9 @@ fn look(on: &Moving) -> Said {
     let (motor, link) = (&on.joint.motor, &on.joint.link);
     let twist: Vec<f64> = link.iter().zip(motor).map(|(l, m)| l - m).collect();
     let (motion, twist) = (extent(motor), extent(&twist));
-    match motion > 0.0 && twist <= SAME * motion {
-        true => vec![(
-            Weight::Fatal,
-            "the link angle repeats the motor angle: one encoder in both columns".into(),
-        )],
-        false => Vec::new(),
-    }
+    said_if(
+        motion > 0.0 && twist <= SAME * motion,
+        Weight::Fatal,
+        "the link angle repeats the motor angle: one encoder in both columns",
+    )
 }

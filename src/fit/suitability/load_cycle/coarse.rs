@@ -1,7 +1,7 @@
 //! A coarse converter.
 
 use super::{Course, Rule};
-use crate::fit::suitability::{Said, Weight};
+use crate::fit::suitability::{Said, Weight, said_if};
 
 /// Readings that mostly repeat the one before hide noise and small effects.
 pub const RULE: Rule = Rule {
@@ -14,11 +14,9 @@ fn look(on: &Course) -> Said {
     let file = on.file;
     let pairs = file.deflection.windows(2);
     let equal = pairs.clone().filter(|w| w[0] == w[1]).count();
-    match 2 * equal > pairs.len() {
-        true => vec![(
-            Weight::Note,
-            "most readings repeat one before: the converter is coarse".into(),
-        )],
-        false => Vec::new(),
-    }
+    said_if(
+        2 * equal > pairs.len(),
+        Weight::Note,
+        "most readings repeat one before: the converter is coarse",
+    )
 }

@@ -1,7 +1,7 @@
 //! A cycle must be resolved.
 
 use super::{Course, Rule};
-use crate::fit::suitability::{Said, Weight};
+use crate::fit::suitability::{Said, Weight, said_if};
 
 /// Shape and noise of a ramp need readings on it.
 pub const RULE: Rule = Rule {
@@ -22,13 +22,11 @@ fn look(on: &Course) -> Said {
     if rows < FEWEST {
         return vec![(Weight::Fatal, format!("there are only {rows} usable rows"))];
     }
-    match ramps > 2 && rows / ramps < ON_A_RAMP {
-        true => vec![(
-            Weight::Fatal,
-            format!(
-                "{rows} rows hold {ramps} ramps of the load: fewer than {ON_A_RAMP} readings on each"
-            ),
-        )],
-        false => Vec::new(),
-    }
+    said_if(
+        ramps > 2 && rows / ramps < ON_A_RAMP,
+        Weight::Fatal,
+        format!(
+            "{rows} rows hold {ramps} ramps of the load: fewer than {ON_A_RAMP} readings on each"
+        ),
+    )
 }

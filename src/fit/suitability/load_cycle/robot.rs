@@ -1,8 +1,7 @@
 //! The robot that the file names.
 
 use super::{Course, Rule};
-use crate::fit::suitability::{Said, Weight};
-use crate::robot::load::load;
+use crate::fit::suitability::{Said, strange_robot};
 
 /// A stiffness goes into the robot that the file names.
 pub const RULE: Rule = Rule {
@@ -12,14 +11,5 @@ pub const RULE: Rule = Rule {
 };
 
 fn look(on: &Course) -> Said {
-    let Some(name) = &on.file.facts.robot else {
-        return Vec::new();
-    };
-    match load(name, Some(&on.file.path)) {
-        Ok(_) => Vec::new(),
-        Err(_) => vec![(
-            Weight::Note,
-            format!("the robot `{name}` is not known here"),
-        )],
-    }
+    strange_robot(on.file.facts.robot.as_ref(), &on.file.path)
 }

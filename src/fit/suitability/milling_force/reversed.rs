@@ -1,7 +1,7 @@
 //! Signs: the tool is pushed back by what it cuts.
 
 use super::{Cutting, Rule, mean};
-use crate::fit::suitability::{Said, Weight, extent};
+use crate::fit::suitability::{Said, Weight, extent, said_if};
 
 /// A chip resists: the mean force on the tool points against its edges.
 pub const RULE: Rule = Rule {
@@ -27,11 +27,9 @@ fn look(on: &Cutting) -> Said {
         let [x, y, _] = mean(record);
         against(on.expected(cut), [x, y], range)
     });
-    match every {
-        true => vec![(
-            Weight::Fatal,
-            "the mean force drives the tool in every cut: its sign is wrong".into(),
-        )],
-        false => Vec::new(),
-    }
+    said_if(
+        every,
+        Weight::Fatal,
+        "the mean force drives the tool in every cut: its sign is wrong",
+    )
 }

@@ -1,7 +1,7 @@
 //! Rows that stand in the file twice.
 
 use super::{Loaded, Rule};
-use crate::fit::suitability::{Said, Weight};
+use crate::fit::suitability::{Said, Weight, said_if};
 use crate::measurement::workspace_test::Step;
 
 /// A step that is copied counts twice and makes every interval too narrow.
@@ -30,11 +30,9 @@ fn look(on: &Loaded) -> Said {
     let rows = all.len();
     all.dedup();
     let copies = rows - all.len();
-    match copies as f64 > MANY * rows as f64 {
-        true => vec![(
-            Weight::Odd,
-            format!("{copies} of {rows} steps are exact copies of others"),
-        )],
-        false => Vec::new(),
-    }
+    said_if(
+        copies as f64 > MANY * rows as f64,
+        Weight::Odd,
+        format!("{copies} of {rows} steps are exact copies of others"),
+    )
 }

@@ -1,7 +1,7 @@
 //! The force must change.
 
 use super::{Loaded, Rule, names};
-use crate::fit::suitability::{Said, Weight, extent};
+use crate::fit::suitability::{Said, Weight, extent, said_if};
 use crate::ground::stats::largest;
 
 /// Without a change of force there is no stiffness.
@@ -20,14 +20,12 @@ fn look(on: &Loaded) -> Said {
     if on.setups.iter().all(|s| none(&s)) {
         return vec![(Weight::Fatal, "no set-up holds a change of force".into())];
     }
-    match on.setups.iter().any(|s| none(&s)) {
-        true => vec![(
-            Weight::Odd,
-            format!(
-                "no change of force gives a line at {}",
-                names(on.setups.iter().filter(none))
-            ),
-        )],
-        false => Vec::new(),
-    }
+    said_if(
+        on.setups.iter().any(|s| none(&s)),
+        Weight::Odd,
+        format!(
+            "no change of force gives a line at {}",
+            names(on.setups.iter().filter(none))
+        ),
+    )
 }
