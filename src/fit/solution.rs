@@ -7,6 +7,7 @@ use super::starts::starts;
 use crate::effects::composite::Slot;
 use crate::effects::{Composite, Scale};
 use crate::ground::products::gram;
+use crate::ground::stats::rms;
 use crate::inference::descent::Stop;
 use crate::measurement::load_cycle::Port;
 use crate::signal::colour::Colour;
@@ -149,7 +150,7 @@ fn conclude(problem: &Problem, optimum: Optimum) -> Solution {
         .filter(|(_, i)| !**i)
         .map(|(r, _)| *r)
         .collect();
-    let rms = (counted.iter().map(|r| r * r).sum::<f64>() / counted.len().max(1) as f64).sqrt();
+    let rms = rms(&counted);
     let pinned = covariance(problem.model, &optimum, true);
     Solution {
         model: problem.model.clone(),

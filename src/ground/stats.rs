@@ -23,6 +23,18 @@ pub fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, v| most.max(v.abs()))
 }
 
+/// Index of the largest size, sign apart; none of nothing.
+pub fn farthest(values: &[f64]) -> Option<usize> {
+    (0..values.len()).max_by(|a, b| values[*a].abs().total_cmp(&values[*b].abs()))
+}
+
+/// Indices from the largest value to the smallest.
+pub fn descending(values: &[f64]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|a, b| values[*b].total_cmp(&values[*a]));
+    order
+}
+
 /// Smallest and largest; the ends of all numbers, upside down, of nothing.
 pub fn ends(values: &[f64]) -> (f64, f64) {
     values.iter().fold((f64::MAX, f64::MIN), |(low, high), v| {

@@ -2,7 +2,7 @@
 
 use super::foreign::Sidecar;
 use super::known_keys::unknown_key;
-use crate::ground::problem::{Outcome, Problem};
+use crate::ground::problem::{Outcome, Problem, line_of_toml};
 use std::collections::BTreeSet;
 use toml::{Table, Value};
 
@@ -48,17 +48,11 @@ impl Front {
     }
 
     fn broken(text: &str, error: &toml::de::Error) -> Problem {
-        let start = error.span().map_or(0, |span| span.start.min(text.len()));
-        let line = text.as_bytes()[..start]
-            .iter()
-            .filter(|b| **b == b'\n')
-            .count()
-            + 1;
         Problem::new(
             format!("front matter is not TOML: {}", error.message().trim()),
             "write each fact as `# key = value`, text in double quotes",
         )
-        .at_line(line)
+        .at_line(line_of_toml(text, error))
     }
 
     /// Takes over facts from beside the file, where the file does not state them itself.

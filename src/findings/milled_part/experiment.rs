@@ -7,7 +7,7 @@ use super::{Case, EFFECTS, Stated};
 use crate::findings::engine::{Aspects, Blamed, Experiment, Remaining, Statement};
 use crate::findings::physics;
 use crate::findings::table;
-use crate::ground::stats::largest;
+use crate::ground::stats::{farthest, largest};
 
 /// Readings that a stated noise is worth.
 const WORTH: f64 = 60.0;
@@ -81,7 +81,7 @@ impl Experiment for Case {
     }
 
     fn place(&self, missed: &[f64]) -> String {
-        let worst = (0..missed.len()).max_by(|a, b| missed[*a].abs().total_cmp(&missed[*b].abs()));
+        let worst = farthest(missed);
         worst.map_or("nowhere".into(), |i| {
             let station = &self.stations[self.rows[i].station];
             format!("largest at {:.1} mm of the path", 1e3 * station.s_m)

@@ -6,6 +6,7 @@ use crate::causes::places::{UNIT_COMPLIANCE, added, number_in, soften};
 use crate::effects::Family;
 use crate::experiments::drive_law::Law;
 use crate::ground::spatial::V3;
+use crate::ground::stats::descending;
 use crate::robot::model::ElasticAxis;
 use crate::robot::{Robot, Spring};
 use nalgebra::{DMatrix, DVector};
@@ -214,8 +215,7 @@ pub fn modes(
     let angles: Vec<f64> = measured.iter().map(|i| points[*i][joint]).collect();
     let root = root_of_kernel(&angles);
     let eigen = root.tr_mul(&root).symmetric_eigen();
-    let mut order: Vec<usize> = (0..root.ncols()).collect();
-    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+    let order = descending(eigen.eigenvalues.as_slice());
     let mut modes = DMatrix::zeros(angles.len(), WAVE.amounts.len());
     for (k, at) in order.iter().take(WAVE.amounts.len()).enumerate() {
         modes.set_column(k, &(&root * eigen.eigenvectors.column(*at)));

@@ -1,7 +1,7 @@
 //! The text of a path file: decoded, line by line.
 
 use crate::ground::files::{read_bytes, sha256};
-use crate::ground::problem::{Outcome, Problem};
+use crate::ground::problem::{Outcome, Problem, line_of};
 use std::path::{Path, PathBuf};
 
 /// A path file as text.
@@ -47,7 +47,7 @@ impl Source {
         match bytes.iter().position(|byte| *byte == 0) {
             None => Ok(String::from_utf8_lossy(bytes).into_owned()),
             Some(at) => {
-                let line = 1 + bytes[..at].iter().filter(|b| **b == b'\n').count();
+                let line = line_of(bytes, at);
                 let remedy = "give the path as text: CSV, CLS/APT, G-code or KRL, in UTF-8";
                 Err(Problem::new("is a binary file", remedy).at_line(line))
             }
