@@ -2,9 +2,8 @@
 
 use super::Case;
 use crate::findings::engine::{Blamed, Member};
-use crate::findings::table::{Effect, Place};
+use crate::findings::table::{Effect, Place, together};
 use crate::ground::stats::length;
-use crate::inference::gaussian::Size;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "loose_cube",
@@ -76,12 +75,7 @@ fn members(case: &Case, cube: usize) -> Vec<Member> {
             .map(part)
             .filter(|c| c.iter().any(|x| *x != 0.0))
             .collect();
-        members.push(Member {
-            columns,
-            size: Size::Free,
-            positive: None,
-            shape: vec![1.0, test as f64],
-        });
+        members.push(together(columns, &[1.0, test as f64]));
     }
     members
 }
