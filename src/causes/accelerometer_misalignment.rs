@@ -4,7 +4,6 @@ use super::contract::{Accelerance, Amount, Card, Cause, Sight};
 use crate::effects::Family;
 use crate::ground::spatial::{V3, cross};
 use crate::ground::stats::length;
-use crate::robot::Robot;
 use nalgebra::Complex;
 
 /// See the card.
@@ -40,10 +39,6 @@ const fn angle(name: &'static str, meaning: &'static str) -> Amount {
 impl Cause for AccelerometerMisalignment {
     fn card(&self) -> &'static Card {
         &CARD
-    }
-
-    fn sites(&self, _robot: &Robot) -> Vec<String> {
-        vec!["sensor".into()]
     }
 
     fn read_accelerance(

@@ -1,7 +1,7 @@
 //! The drive of one axis has lost motion.
 
 use super::contract::{Amount, Blame, Card, Cause, Sight};
-use super::places::Said;
+use super::places::{Said, drives};
 use crate::effects::Family;
 use crate::experiments::drive_law::Law;
 use crate::robot::Robot;
@@ -60,8 +60,7 @@ impl Cause for Backlash {
     }
 
     fn sites(&self, robot: &Robot) -> Vec<String> {
-        let elastic = robot.joints.iter().filter(|joint| joint.drive.is_some());
-        elastic.map(|joint| joint.name.clone()).collect()
+        drives(robot)
     }
 
     fn blame(&self) -> Blame {

@@ -90,8 +90,11 @@ pub trait Cause: Sync {
     /// Its card.
     fn card(&self) -> &'static Card;
 
-    /// Where on this robot it may sit: `A6`, `A6-tilt`, `base`, `link2`, `tool`, `sensor`, `sensor-x`.
-    fn sites(&self, robot: &Robot) -> Vec<String>;
+    /// Where on this robot it may sit: `A6`, `A6-tilt`, `base`, `link2`, `tool`, `sensor`, `sensor-x`; without another
+    /// word in the sensor.
+    fn sites(&self, _robot: &Robot) -> Vec<String> {
+        vec!["sensor".into()]
+    }
 
     /// The sites in a test with that many points: more than [`Cause::sites`] where a point is one.
     fn sites_at(&self, robot: &Robot, _points: usize) -> Vec<String> {

@@ -67,6 +67,12 @@ pub fn said_added(name: &'static str, amount: f64) -> Said {
         .collect()
 }
 
+/// The joints whose drive is elastic.
+pub fn drives(robot: &Robot) -> Vec<String> {
+    let elastic = robot.joints.iter().filter(|joint| joint.drive.is_some());
+    elastic.map(|joint| joint.name.clone()).collect()
+}
+
 /// Compliance of the drive of joint `i` (from 1), else of its bearing, in units of
 /// [`UNIT_COMPLIANCE`]: the measure for what is added near it.
 pub fn drive_compliance(robot: &Robot, i: usize) -> f64 {

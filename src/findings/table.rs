@@ -162,6 +162,19 @@ pub fn would_tell<C>(table: &[Effect<C>], rivals: &[(&'static str, String)]) -> 
     }
 }
 
+/// The same, where a rival may be of no row of the table: `otherwise` then.
+pub fn would_tell_or<C>(
+    table: &[Effect<C>],
+    rivals: &[(&'static str, String)],
+    otherwise: &str,
+) -> String {
+    let known = |rival: &(&str, String)| table.iter().any(|effect| effect.name == rival.0);
+    match rivals.iter().any(known) {
+        true => would_tell(table, rivals),
+        false => otherwise.into(),
+    }
+}
+
 /// Waves cos(kπu) over u in [0, 1], k = 1 ..= `count`, falling as 1/k: structure of any smooth kind.
 pub fn waves(u: &[f64], count: usize) -> Vec<Vec<f64>> {
     let wave = |k: usize| {

@@ -4,9 +4,9 @@ use super::recording::Recording;
 use crate::fit::force_sensor::statics::{N, reading};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::random::Random;
-use crate::ground::spatial::V3;
+use crate::ground::spatial::{V3, of_quaternion};
 use crate::ground::units::DEGREE;
-use crate::measurement::force_sensor::{matrix, quaternion};
+use crate::measurement::force_sensor::quaternion;
 use serde::Deserialize;
 
 /// One force-sensor test of a campaign.
@@ -136,7 +136,7 @@ impl SensorTruth {
 
     /// Force and moment of the hose, sensor axes.
     fn pull(&self, q: [f64; 4]) -> [f64; 6] {
-        let size = self.hose * matrix(q)[0][2];
+        let size = self.hose * of_quaternion(q)[0][2];
         [size, 0.0, 0.0, 0.0, HOSE_HEIGHT_M * size, 0.0]
     }
 

@@ -135,6 +135,17 @@ impl Front {
         }
     }
 
+    /// A relative standard deviation, if given; 1 and more is a percentage by mistake.
+    pub fn fraction(&self, key: &str) -> Outcome<Option<f64>> {
+        match self.not_negative(key)? {
+            Some(x) if x >= 1.0 => {
+                let what = format!("is {x}, 100 % or more");
+                Err(self.problem(key, what, "write it as a fraction: 0.02 for 2 %"))
+            }
+            other => Ok(other),
+        }
+    }
+
     /// A text, if given.
     pub fn text(&self, key: &str) -> Outcome<Option<&str>> {
         match self.facts.get(key) {

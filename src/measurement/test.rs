@@ -82,6 +82,11 @@ impl<F: Kind> Test<F> {
         stem(&self.path, F::NAME)
     }
 
+    /// The file with its hash: an input.
+    pub fn input(&self) -> (PathBuf, String) {
+        (self.path.clone(), self.sha256.clone())
+    }
+
     /// Name of the file and its hash: what a result rests on.
     pub fn provenance(&self) -> String {
         let name = self.path.file_name().unwrap_or_default();

@@ -126,8 +126,8 @@ impl Facts {
         Ok(Self {
             robot: robot.to_string(),
             joint_angles: joint_angles(front)?,
-            nominal_rel_std: fraction(front, "nominal_stiffness_rel_std")?,
-            setup_repeatability: fraction(front, "setup_repeatability")?,
+            nominal_rel_std: front.fraction("nominal_stiffness_rel_std")?,
+            setup_repeatability: front.fraction("setup_repeatability")?,
             sensor_noise: front.not_negative("sensor_noise_mm")?.map(|mm| mm * 1e-3),
             synthetic: front.synthetic(),
         })
@@ -141,18 +141,6 @@ pub(super) const FACTS: &[&str] = &[
     "setup_repeatability",
     "sensor_noise_mm",
 ];
-
-/// A relative standard deviation; 1 and more is a percentage by mistake.
-fn fraction(front: &Front, key: &str) -> Outcome<Option<f64>> {
-    match front.not_negative(key)? {
-        Some(x) if x >= 1.0 => Err(front.problem(
-            key,
-            format!("is {x}, 100 % or more"),
-            "write it as a fraction: 0.02 for 2 %",
-        )),
-        other => Ok(other),
-    }
-}
 
 const ANGLES: &str = "joint_angles_deg";
 

@@ -1,6 +1,7 @@
 //! Which hammer tests and which robot are meant.
 
 use super::Arguments;
+use super::result::file_name;
 use crate::cli::output::tell;
 use crate::experiments::hammer_frf::Settings;
 use crate::fit::damping::{Test, test};
@@ -27,6 +28,14 @@ pub struct Input {
     pub passed_over: Vec<PathBuf>,
     /// What is odd about the tests.
     pub doubts: Vec<Doubt>,
+}
+
+impl Input {
+    /// Names of the files.
+    pub fn names(&self) -> String {
+        let names = self.tests.iter().map(|t| file_name(&t.path));
+        names.collect::<Vec<_>>().join(", ")
+    }
 }
 
 /// Reads what the arguments mean.

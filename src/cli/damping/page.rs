@@ -15,16 +15,10 @@ const SWINGS: usize = 4;
 
 /// The page: does the simulation meet the measurement, with which constants, how was it measured.
 pub fn page(damped: &Damped) -> Page {
-    let names: Vec<String> = damped
-        .input
-        .tests
-        .iter()
-        .map(|t| file_name(&t.path))
-        .collect();
     let subtitle = format!(
         "{} from {}",
         damped.input.robot.robot.name,
-        names.join(", ")
+        damped.input.names()
     );
     let mut page = Page::new("Damping from hammer tests", subtitle);
     page.synthetic = damped.synthetic();

@@ -38,18 +38,12 @@ pub fn all(damped: &Damped) -> Outcome<Vec<PathBuf>> {
 
 /// The robot with its dampings, as text.
 fn robot(damped: &Damped) -> String {
-    let names: Vec<String> = damped
-        .input
-        .tests
-        .iter()
-        .map(|t| file_name(&t.path))
-        .collect();
     let label = if damped.synthetic() {
         " (synthetic)"
     } else {
         ""
     };
-    let origin = format!("{}{label}", names.join(", "));
+    let origin = format!("{}{label}", damped.input.names());
     let account = &damped.account;
     let robot = with_dampings(
         &damped.input.robot.robot,

@@ -8,7 +8,7 @@ mod tables;
 pub use cubes::chapter as cubes_chapter;
 
 use super::chapter::Chapter;
-use super::output::{print, tell};
+use super::output::{located, print, tell};
 use super::progress::Progress;
 use super::validate;
 use super::{Ending, Verb, arguments, from_words, parsed};
@@ -18,7 +18,7 @@ use crate::fit::store::{SCHEMA, StoredFit, stored_effects, stored_scale};
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::load_cycle::LoadCycle;
-use crate::measurement::workspace::{Place, resolve};
+use crate::measurement::workspace::Place;
 use crate::report::{html, svg, text};
 use crate::robot::load::load;
 use crate::sheet::page::file;
@@ -156,8 +156,7 @@ fn request(arguments: &Arguments) -> Outcome<Request> {
 fn paths(arguments: &Arguments) -> Outcome<Vec<PathBuf>> {
     let mut paths: Vec<PathBuf> = Vec::new();
     for name in &arguments.files {
-        let (path, said) = resolve(name)?;
-        said.iter().for_each(|s| tell(s));
+        let path = located(name)?;
         if !arguments.dry_run {
             Place::nameable(&path)?;
         }

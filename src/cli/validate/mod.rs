@@ -6,7 +6,7 @@ mod page;
 mod tables;
 
 use super::chapter::Chapter;
-use super::output::{print, tell, warn};
+use super::output::{located, print, tell, warn};
 use super::{Ending, Verb, arguments, from_words, parsed};
 use crate::experiments::workspace::fits;
 use crate::fit::axis_tests::{self, AxisTest};
@@ -14,7 +14,7 @@ use crate::fit::identified_robot::{text, with_axis_tests, with_points};
 use crate::fit::validation::{Validation, needs_attention, validate};
 use crate::ground::files;
 use crate::ground::problem::Outcome;
-use crate::measurement::workspace::{Place, campaign, only_of_kind, resolve};
+use crate::measurement::workspace::{Place, campaign, only_of_kind};
 use crate::measurement::workspace_test::WorkspaceTest;
 use crate::report::{folder, text as terminal};
 use crate::robot::Robot;
@@ -78,11 +78,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
 
 fn measurement(arguments: &Arguments) -> Outcome<PathBuf> {
     match &arguments.file {
-        Some(file) => {
-            let (path, said) = resolve(file)?;
-            said.iter().for_each(|s| tell(s));
-            Ok(path)
-        }
+        Some(file) => located(file),
         None => only_of_kind(
             &campaign(Path::new(""), arguments.campaign.as_deref())?,
             "workspace",

@@ -67,13 +67,11 @@ impl Experiment for Case {
     }
 
     fn would_tell(&self, rivals: &[(&'static str, String)]) -> String {
-        let own = rivals
-            .iter()
-            .any(|r| EFFECTS.iter().any(|effect| effect.name == r.0));
-        match own {
-            true => table::would_tell(EFFECTS, rivals),
-            false => "put a cube between them, or load by a moment of the bar".into(),
-        }
+        table::would_tell_or(
+            EFFECTS,
+            rivals,
+            "put a cube between them, or load by a moment of the bar",
+        )
     }
 
     fn place(&self, missed: &[f64]) -> String {

@@ -48,11 +48,11 @@ impl Diagnosed for Workspace {
     }
 
     fn source(&self) -> Source<'_> {
-        Source {
-            path: &self.test.path,
-            sha256: &self.test.sha256,
-            synthetic: self.test.facts.synthetic,
-        }
+        Source::new(
+            &self.test.path,
+            &self.test.sha256,
+            self.test.facts.synthetic,
+        )
     }
 
     fn about(&self) -> String {

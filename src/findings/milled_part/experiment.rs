@@ -71,13 +71,11 @@ impl Experiment for Case {
     }
 
     fn would_tell(&self, rivals: &[(&'static str, String)]) -> String {
-        let own = rivals
-            .iter()
-            .any(|r| EFFECTS.iter().any(|effect| effect.name == r.0));
-        match own {
-            true => table::would_tell(EFFECTS, rivals),
-            false => "mill with the tool turned to another orientation, or load the axes one by one (`ident stiffness`)".into(),
-        }
+        table::would_tell_or(
+            EFFECTS,
+            rivals,
+            "mill with the tool turned to another orientation, or load the axes one by one (`ident stiffness`)",
+        )
     }
 
     fn place(&self, missed: &[f64]) -> String {

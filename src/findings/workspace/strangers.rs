@@ -2,7 +2,7 @@
 //! where one of them explains the error best, the cause is unknown, and this is what is seen.
 
 use crate::causes::contract::{Amount, Blame, Card, Cause, Sight};
-use crate::causes::places::{UNIT_COMPLIANCE, added, number_in, soften};
+use crate::causes::places::{UNIT_COMPLIANCE, added, drives, number_in, soften};
 use crate::effects::Family;
 use crate::experiments::drive_law::Law;
 use crate::ground::spatial::V3;
@@ -141,11 +141,6 @@ impl Cause for Uneven {
             spring.backlash.push(amounts.iter().sum());
         }
     }
-}
-
-fn drives(robot: &Robot) -> Vec<String> {
-    let elastic = robot.joints.iter().filter(|joint| joint.drive.is_some());
-    elastic.map(|joint| joint.name.clone()).collect()
 }
 
 /// A drive whose compliance waves with its angle.

@@ -220,14 +220,13 @@ fn write(found: &Identified) -> Outcome<()> {
 /// # Errors
 /// A file that cannot be read, results that cannot be written.
 pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
-    let input = |test: &CubeTest| (test.path.clone(), test.sha256.clone());
     let (mut files, mut parts) = (Vec::new(), Vec::new());
     for file in place.files_of("cubes")? {
         let test = CubeTest::read(&file)?;
         let robot = load(&test.facts.robot, Some(&file)).map_err(|p| p.in_file(&file))?;
         match passed(&test, &robot.robot) {
             Ok(_) => files.push(file),
-            Err(why) => parts.push(Chapter::withheld(test.stem(), input(&test), &why)),
+            Err(why) => parts.push(Chapter::withheld(test.stem(), test.input(), &why)),
         }
     }
     if !files.is_empty() {
@@ -236,7 +235,7 @@ pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
         parts.push(Chapter {
             title: found.stem(),
             ending: found.ending(),
-            inputs: found.tests.iter().map(input).collect(),
+            inputs: found.tests.iter().map(CubeTest::input).collect(),
             page: page::page(&found),
         });
     }

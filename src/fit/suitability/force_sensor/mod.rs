@@ -8,8 +8,8 @@ mod unrelated;
 
 use super::channel::{self, Channel, Sum, sum};
 use super::{Doubt, Said};
-use crate::ground::spatial::{V3, norm, rotate_back};
-use crate::measurement::force_sensor::{CHANNELS, SensorTest, matrix};
+use crate::ground::spatial::{V3, norm, of_quaternion, rotate_back};
+use crate::measurement::force_sensor::{CHANNELS, SensorTest};
 
 /// What the rules look at: six channels over the direction of the weight.
 pub struct Turned<'a> {
@@ -41,7 +41,7 @@ pub fn doubts(test: &SensorTest) -> Vec<Doubt> {
     let down: Vec<V3> = test
         .readings
         .iter()
-        .map(|r| rotate_back(&matrix(r.quaternion), [0.0, 0.0, -1.0]))
+        .map(|r| rotate_back(&of_quaternion(r.quaternion), [0.0, 0.0, -1.0]))
         .collect();
     let along: Vec<Vec<f64>> = (0..3)
         .map(|k| down.iter().map(|d| d[k]).collect())
