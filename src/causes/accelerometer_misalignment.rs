@@ -27,13 +27,7 @@ const CARD: Card = Card {
 };
 
 const fn angle(name: &'static str, meaning: &'static str) -> Amount {
-    Amount {
-        name,
-        unit: "rad",
-        meaning,
-        bounds: [-1.6, 1.6],
-        starts: &[0.15],
-    }
+    Amount::new(name, "rad", meaning, [-1.6, 1.6], &[0.15])
 }
 
 impl Cause for AccelerometerMisalignment {

@@ -45,13 +45,7 @@ const LAWS: [Law; 7] = [
 ];
 
 const fn gap(name: &'static str, meaning: &'static str) -> Amount {
-    Amount {
-        name,
-        unit: "rad",
-        meaning,
-        bounds: [0.0, 0.02],
-        starts: &[2e-4],
-    }
+    Amount::new(name, "rad", meaning, [0.0, 0.02], &[2e-4])
 }
 
 impl Cause for Backlash {

@@ -36,6 +36,25 @@ pub struct Amount {
     pub starts: &'static [f64],
 }
 
+impl Amount {
+    /// An amount with its name, unit, meaning, bounds and starts.
+    pub const fn new(
+        name: &'static str,
+        unit: &'static str,
+        meaning: &'static str,
+        bounds: [f64; 2],
+        starts: &'static [f64],
+    ) -> Self {
+        Self {
+            name,
+            unit,
+            meaning,
+            bounds,
+            starts,
+        }
+    }
+}
+
 /// Everything about a cause that is not its equation.
 #[derive(Debug, Clone, Copy)]
 pub struct Card {

@@ -35,13 +35,7 @@ const CARD: Card = Card {
 };
 
 const fn angle(name: &'static str, meaning: &'static str) -> Amount {
-    Amount {
-        name,
-        unit: "rad",
-        meaning,
-        bounds: [-0.8, 0.8],
-        starts: &[0.12, -0.12],
-    }
+    Amount::new(name, "rad", meaning, [-0.8, 0.8], &[0.12, -0.12])
 }
 
 impl Cause for LoadMisalignment {

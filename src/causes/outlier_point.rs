@@ -44,13 +44,7 @@ const CARD: Card = Card {
 };
 
 const fn share(name: &'static str, meaning: &'static str) -> Amount {
-    Amount {
-        name,
-        unit: "1",
-        meaning,
-        bounds: [-2.0, 10.0],
-        starts: &[0.4, -0.3],
-    }
+    Amount::new(name, "1", meaning, [-2.0, 10.0], &[0.4, -0.3])
 }
 
 impl Cause for OutlierPoint {

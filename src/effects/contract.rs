@@ -18,6 +18,16 @@ pub enum Family {
     Measurement,
 }
 
+impl Family {
+    /// As it is printed.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Physics => "physics",
+            Self::Measurement => "measurement",
+        }
+    }
+}
+
 /// The natural scale of a parameter: bounds and grids are given in it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {

@@ -26,7 +26,8 @@ pub fn open(path: &Path) -> Outcome<(File, u64)> {
     opened().map_err(|error| unreadable(&error).in_file(path))
 }
 
-fn unreadable(error: &std::io::Error) -> Problem {
+/// A file that the system does not let one read.
+pub fn unreadable(error: &std::io::Error) -> Problem {
     let remedy = match error.kind() {
         std::io::ErrorKind::NotFound => "check the path; no such file is there",
         std::io::ErrorKind::PermissionDenied => "make the file readable for this user",

@@ -3,8 +3,9 @@
 
 mod unloaded;
 
+use super::facts::{measured, stem};
 use super::front::Front;
-use super::table::{Cells, Table};
+use super::table::Table;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::units::{DEGREE, Dimension};
 use std::path::{Path, PathBuf};
@@ -108,11 +109,7 @@ impl WorkspaceTest {
 
     /// File name without its ending.
     pub fn stem(&self) -> String {
-        let stem = self
-            .path
-            .file_stem()
-            .map(|s| s.to_string_lossy().to_string());
-        stem.unwrap_or_else(|| "workspace".into())
+        stem(&self.path, "workspace")
     }
 }
 
@@ -247,17 +244,6 @@ impl<'a> Channels<'a> {
             force: self.force[row],
             displacement,
         }))
-    }
-}
-
-/// The numbers of a column with a unit, if the file has it, after a look at the unit.
-fn measured<'a>(table: &'a Table, stem: &str, wanted: Dimension) -> Outcome<Option<&'a [f64]>> {
-    let Some(column) = table.column(stem) else {
-        return Ok(None);
-    };
-    match (&column.cells, column.dimension) {
-        (Cells::Numbers(values), Some(found)) if found == wanted => Ok(Some(values)),
-        _ => Err(column.misplaced(wanted, table.first_line - 1)),
     }
 }
 

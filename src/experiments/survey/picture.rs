@@ -1,12 +1,12 @@
 //! A survey as it swings, with a still of every mode for paper, and maps of modal assurance.
 
 use super::modes::SurveyMode;
-use crate::ground::spatial::{V3, add, norm, scale};
+use crate::experiments::robot_picture::swinging;
+use crate::ground::spatial::{V3, add, norm};
 use crate::measurement::survey::Survey;
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
 use crate::sheet::number::fixed;
 use crate::sheet::page::Block;
-use crate::sheet::scene::{Scene, Strand};
 use rustfft::num_complex::Complex64;
 
 /// Largest movement of a mode as drawn, over the size of the survey.
@@ -37,7 +37,11 @@ pub fn mode_blocks(survey: &Survey, modes: &[SurveyMode]) -> Vec<Block> {
         let wire = wire(survey, &mode.shape);
         let name = format!("survey-mode-{}", i + 1);
         [
-            Block::Scene(scene(&title, &wire)),
+            Block::Scene(swinging(
+                &title,
+                &wire.at,
+                wire.swing.each_ref().map(Vec::as_slice),
+            )),
             Block::Chart(still(&name, &title, survey, &wire)),
         ]
     });
@@ -97,32 +101,6 @@ fn wire(survey: &Survey, shape: &[Complex64]) -> Wire {
         }
     }
     wire
-}
-
-fn millimetres(points: &[V3]) -> Vec<V3> {
-    points.iter().map(|p| scale(1e3, *p)).collect()
-}
-
-fn scene(title: &str, wire: &Wire) -> Scene {
-    let still = Strand {
-        name: "at rest".into(),
-        points: millimetres(&wire.at),
-        thin: true,
-        ..Strand::default()
-    };
-    let [swing, lead] = &wire.swing;
-    let moving = Strand {
-        name: "swinging, enlarged".into(),
-        points: millimetres(&wire.at),
-        swing: millimetres(swing),
-        lead: millimetres(lead),
-        ..Strand::default()
-    };
-    Scene {
-        title: title.into(),
-        unit: "mm".into(),
-        strands: vec![moving, still],
-    }
 }
 
 /// Where a point is on paper: across and up.

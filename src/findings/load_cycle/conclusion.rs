@@ -43,7 +43,7 @@ impl Case<'_> {
         let noise = self.found.answer.discrepancy.noise_rms;
         let discrepancy = structure::discrepancy(&missed, &self.data, noise);
         let answer = Answer {
-            verdict: verdict(&named, left),
+            verdict: Verdict::of(named.causes.len(), named.groups.len(), left),
             discrepancy,
             causes: named.causes,
             groups: named.groups,
@@ -90,15 +90,5 @@ impl Case<'_> {
             _ => self.plain.optimum.p[0],
         };
         scene.load.iter().map(|m| m / stiffness).collect()
-    }
-}
-
-fn verdict(named: &Named, left: bool) -> Verdict {
-    match (named.causes.is_empty() && named.groups.is_empty(), left) {
-        (true, true) => Verdict::UnknownCause,
-        (true, false) => Verdict::Sufficient,
-        (false, true) => Verdict::PartlyExplained,
-        (false, false) if named.causes.is_empty() => Verdict::CannotTell,
-        (false, false) => Verdict::Explained,
     }
 }

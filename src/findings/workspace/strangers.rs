@@ -99,13 +99,7 @@ const UNEVEN: Card = Card {
 };
 
 const fn share(name: &'static str, meaning: &'static str) -> Amount {
-    Amount {
-        name,
-        unit: "1",
-        meaning,
-        bounds: [0.0, 100.0],
-        starts: &[0.5],
-    }
+    Amount::new(name, "1", meaning, [0.0, 100.0], &[0.5])
 }
 
 const LAWS: [Law; 3] = [
@@ -167,13 +161,13 @@ const WAVE: Card = Card {
 };
 
 const fn mode(name: &'static str) -> Amount {
-    Amount {
+    Amount::new(
         name,
-        unit: "1",
-        meaning: "excess of compliance that goes with one shape over the angle",
-        bounds: [-100.0, 100.0],
-        starts: &[0.3],
-    }
+        "1",
+        "excess of compliance that goes with one shape over the angle",
+        [-100.0, 100.0],
+        &[0.3],
+    )
 }
 
 impl Cause for Wave {

@@ -55,6 +55,12 @@ impl Source {
     }
 }
 
+/// Whether any line starts with one of these words, in letters of either size.
+pub(super) fn any_line_starts(text: &str, words: &[&str]) -> bool {
+    let mut lines = text.lines().map(|line| line.trim_start().to_uppercase());
+    lines.any(|line| words.iter().any(|word| line.starts_with(word)))
+}
+
 /// The lines of a text with their 1-based numbers; line ends of all three kinds.
 pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let ends = match text.contains('\n') {
