@@ -259,6 +259,23 @@ impl Front {
     }
 }
 
+/// A text as TOML quotes it.
+pub fn quoted(text: &str) -> String {
+    Value::String(text.to_string()).to_string()
+}
+
+/// The fact `inputs`: path and SHA-256 of every file that a result rests on.
+pub fn inputs(files: &[(String, String)]) -> String {
+    let input = |(path, sha256): &(String, String)| {
+        let (path, sha256) = (quoted(path), quoted(sha256));
+        format!("#   {{ path = {path}, sha256 = {sha256} }},\n")
+    };
+    format!(
+        "# inputs = [\n{}# ]\n",
+        files.iter().map(input).collect::<String>()
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

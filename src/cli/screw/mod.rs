@@ -145,10 +145,6 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
 /// A file that cannot be read, results that cannot be written.
 pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
     let one = |file: PathBuf| {
-        let test = ScrewTest::read(&file)?;
-        if let Err(why) = passed(&test) {
-            return Ok(Chapter::withheld(test.stem(), test.input(), &why));
-        }
         let judged = judge(&from_words::<Arguments>(&[file]))?;
         write(&judged)?;
         Ok(Chapter {
@@ -158,9 +154,7 @@ pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
             page: page::page(&judged),
         })
     };
-    let parts = place.files_of("screw")?.into_iter().map(one);
-    let parts = parts.collect::<Outcome<Vec<_>>>()?;
-    Ok(Chapter::together("Linear axes", parts))
+    Chapter::of_each(place, "Linear axes", passed, one)
 }
 
 fn judge(arguments: &Arguments) -> Outcome<Judged> {

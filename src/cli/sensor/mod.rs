@@ -101,10 +101,6 @@ fn examine(arguments: &Arguments) -> Outcome<Identified> {
 /// A file that cannot be read, results that cannot be written.
 pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
     let one = |file: PathBuf| {
-        let test = SensorTest::read(&file)?;
-        if let Err(why) = passed(&test) {
-            return Ok(Chapter::withheld(test.stem(), test.input(), &why));
-        }
         let found = examine(&from_words::<Arguments>(&[file]))?;
         write(&found)?;
         Ok(Chapter {
@@ -114,9 +110,7 @@ pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
             page: page::page(&found),
         })
     };
-    let parts = place.files_of("force-sensor")?.into_iter().map(one);
-    let parts = parts.collect::<Outcome<Vec<_>>>()?;
-    Ok(Chapter::together("The force sensor", parts))
+    Chapter::of_each(place, "The force sensor", passed, one)
 }
 
 /// What is odd about a test that can carry a number.

@@ -14,7 +14,7 @@ use super::validate;
 use super::{Ending, Verb, arguments, from_words, parsed};
 use crate::effects::Composite;
 use crate::fit::stiffness::{Account, DEFAULT_EFFECTS, Request, identify};
-use crate::fit::store::{SCHEMA, StoredFit, stored_effects, stored_scale};
+use crate::fit::store::StoredFit;
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::load_cycle::LoadCycle;
@@ -263,21 +263,10 @@ fn ink(results: &[&Result]) -> Outcome<Vec<(PathBuf, String)>> {
 
 fn stored(result: &Result) -> StoredFit {
     let account = &result.account;
+    let (model, p) = (&account.solution.model, &account.solution.p);
     StoredFit {
-        schema: SCHEMA.into(),
-        version: env!("CARGO_PKG_VERSION").into(),
-        input: result
-            .file
-            .path
-            .file_name()
-            .map(|n| n.to_string_lossy().to_string())
-            .unwrap_or_default(),
-        input_sha256: result.file.sha256.clone(),
-        synthetic: result.file.facts.synthetic,
-        site: result.file.site(),
-        model: stored_effects(&account.solution.model, &account.solution.p),
-        scale: stored_scale(&account.data.scene),
         parameters: account.parameters.clone(),
+        ..StoredFit::of(&result.file, model, p, &account.data.scene)
     }
 }
 
