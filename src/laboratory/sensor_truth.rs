@@ -1,6 +1,6 @@
 //! Simulated readings of a force-torque sensor that carries a spindle through many orientations.
 
-use super::recording::Recording;
+use super::recording::{Recording, head};
 use crate::fit::force_sensor::statics::{N, reading};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::random::Random;
@@ -141,16 +141,14 @@ impl SensorTruth {
     }
 
     fn facts(&self, robot: &str, source: &str) -> Vec<String> {
-        vec![
-            "kind = \"force-sensor\"".to_string(),
-            "synthetic = true   # simulated by `ident lab`; nobody measured this".to_string(),
-            format!("source = {}", toml::Value::from(source)),
-            format!("robot = {}", toml::Value::from(robot)),
+        let mut facts = head("force-sensor", robot, source);
+        facts.extend([
             format!("nominal_weight_N = {:?}", self.nominal_weight),
             format!("nominal_com_m = {:?}", self.nominal_com_m),
             format!("nominal_rel_std = {:?}", self.nominal_rel_std),
             format!("sensor_noise_N = {:?}", self.noise_force),
             format!("sensor_noise_Nm = {:?}", self.noise_moment),
-        ]
+        ]);
+        facts
     }
 }

@@ -57,14 +57,6 @@ fn movements(survey: &Survey, shape: &[Complex64]) -> Vec<[Complex64; 3]> {
     moved
 }
 
-fn diagonal(survey: &Survey) -> f64 {
-    let extent = |k: usize| {
-        let along = || survey.geometry.points.iter().map(|point| point.at[k]);
-        along().fold(f64::MIN, f64::max) - along().fold(f64::MAX, f64::min)
-    };
-    norm([extent(0), extent(1), extent(2)])
-}
-
 /// All wires as one line with breaks; points on no wire as crosses.
 fn wire(survey: &Survey, shape: &[Complex64]) -> Wire {
     let moved = movements(survey, shape);
@@ -72,7 +64,7 @@ fn wire(survey: &Survey, shape: &[Complex64]) -> Wire {
         .iter()
         .map(|v| norm(v.map(|x| x.norm())))
         .fold(0.0, f64::max);
-    let size = diagonal(survey);
+    let size = norm(survey.geometry.extents());
     let by = if most > 0.0 { DRAWN * size / most } else { 0.0 };
     let mut wire = Wire {
         at: Vec::new(),
@@ -134,13 +126,13 @@ fn still(name: &str, title: &str, survey: &Survey, wire: &Wire) -> Chart {
             - if k == 2 {
                 0.0
             } else {
-                1.3 * TRIAD * diagonal(survey)
+                1.3 * TRIAD * norm(survey.geometry.extents())
             }
     });
     let mut triad = Vec::new();
     for (axis, label) in ["x", "y", "z"].into_iter().enumerate() {
         let mut end = corner;
-        end[axis] += TRIAD * diagonal(survey);
+        end[axis] += TRIAD * norm(survey.geometry.extents());
         triad.extend([seen(&corner), seen(&end), [f64::NAN; 2]]);
         panel = panel.named(seen(&end), label);
     }

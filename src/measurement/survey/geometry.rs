@@ -92,13 +92,17 @@ impl Geometry {
             .ok()
     }
 
-    /// Greatest extent along an axis, m.
-    pub fn size(&self) -> f64 {
-        let extent = |k: usize| {
+    /// Extents along the axes, m.
+    pub fn extents(&self) -> V3 {
+        std::array::from_fn(|k| {
             let along = || self.points.iter().map(|point| point.at[k]);
             along().fold(f64::MIN, f64::max) - along().fold(f64::MAX, f64::min)
-        };
-        (0..3).map(extent).fold(0.0, f64::max)
+        })
+    }
+
+    /// Greatest extent along an axis, m.
+    pub fn size(&self) -> f64 {
+        self.extents().into_iter().fold(0.0, f64::max)
     }
 
     fn check_size(&mut self, known: bool) -> Outcome<()> {
