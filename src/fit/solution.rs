@@ -7,7 +7,7 @@ use super::starts::starts;
 use crate::effects::composite::Slot;
 use crate::effects::{Composite, Scale};
 use crate::ground::products::gram;
-use crate::ground::stats::rms;
+use crate::ground::stats::{difference, rms};
 use crate::inference::descent::Stop;
 use crate::measurement::load_cycle::Port;
 use crate::signal::colour::Colour;
@@ -137,13 +137,7 @@ pub fn conclude_with(problem: &Problem, optimum: Optimum, colour: Colour) -> Sol
 
 fn conclude(problem: &Problem, optimum: Optimum) -> Solution {
     let predicted = problem.model.predict(&optimum.p, &problem.data.scene);
-    let residual: Vec<f64> = problem
-        .data
-        .reading
-        .iter()
-        .zip(&predicted)
-        .map(|(y, f)| y - f)
-        .collect();
+    let residual: Vec<f64> = difference(&problem.data.reading, &predicted);
     let counted: Vec<f64> = residual
         .iter()
         .zip(problem.ignored)

@@ -91,11 +91,11 @@ pub fn stored_scale(scene: &crate::effects::Scene) -> StoredScale {
 impl StoredFit {
     /// The fit of a file by a model with these parameters (SI); nothing is said of intervals.
     pub fn of(file: &LoadCycle, model: &Composite, p: &[f64], scene: &Scene) -> Self {
-        let name = file.path.file_name().unwrap_or_default();
+        let name = files::name(&file.path);
         Self {
             schema: SCHEMA.into(),
             version: env!("CARGO_PKG_VERSION").into(),
-            input: name.to_string_lossy().to_string(),
+            input: name,
             input_sha256: file.sha256.clone(),
             synthetic: file.facts.synthetic,
             site: file.site(),

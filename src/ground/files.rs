@@ -65,6 +65,12 @@ pub fn line_setting(path: &Path, key: &str) -> usize {
     found.map_or(1, |before| before + 1)
 }
 
+/// Name of a file, without its folder.
+pub fn name(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default();
+    name.to_string_lossy().into_owned()
+}
+
 /// SHA-256 as 64 hex digits.
 pub fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes)

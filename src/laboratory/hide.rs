@@ -7,7 +7,7 @@ use crate::fit::observation::Observation;
 use crate::fit::screen::screen;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::random::Random;
-use crate::ground::stats::ends;
+use crate::ground::stats::{difference, ends};
 use crate::measurement::load_cycle::LoadCycle;
 
 /// An effect made to show with a given strength.
@@ -94,7 +94,7 @@ fn response(effect: &'static dyn Effect, p: &[f64], scene: &Scene, deflection: &
         .collect();
     let mut with = deflection.to_vec();
     effect.respond(p, scene, &elastic, &mut with);
-    with.iter().zip(deflection).map(|(a, b)| a - b).collect()
+    difference(&with, deflection)
 }
 
 fn visible(addition: &[f64], role: Role, load: &[f64]) -> f64 {

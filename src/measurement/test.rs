@@ -3,6 +3,7 @@
 use super::facts::stem;
 use super::front::Front;
 use super::table::Table;
+use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};
@@ -89,7 +90,7 @@ impl<F: Kind> Test<F> {
 
     /// Name of the file and its hash: what a result rests on.
     pub fn provenance(&self) -> String {
-        let name = self.path.file_name().unwrap_or_default();
-        format!("{} {}", name.to_string_lossy(), self.sha256)
+        let name = files::name(&self.path);
+        format!("{} {}", name, self.sha256)
     }
 }

@@ -1,12 +1,12 @@
 //! Which hammer tests and which robot are meant.
 
 use super::Arguments;
-use super::result::file_name;
 use crate::cli::output::tell;
 use crate::experiments::hammer_frf::Settings;
 use crate::fit::damping::{Test, test};
 use crate::fit::suitability::Doubt;
 use crate::fit::suitability::hammer::{doubts, refuse};
+use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::units::DEGREE;
 use crate::measurement::hammer::HammerRecord;
@@ -33,7 +33,7 @@ pub struct Input {
 impl Input {
     /// Names of the files.
     pub fn names(&self) -> String {
-        let names = self.tests.iter().map(|t| file_name(&t.path));
+        let names = self.tests.iter().map(|t| files::name(&t.path));
         names.collect::<Vec<_>>().join(", ")
     }
 }

@@ -262,9 +262,3 @@ impl Damped {
 fn matched(found: &FrfMatch) -> Value {
     json!({"frac": number(found.frac), "log_error_dB": number(found.log_error_db)})
 }
-
-/// The last part of a path.
-pub fn file_name(path: &Path) -> String {
-    path.file_name()
-        .map_or_else(String::new, |name| name.to_string_lossy().to_string())
-}

@@ -1,7 +1,7 @@
 //! What `ident damping` leaves on disk: the fit, the robot that simulation loads, the report.
 
 use super::page::page;
-use super::result::{Damped, file_name};
+use super::result::Damped;
 use crate::fit::damping_store::{SCHEMA, StoredDamping, StoredInput};
 use crate::fit::frf_robot::damped as with_dampings;
 use crate::ground::files;
@@ -60,7 +60,7 @@ fn stored(damped: &Damped) -> StoredDamping {
     let tests = damped.input.tests.iter();
     let mut inputs: Vec<StoredInput> = tests
         .map(|test| StoredInput {
-            file: file_name(&test.path),
+            file: files::name(&test.path),
             sha256: test.record.sha256.clone(),
         })
         .collect();

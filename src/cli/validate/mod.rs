@@ -148,7 +148,7 @@ pub fn known_tests(place: &Place, robot: &Robot) -> Outcome<Vec<AxisTest>> {
 
 /// The measurement and the start of its hash.
 fn provenance(test: &WorkspaceTest) -> String {
-    let name = test.path.file_name().unwrap_or_default().to_string_lossy();
+    let name = files::name(&test.path);
     let short: String = test.sha256.chars().take(12).collect();
     format!("{name} {short}")
 }

@@ -4,6 +4,7 @@ use super::{Diagnosed, Source};
 use crate::findings::Answer;
 use crate::findings::joint_motion::{JointFinding, MotionDiagnosis, diagnose, judgement};
 use crate::fit::joint_motion_store::{SCHEMA, StoredCause, StoredMotion, StoredValue};
+use crate::ground::files;
 use crate::ground::problem::Outcome;
 use crate::ground::stats::largest;
 use crate::measurement::joint_motion::JointMotion;
@@ -98,11 +99,11 @@ impl Motion {
             site: c.site.clone(),
             parameters: c.parameters.iter().map(value).collect(),
         });
-        let input = self.file.path.file_name().unwrap_or_default();
+        let input = files::name(&self.file.path);
         StoredMotion {
             schema: SCHEMA.into(),
             version: env!("CARGO_PKG_VERSION").into(),
-            input: input.to_string_lossy().to_string(),
+            input,
             input_sha256: self.file.sha256.clone(),
             synthetic: self.file.facts.synthetic,
             robot: self.file.facts.robot.clone(),

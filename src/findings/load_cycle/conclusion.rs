@@ -7,7 +7,7 @@ use super::refine::Refined;
 use super::structure;
 use crate::effects::Composite;
 use crate::findings::answer::{Answer, Verdict};
-use crate::ground::stats::rms;
+use crate::ground::stats::{difference, rms};
 
 impl Case<'_> {
     /// The diagnosis. `shapes`: what changes the curve; `others`: scales and lattices.
@@ -31,14 +31,7 @@ impl Case<'_> {
         let (model, p) = self.extended(&chosen, &named);
         let extended = model.predict(&p, &self.data.scene);
         let simulated = self.simulated(scaled);
-        let misses = |f: &[f64]| -> Vec<f64> {
-            self.data
-                .reading
-                .iter()
-                .zip(f)
-                .map(|(y, f)| y - f)
-                .collect()
-        };
+        let misses = |f: &[f64]| -> Vec<f64> { difference(&self.data.reading, f) };
         let missed = misses(&simulated);
         let noise = self.found.answer.discrepancy.noise_rms;
         let discrepancy = structure::discrepancy(&missed, &self.data, noise);

@@ -14,6 +14,7 @@ use crate::findings::gain::Gain;
 use crate::fit::imposed::{observe, solve};
 use crate::fit::observation::{MOST_ROWS, Observation};
 use crate::fit::solution::{Solution, unit_of};
+use crate::ground::stats::difference;
 use crate::measurement::load_cycle::{LoadCycle, Port};
 use crate::signal::colour::Colour;
 use crate::signal::smooth::noise;
@@ -129,13 +130,7 @@ fn conclude(
         (false, true) => Verdict::PartlyExplained,
         (false, false) => Verdict::Explained,
     };
-    let fitted = |s: &Solution| {
-        data.reading
-            .iter()
-            .zip(&s.residual)
-            .map(|(y, r)| y - r)
-            .collect::<Vec<_>>()
-    };
+    let fitted = |s: &Solution| difference(&data.reading, &s.residual);
     let answer = Answer {
         verdict,
         discrepancy,

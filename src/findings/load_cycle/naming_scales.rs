@@ -8,7 +8,7 @@ use super::unseen::{Split, gain, held_out};
 use crate::experiments::load_cycle::{settle, settled_cycle};
 use crate::findings::answer::{Cause, Group};
 use crate::findings::gain::Gain;
-use crate::ground::stats::largest;
+use crate::ground::stats::{difference, largest};
 
 /// A law that misses the truth by this share of its own size still counts as right.
 const FORMULA_ERROR: f64 = 0.07;
@@ -43,7 +43,7 @@ impl Case<'_> {
         let spring = chosen.optimum.p[0];
         let elastic: Vec<f64> = self.data.scene.load.iter().map(|m| m / spring).collect();
         let whole = chosen.model.predict(&chosen.optimum.p, &self.data.scene);
-        let beside: Vec<f64> = whole.iter().zip(&elastic).map(|(a, b)| a - b).collect();
+        let beside: Vec<f64> = difference(&whole, &elastic);
         let taken = FORMULA_ERROR * largest(&beside) / largest(&elastic).max(f64::MIN_POSITIVE);
         self.spring_error(chosen).hypot(taken)
     }

@@ -147,12 +147,7 @@ impl Identified {
 
     fn stored(&self) -> StoredCubes {
         let input = |test: &CubeTest| Input {
-            file: test
-                .path
-                .file_name()
-                .unwrap_or_default()
-                .to_string_lossy()
-                .to_string(),
+            file: files::name(&test.path),
             sha256: test.sha256.clone(),
         };
         StoredCubes {
@@ -168,7 +163,7 @@ impl Identified {
     /// The robot with what the cubes found, outside of a campaign.
     fn robot_text(&self) -> String {
         let test = &self.tests[0];
-        let name = test.path.file_name().unwrap_or_default().to_string_lossy();
+        let name = files::name(&test.path);
         let short: String = test.sha256.chars().take(12).collect();
         let found = &self.account.parameters;
         let robot = with_cubes(&self.base.robot, found, &format!("{name} {short}"));

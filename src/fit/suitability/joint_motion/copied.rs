@@ -2,6 +2,7 @@
 
 use super::{Moving, Rule};
 use crate::fit::suitability::{Said, Weight, extent, said_if};
+use crate::ground::stats::difference;
 
 /// Two encoders never agree to the last digit: a gear twists, and both have noise.
 pub const RULE: Rule = Rule {
@@ -15,7 +16,7 @@ const SAME: f64 = 1e-12;
 
 fn look(on: &Moving) -> Said {
     let (motor, link) = (&on.joint.motor, &on.joint.link);
-    let twist: Vec<f64> = link.iter().zip(motor).map(|(l, m)| l - m).collect();
+    let twist: Vec<f64> = difference(link, motor);
     let (motion, twist) = (extent(motor), extent(&twist));
     said_if(
         motion > 0.0 && twist <= SAME * motion,
