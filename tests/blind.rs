@@ -197,7 +197,7 @@ fn tally(kinds: &[(String, u64)], make: impl Fn(&str, u64) -> Case + Sync) -> Ta
                 case.outliers,
                 case.samples,
                 answer(diagnosis),
-                diagnosis.adequacy,
+                diagnosis.unexplained,
                 diagnosis.discrepancy.noise_rms,
                 case.noise_rms
             );
@@ -336,7 +336,7 @@ fn a_missing_cause_is_not_invented() {
                     case.noise,
                     case.truths[0].parameters,
                     answer(&diagnosis),
-                    diagnosis.adequacy
+                    diagnosis.unexplained
                 );
             }
             unknown

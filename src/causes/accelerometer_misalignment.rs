@@ -3,7 +3,7 @@
 use super::contract::{Accelerance, Amount, Card, Cause, Sight};
 use crate::effects::Family;
 use crate::ground::spatial::{V3, cross};
-use crate::robot::Robot;
+use crate::ground::stats::length;
 use nalgebra::Complex;
 
 /// See the card.
@@ -27,22 +27,12 @@ const CARD: Card = Card {
 };
 
 const fn angle(name: &'static str, meaning: &'static str) -> Amount {
-    Amount {
-        name,
-        unit: "rad",
-        meaning,
-        bounds: [-1.6, 1.6],
-        starts: &[0.15],
-    }
+    Amount::new(name, "rad", meaning, [-1.6, 1.6], &[0.15])
 }
 
 impl Cause for AccelerometerMisalignment {
     fn card(&self) -> &'static Card {
         &CARD
-    }
-
-    fn sites(&self, _robot: &Robot) -> Vec<String> {
-        vec!["sensor".into()]
     }
 
     fn read_accelerance(
@@ -64,7 +54,7 @@ impl Cause for AccelerometerMisalignment {
 
 /// Rows of Rᵀ for the rotation vector φ: R = 1 + sin φ/φ [φ]× + (1 − cos φ)/φ² [φ]×².
 fn turned_back(phi: V3) -> [V3; 3] {
-    let size = phi.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let size = length(&phi);
     let (a, b) = match size > 1e-9 {
         true => (size.sin() / size, (1.0 - size.cos()) / (size * size)),
         false => (1.0, 0.5),

@@ -1,7 +1,7 @@
 //! The drive of one axis has lost motion.
 
 use super::contract::{Amount, Blame, Card, Cause, Sight};
-use super::places::Said;
+use super::places::{Said, drives};
 use crate::effects::Family;
 use crate::experiments::drive_law::Law;
 use crate::robot::Robot;
@@ -45,13 +45,7 @@ const LAWS: [Law; 7] = [
 ];
 
 const fn gap(name: &'static str, meaning: &'static str) -> Amount {
-    Amount {
-        name,
-        unit: "rad",
-        meaning,
-        bounds: [0.0, 0.02],
-        starts: &[2e-4],
-    }
+    Amount::new(name, "rad", meaning, [0.0, 0.02], &[2e-4])
 }
 
 impl Cause for Backlash {
@@ -60,8 +54,7 @@ impl Cause for Backlash {
     }
 
     fn sites(&self, robot: &Robot) -> Vec<String> {
-        let elastic = robot.joints.iter().filter(|joint| joint.drive.is_some());
-        elastic.map(|joint| joint.name.clone()).collect()
+        drives(robot)
     }
 
     fn blame(&self) -> Blame {

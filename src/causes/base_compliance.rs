@@ -38,13 +38,7 @@ const CARD: Card = Card {
 
 /// A compliance against shifting, in 1e-7 m/N.
 const fn shift(name: &'static str, meaning: &'static str) -> Amount {
-    Amount {
-        name,
-        unit: "1e-7 m/N",
-        meaning,
-        bounds: [0.0, 100.0],
-        starts: &[1.0],
-    }
+    Amount::new(name, "1e-7 m/N", meaning, [0.0, 100.0], &[1.0])
 }
 
 /// A shift is a turn about an axis this far away, m: a robot file knows turns only, and over the

@@ -8,6 +8,7 @@
 use crate::effects::Family;
 use crate::experiments::drive_law::{Law, STOP};
 use crate::ground::spatial::{M3, V3};
+use crate::ground::stats::largest;
 use crate::robot::Robot;
 use nalgebra::Complex;
 
@@ -33,6 +34,25 @@ pub struct Amount {
     pub bounds: [f64; 2],
     /// Values to start a search from: the span of what is worth finding.
     pub starts: &'static [f64],
+}
+
+impl Amount {
+    /// An amount with its name, unit, meaning, bounds and starts.
+    pub const fn new(
+        name: &'static str,
+        unit: &'static str,
+        meaning: &'static str,
+        bounds: [f64; 2],
+        starts: &'static [f64],
+    ) -> Self {
+        Self {
+            name,
+            unit,
+            meaning,
+            bounds,
+            starts,
+        }
+    }
 }
 
 /// Everything about a cause that is not its equation.
@@ -89,8 +109,11 @@ pub trait Cause: Sync {
     /// Its card.
     fn card(&self) -> &'static Card;
 
-    /// Where on this robot it may sit: `A6`, `A6-tilt`, `base`, `link2`, `tool`, `sensor`, `sensor-x`.
-    fn sites(&self, robot: &Robot) -> Vec<String>;
+    /// Where on this robot it may sit: `A6`, `A6-tilt`, `base`, `link2`, `tool`, `sensor`, `sensor-x`; without another
+    /// word in the sensor.
+    fn sites(&self, _robot: &Robot) -> Vec<String> {
+        vec!["sensor".into()]
+    }
 
     /// The sites in a test with that many points: more than [`Cause::sites`] where a point is one.
     fn sites_at(&self, robot: &Robot, _points: usize) -> Vec<String> {
@@ -107,7 +130,6 @@ pub trait Cause: Sync {
 
     /// Size that each amount has where the cause is of ordinary strength, in the units of the amounts.
     fn scale(&self, _robot: &Robot, _site: &str) -> Vec<f64> {
-        let largest = |starts: &[f64]| starts.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
         let own = self.card().amounts.iter();
         own.map(|amount| largest(amount.starts)).collect()
     }

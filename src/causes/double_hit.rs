@@ -2,7 +2,6 @@
 
 use super::contract::{Card, Cause, Sight};
 use crate::effects::Family;
-use crate::robot::Robot;
 
 /// See the card.
 pub struct DoubleHit;
@@ -23,9 +22,5 @@ const CARD: Card = Card {
 impl Cause for DoubleHit {
     fn card(&self) -> &'static Card {
         &CARD
-    }
-
-    fn sites(&self, _robot: &Robot) -> Vec<String> {
-        vec!["sensor".into()]
     }
 }

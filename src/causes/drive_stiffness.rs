@@ -1,7 +1,7 @@
 //! The drive of one axis is softer or stiffer than the model says.
 
 use super::contract::{Card, Cause, Sight};
-use super::places::{Said, excess, soften, softened};
+use super::places::{Said, drives, excess, soften, softened};
 use crate::effects::Family;
 use crate::robot::Robot;
 
@@ -35,8 +35,7 @@ impl Cause for DriveStiffness {
     }
 
     fn sites(&self, robot: &Robot) -> Vec<String> {
-        let elastic = robot.joints.iter().filter(|joint| joint.drive.is_some());
-        elastic.map(|joint| joint.name.clone()).collect()
+        drives(robot)
     }
 
     fn alter(&self, robot: &mut Robot, site: &str, amounts: &[f64]) {

@@ -32,10 +32,6 @@ impl Cause for ExponentialWindow {
         &CARD
     }
 
-    fn sites(&self, _robot: &Robot) -> Vec<String> {
-        vec!["sensor".into()]
-    }
-
     fn undeclared_rate(&self, amounts: &[f64]) -> f64 {
         amounts[0]
     }

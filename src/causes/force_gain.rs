@@ -3,7 +3,6 @@
 use super::contract::{Amount, Card, Cause, Sight, StepSeen};
 use crate::effects::Family;
 use crate::ground::spatial::V3;
-use crate::robot::Robot;
 
 /// See the card.
 pub struct ForceGain;
@@ -30,10 +29,6 @@ const CARD: Card = Card {
 impl Cause for ForceGain {
     fn card(&self) -> &'static Card {
         &CARD
-    }
-
-    fn sites(&self, _robot: &Robot) -> Vec<String> {
-        vec!["sensor".into()]
     }
 
     fn read_step(&self, _site: &str, amounts: &[f64], _compliance: &[V3; 3], step: &mut StepSeen) {

@@ -3,7 +3,6 @@
 use super::contract::{Amount, Card, Cause, Sight, StepSeen};
 use crate::effects::Family;
 use crate::ground::spatial::{V3, cross, rotate};
-use crate::robot::Robot;
 
 /// See the card. Its site is the sensor: the direction is that of the load cell and its rig, and no
 /// part of the robot is blamed.
@@ -36,22 +35,12 @@ const CARD: Card = Card {
 };
 
 const fn angle(name: &'static str, meaning: &'static str) -> Amount {
-    Amount {
-        name,
-        unit: "rad",
-        meaning,
-        bounds: [-0.8, 0.8],
-        starts: &[0.12, -0.12],
-    }
+    Amount::new(name, "rad", meaning, [-0.8, 0.8], &[0.12, -0.12])
 }
 
 impl Cause for LoadMisalignment {
     fn card(&self) -> &'static Card {
         &CARD
-    }
-
-    fn sites(&self, _robot: &Robot) -> Vec<String> {
-        vec!["sensor".into()]
     }
 
     fn forms(&self) -> Vec<Vec<usize>> {

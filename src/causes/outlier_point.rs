@@ -4,6 +4,7 @@ use super::contract::{Amount, Card, Cause, Sight, StepSeen};
 use super::places::number_in;
 use crate::effects::Family;
 use crate::ground::spatial::V3;
+use crate::ground::stats::length;
 use crate::robot::Robot;
 
 /// See the card.
@@ -43,13 +44,7 @@ const CARD: Card = Card {
 };
 
 const fn share(name: &'static str, meaning: &'static str) -> Amount {
-    Amount {
-        name,
-        unit: "1",
-        meaning,
-        bounds: [-2.0, 10.0],
-        starts: &[0.4, -0.3],
-    }
+    Amount::new(name, "1", meaning, [-2.0, 10.0], &[0.4, -0.3])
 }
 
 impl Cause for OutlierPoint {
@@ -75,7 +70,7 @@ impl Cause for OutlierPoint {
     fn read_step(&self, site: &str, amounts: &[f64], _compliance: &[V3; 3], step: &mut StepSeen) {
         if number_in(site, "point") == Some(step.point + 1) {
             let factor = 1.0 + amounts[0] + amounts[1 + step.direction];
-            let size = step.displacement.iter().map(|d| d * d).sum::<f64>().sqrt();
+            let size = length(&step.displacement);
             let sign = step.force.signum();
             for (k, d) in step.displacement.iter_mut().enumerate() {
                 *d = *d * factor + amounts[4 + 3 * step.direction + k] * size * sign;

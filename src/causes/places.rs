@@ -15,24 +15,24 @@ pub const ADDED_DAMPING: f64 = 4e-4;
 
 /// The relative excess x of a compliance: c = c₀(1 + x).
 pub const fn excess(meaning: &'static str) -> Amount {
-    Amount {
-        name: "excess",
-        unit: "1",
+    Amount::new(
+        "excess",
+        "1",
         meaning,
-        bounds: [-0.9, 20.0],
-        starts: &[-0.6, -0.3, 0.5, 2.0],
-    }
+        [-0.9, 20.0],
+        &[-0.6, -0.3, 0.5, 2.0],
+    )
 }
 
 /// An added compliance in units of [`UNIT_COMPLIANCE`].
 pub const fn added(name: &'static str, meaning: &'static str) -> Amount {
-    Amount {
+    Amount::new(
         name,
-        unit: "1e-7 rad/(N·m)",
+        "1e-7 rad/(N·m)",
         meaning,
-        bounds: [0.0, 100.0],
-        starts: &[0.3, 1.0, 4.0],
-    }
+        [0.0, 100.0],
+        &[0.3, 1.0, 4.0],
+    )
 }
 
 /// Makes the spring of `site` softer by the relative excess of its compliance.
@@ -65,6 +65,12 @@ pub fn said_added(name: &'static str, amount: f64) -> Said {
         .map(|s| (name, s.stiffness, "N·m/rad"))
         .into_iter()
         .collect()
+}
+
+/// The joints whose drive is elastic.
+pub fn drives(robot: &Robot) -> Vec<String> {
+    let elastic = robot.joints.iter().filter(|joint| joint.drive.is_some());
+    elastic.map(|joint| joint.name.clone()).collect()
 }
 
 /// Compliance of the drive of joint `i` (from 1), else of its bearing, in units of

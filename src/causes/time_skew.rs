@@ -2,7 +2,6 @@
 
 use super::contract::{Accelerance, Amount, Card, Cause, Sight};
 use crate::effects::Family;
-use crate::robot::Robot;
 use nalgebra::Complex;
 
 /// See the card.
@@ -30,10 +29,6 @@ const CARD: Card = Card {
 impl Cause for TimeSkew {
     fn card(&self) -> &'static Card {
         &CARD
-    }
-
-    fn sites(&self, _robot: &Robot) -> Vec<String> {
-        vec!["sensor".into()]
     }
 
     fn read_accelerance(

@@ -1,8 +1,10 @@
 //! What one verb did for a campaign, as a chapter of the campaign's report.
 
 use super::Ending;
+use crate::fit::suitability::Doubt;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::job::Job;
+use crate::measurement::test::{Kind, Test};
 use crate::measurement::toolpath::Toolpath;
 use crate::measurement::workspace::Place;
 use crate::process::Planned;
@@ -36,6 +38,27 @@ impl Chapter {
             inputs: vec![input],
             page: page.with(Block::verdict(Tone::Attention, said)),
         }
+    }
+
+    /// The files of a kind in a campaign, each by itself, withheld where it does not pass; none of none.
+    ///
+    /// # Errors
+    /// A file that cannot be read, and what `one` refuses.
+    pub fn of_each<F: Kind>(
+        place: &Place,
+        title: &str,
+        passed: impl Fn(&Test<F>) -> Outcome<Vec<Doubt>>,
+        one: impl Fn(PathBuf) -> Outcome<Self>,
+    ) -> Outcome<Option<Self>> {
+        let part = |file: PathBuf| {
+            let test = Test::<F>::read(&file)?;
+            match passed(&test) {
+                Ok(_) => one(file),
+                Err(why) => Ok(Self::withheld(test.stem(), test.input(), &why)),
+            }
+        };
+        let parts = place.files_of(F::NAME)?.into_iter().map(part);
+        Ok(Self::together(title, parts.collect::<Outcome<Vec<_>>>()?))
     }
 
     /// The chapters of several files as one; none of none.

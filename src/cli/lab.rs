@@ -1,6 +1,6 @@
 //! `ident lab`: campaigns with known truth, hidden effects, blind sets.
 
-use super::output::{print, tell};
+use super::output::{located, print};
 use super::progress::Progress;
 use super::{Ending, Verb, arguments, parsed};
 use crate::effects;
@@ -9,7 +9,6 @@ use crate::ground::problem::{Outcome, Problem};
 use crate::ground::random::Random;
 use crate::laboratory::{blind, hide, truth::Truth};
 use crate::measurement::load_cycle::LoadCycle;
-use crate::measurement::workspace::resolve;
 use clap::{ArgMatches, Args};
 use rayon::prelude::*;
 use std::fmt::Write;
@@ -77,8 +76,7 @@ fn campaign(arguments: &Arguments, path: &Path) -> Outcome<()> {
 }
 
 fn hide_in(arguments: &Arguments, file: &Path, name: &str) -> Outcome<()> {
-    let (path, said) = resolve(file)?;
-    said.iter().for_each(|s| tell(s));
+    let path = located(file)?;
     let effect = effects::Composite::named(&[name])?
         .effects()
         .last()

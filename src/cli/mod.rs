@@ -43,6 +43,18 @@ pub enum Ending {
     Attention,
 }
 
+impl Ending {
+    /// Done if all is fine.
+    pub fn done_if(fine: bool) -> Self {
+        if fine { Self::Done } else { Self::Attention }
+    }
+
+    /// Attention if something is odd.
+    pub fn attention_if(odd: bool) -> Self {
+        Self::done_if(!odd)
+    }
+}
+
 /// One verb of the command line.
 pub struct Verb {
     /// Its name as typed.

@@ -1,11 +1,12 @@
 //! Standard output that does not mind a closed pipe.
 
 use crate::ground::problem::{Outcome, Problem};
+use crate::measurement::workspace::resolve;
 use crate::report::json;
 use serde_json::Value;
 use std::borrow::Cow;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Prints a text; a reader that went away is no error.
 pub fn print(text: &str) -> Outcome<()> {
@@ -26,6 +27,16 @@ pub fn print(text: &str) -> Outcome<()> {
 /// Tells something on standard error; nothing can be done if that fails.
 pub fn tell(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{}", harmless(text));
+}
+
+/// The measurement that is meant by a name; what was taken for it is told.
+///
+/// # Errors
+/// There is none, or there are several.
+pub fn located(name: &Path) -> Outcome<PathBuf> {
+    let (path, said) = resolve(name)?;
+    said.iter().for_each(|s| tell(s));
+    Ok(path)
 }
 
 /// Warnings, one line each, on standard error.

@@ -86,10 +86,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let page = page(&place, chapters, &over)?;
     folder::write_as(&place.reports(), "index.html", &page)?;
     print(&said)?;
-    Ok(match attention {
-        true => Ending::Attention,
-        false => Ending::Done,
-    })
+    Ok(Ending::attention_if(attention))
 }
 
 /// The files of a campaign that no step takes, one clause each.

@@ -4,6 +4,7 @@
 use super::correction::Correction;
 use crate::ground::spatial::{add, cross, norm, sub};
 use crate::ground::units::DEGREE;
+use crate::measurement::front::{self, quoted};
 use crate::path::build::Part;
 use crate::path::corner::{Corner, Passage};
 use crate::path::quaternion::angles;
@@ -27,7 +28,6 @@ pub fn text(
     inputs: &[(String, String)],
     synthetic: bool,
 ) -> String {
-    let quoted = |text: &str| toml::Value::String(text.to_string()).to_string();
     let mut out = String::from("# kind = \"path\"\n");
     if synthetic {
         out.push_str("# synthetic = true\n");
@@ -36,12 +36,7 @@ pub fn text(
     let _ = writeln!(out, "# job = {}", quoted(job));
     let _ = writeln!(out, "# method = {}", quoted(method));
     let _ = writeln!(out, "# version = {}", quoted(env!("CARGO_PKG_VERSION")));
-    let _ = writeln!(out, "# inputs = [");
-    for (path, hash) in inputs {
-        let (path, hash) = (quoted(path), quoted(hash));
-        let _ = writeln!(out, "#   {{ path = {path}, sha256 = {hash} }},");
-    }
-    out.push_str("# ]\n");
+    out.push_str(&front::inputs(inputs));
     out.push_str("x_mm,y_mm,z_mm,a_deg,b_deg,c_deg,feed_mm_min,rapid,blend_mm,s_mm\n");
     let rows = chosen(plan, correction);
     let stops = stops(plan, &rows);

@@ -18,6 +18,16 @@ pub enum Family {
     Measurement,
 }
 
+impl Family {
+    /// As it is printed.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Physics => "physics",
+            Self::Measurement => "measurement",
+        }
+    }
+}
+
 /// The natural scale of a parameter: bounds and grids are given in it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
@@ -123,12 +133,6 @@ pub trait Law: Sync {
     /// The response, in place.
     fn respond<S: Scalar>(p: &[S], scene: &Scene, elastic: &[S], out: &mut [S]);
 
-    /// Energy lost per unit time is never negative; laws that store or lose energy in closed form
-    /// may state the loss of one full cycle between ±`load`, J. `None`: computed from the loop.
-    fn loss(_p: &[f64], _load: f64) -> Option<f64> {
-        None
-    }
-
     /// The law as dry contacts in the load path, which a joint can carry through time. `None`: the law
     /// is no such sum.
     fn contacts(_p: &[f64]) -> Option<Vec<Contact>> {
@@ -152,8 +156,6 @@ pub trait Effect: Sync {
         elastic: &[Tangent],
         out: &mut [Tangent],
     );
-    /// Loss of one full cycle between ±load in closed form, J, where the law has one.
-    fn loss(&self, p: &[f64], load: f64) -> Option<f64>;
     /// The law as dry contacts, where it is a sum of them: what a joint carries through time.
     fn contacts(&self, p: &[f64]) -> Option<Vec<Contact>>;
 }
@@ -176,9 +178,6 @@ impl<L: Law> Effect for L {
         out: &mut [Tangent],
     ) {
         L::respond(p, scene, elastic, out);
-    }
-    fn loss(&self, p: &[f64], load: f64) -> Option<f64> {
-        L::loss(p, load)
     }
     fn contacts(&self, p: &[f64]) -> Option<Vec<Contact>> {
         L::contacts(p)

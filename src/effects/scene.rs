@@ -1,5 +1,7 @@
 //! The load history an effect answers to, with the scales that make its parameters comparable.
 
+use crate::ground::stats::largest;
+
 /// A load history and its natural scales. SI: s, N·m (or N), rad (or m).
 #[derive(Debug, Clone)]
 pub struct Scene {
@@ -22,7 +24,7 @@ pub struct Scene {
 impl Scene {
     /// A scene over a load history; `stiffness` (any good guess) sets the deflection scale.
     pub fn new(time: Vec<f64>, load: Vec<f64>, stiffness: f64, cycles: usize) -> Self {
-        let load_scale = load.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        let load_scale = largest(&load);
         let span = time.last().unwrap_or(&0.0) - time.first().unwrap_or(&0.0);
         let duration = if span > 0.0 { span } else { 1.0 };
         let load_scale = if load_scale > 0.0 { load_scale } else { 1.0 };

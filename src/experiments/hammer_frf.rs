@@ -4,6 +4,7 @@ use super::hammer_force::{ForceNoise, ForceWindow, force_noise};
 use super::hammer_given::{self, ScatterFrom};
 use super::hammer_screen::{ScreenedHit, directions, screen};
 use crate::ground::problem::{Outcome, Problem};
+use crate::ground::stats::mean;
 use crate::measurement::hammer::HammerRecord;
 use crate::signal::fault::Fault;
 use crate::signal::frf::{CrossSpectra, Estimator, HitSpectra};
@@ -237,7 +238,7 @@ fn treated(
 fn impulse<'a>(hits: impl Iterator<Item = &'a ScreenedHit>, interval_s: f64) -> f64 {
     let centroid = |hit: &ScreenedHit| Some(Pulse::find(&hit.force)?.centroid(&hit.force));
     let instants: Vec<f64> = hits.filter_map(centroid).collect();
-    instants.iter().sum::<f64>() / instants.len().max(1) as f64 * interval_s
+    mean(&instants) * interval_s
 }
 
 fn remarks(frf: &HammerFrf, screened: &[ScreenedHit], settings: &Settings) -> Vec<String> {

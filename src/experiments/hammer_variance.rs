@@ -1,6 +1,7 @@
 //! Hammer tests: variance of the FRFs, from the scatter of the hits.
 
 use super::hammer_frf::InputFrf;
+use crate::ground::stats::mean;
 use crate::signal::frf::Estimator;
 use crate::signal::jackknife::frf_variance;
 use std::ops::Range;
@@ -64,10 +65,6 @@ fn smoothed(scatter: &[f64], size: &[f64]) -> Vec<f64> {
 /// The places around `i` of `count`.
 fn around(i: usize, count: usize) -> Range<usize> {
     i.saturating_sub(SMOOTHING)..(i + SMOOTHING + 1).min(count)
-}
-
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len().max(1) as f64
 }
 
 /// Least squares of `v ≈ a + b·s`, each line in units of its `model`.

@@ -1,6 +1,7 @@
 //! The load-cycle experiment: what a joint model says of one settled cycle, and its charts.
 
 use crate::effects::{Composite, Scene};
+use crate::ground::stats::{difference, largest};
 use crate::measurement::load_cycle::LoadCycle;
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
 use crate::sheet::number::prefix;
@@ -213,13 +214,7 @@ impl Curves<'_> {
     }
 
     fn beyond(&self, axis: Axis, x: &[f64], xs: f64) -> Panel {
-        let less = |values: &[f64]| -> Vec<f64> {
-            values
-                .iter()
-                .zip(self.reference.1)
-                .map(|(v, r)| v - r)
-                .collect()
-        };
+        let less = |values: &[f64]| -> Vec<f64> { difference(values, self.reference.1) };
         let (measured, model) = (less(self.measured()), less(self.model));
         let (ys, unit) = prefix(largest(&measured), self.residual_unit());
         Panel::new(axis, Axis::new(self.reference.0, unit))
@@ -275,10 +270,6 @@ struct Scales {
     load: (f64, String),
     deflection: (f64, String),
     residual: (f64, String),
-}
-
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0_f64, |m, x| m.max(x.abs()))
 }
 
 fn pairs(x: &[f64], xs: f64, y: &[f64], ys: f64) -> Vec<[f64; 2]> {

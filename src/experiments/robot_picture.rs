@@ -67,7 +67,7 @@ pub fn mode_blocks(robot: &Skeleton, modes: &[DrawnMode], stem: &str) -> Vec<Blo
         let moved: Vec<V3> = ends.map(|(p, w)| add(*p, *w)).collect();
         let figure = Chart::new(format!("{stem}{}", i + 1), title.clone(), caption);
         [
-            Block::Scene(swinging(&title, robot, &mode.swing)),
+            Block::Scene(swinging(&title, &robot.line, [&mode.swing, &[]])),
             Block::Chart(chart(figure, robot, Some(("swung", &moved)))),
         ]
     });
@@ -146,18 +146,20 @@ fn enlarged(robot: &Skeleton, swing: &[V3]) -> Vec<V3> {
     swing.iter().map(|v| scale(by, *v)).collect()
 }
 
-/// The robot as it swings; `swing` as [`enlarged`] gives it.
-fn swinging(title: &str, robot: &Skeleton, swing: &[V3]) -> Scene {
+/// Lines at rest and as they swing, m: as large as `swing` is given, and as `lead` a quarter of a
+/// period earlier.
+pub fn swinging(title: &str, line: &[V3], [swing, lead]: [&[V3]; 2]) -> Scene {
     let still = Strand {
         name: "at rest".into(),
-        points: millimetres(&robot.line),
+        points: millimetres(line),
         thin: true,
         ..Strand::default()
     };
     let moving = Strand {
         name: "swinging, enlarged".into(),
-        points: millimetres(&robot.line),
+        points: millimetres(line),
         swing: millimetres(swing),
+        lead: millimetres(lead),
         ..Strand::default()
     };
     Scene {

@@ -20,6 +20,17 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    /// By how many causes and groups of them were named, and whether structure is left.
+    pub fn of(causes: usize, groups: usize, left: bool) -> Self {
+        match (causes + groups == 0, left) {
+            (true, true) => Self::UnknownCause,
+            (true, false) => Self::Sufficient,
+            (false, true) => Self::PartlyExplained,
+            (false, false) if causes == 0 => Self::CannotTell,
+            (false, false) => Self::Explained,
+        }
+    }
+
     /// As in the JSON.
     pub fn name(self) -> &'static str {
         match self {

@@ -6,6 +6,7 @@ use crate::causes::places::soften;
 use crate::causes::{CAUSES, Sight};
 use crate::effects::Family;
 use crate::findings::engine::{Blamed, Member, Nuisance, Suspect};
+use crate::ground::stats::length;
 use crate::inference::gaussian::Size;
 use crate::robot::{Robot, Spring};
 
@@ -90,7 +91,7 @@ pub fn members(case: &dyn OnRobot, cause: &'static dyn Cause, site: &str) -> Vec
         .collect();
     let rows = columns.iter().map(Vec::len).max().unwrap_or(0) as f64;
     let limit = UNSEEN * case.noise() * rows.sqrt();
-    let seen = |k: &usize| columns[*k].iter().map(|x| x * x).sum::<f64>().sqrt() > limit;
+    let seen = |k: &usize| length(&columns[*k]) > limit;
     let form = |(index, form): (usize, Vec<usize>)| {
         let positive = form
             .iter()

@@ -108,6 +108,23 @@ pub fn patterns<C>(table: &[Pattern<C>], case: &C) -> Vec<Suspect> {
         .collect()
 }
 
+/// Columns that act together, each of free size, with their shape.
+pub fn together(columns: Vec<Vec<f64>>, shape: &[f64]) -> Member {
+    Member {
+        columns,
+        ..Member::free(Vec::new())
+    }
+    .shaped(shape)
+}
+
+/// Each of several numbers by itself, and all of them together: shaped by their indices.
+pub fn each_and_all(count: usize, column: impl Fn(usize) -> Vec<f64>) -> Vec<Member> {
+    let single = (0..count).map(|k| Member::free(column(k)).shaped(&[k as f64]));
+    let indices: Vec<f64> = (0..count).map(|k| k as f64).collect();
+    let all = together((0..count).map(&column).collect(), &indices);
+    single.chain([all]).collect()
+}
+
 /// Columns as one flexible member, their amounts drawn together about zero; none where there is no column.
 pub fn flexible(columns: Vec<Vec<f64>>) -> Vec<Member> {
     let member = Member {
@@ -145,6 +162,19 @@ pub fn would_tell<C>(table: &[Effect<C>], rivals: &[(&'static str, String)]) -> 
     }
 }
 
+/// The same, where a rival may be of no row of the table: `otherwise` then.
+pub fn would_tell_or<C>(
+    table: &[Effect<C>],
+    rivals: &[(&'static str, String)],
+    otherwise: &str,
+) -> String {
+    let known = |rival: &(&str, String)| table.iter().any(|effect| effect.name == rival.0);
+    match rivals.iter().any(known) {
+        true => would_tell(table, rivals),
+        false => otherwise.into(),
+    }
+}
+
 /// Waves cos(kπu) over u in [0, 1], k = 1 ..= `count`, falling as 1/k: structure of any smooth kind.
 pub fn waves(u: &[f64], count: usize) -> Vec<Vec<f64>> {
     let wave = |k: usize| {
@@ -152,6 +182,15 @@ pub fn waves(u: &[f64], count: usize) -> Vec<Vec<f64>> {
         u.iter().map(at).collect()
     };
     (1..=count).map(wave).collect()
+}
+
+/// How much of its warming a body has behind it, 1 at the end: at the share `progress` of the test, with a time
+/// constant over its length; 0: in proportion to time.
+pub fn warmed(progress: f64, constant: f64) -> f64 {
+    match constant {
+        0.0 => progress,
+        c => (1.0 - (-progress / c).exp()) / (1.0 - (-1.0 / c).exp()),
+    }
 }
 
 /// Places of values between their least and their greatest, 0 to 1.

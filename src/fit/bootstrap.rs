@@ -4,6 +4,7 @@ use super::least_squares::{Problem, minimise};
 use super::observation::Observation;
 use super::solution::Solution;
 use crate::ground::random::Random;
+use crate::ground::stats::difference;
 use crate::inference::descent::Stop;
 
 /// 95 % intervals of every parameter from `draws` resamplings of the residual, cycle by cycle.
@@ -33,12 +34,7 @@ pub fn intervals(
 }
 
 fn refit(solution: &Solution, data: &Observation, random: &mut Random) -> Vec<f64> {
-    let fitted: Vec<f64> = data
-        .reading
-        .iter()
-        .zip(&solution.residual)
-        .map(|(y, r)| y - r)
-        .collect();
+    let fitted: Vec<f64> = difference(&data.reading, &solution.residual);
     let noise = shuffled(solution, data, random);
     let reading = fitted.iter().zip(noise).map(|(f, r)| f + r).collect();
     let scene = &data.scene;

@@ -57,12 +57,6 @@ impl Candidates {
         }
     }
 
-    /// Takes the readings of `data` again, after some were replaced.
-    pub fn read_again(&mut self, data: &Observation) {
-        self.reading.clone_from(&data.reading);
-        data.cosine.transform(&mut self.reading);
-    }
-
     /// The cause that an atom speaks for.
     pub fn cause(&self, atom: usize) -> &'static str {
         self.library[self.atoms[atom].effect].card().cause

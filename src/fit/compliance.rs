@@ -77,7 +77,7 @@ pub fn refit(
     let mut weighing = Weighing::new(setups, repeatability);
     let mut step = Step::of(response, &sites, &priors, &weighing)?;
     for _ in 1..ROUNDS {
-        weighing.about_model(response, &step.compliances(&sites));
+        weighing.about_model(response, &compliances(&step.ratio, &sites));
         step = Step::of(response, &sites, &priors, &weighing)?;
     }
     let slopes = weighing.len();
@@ -143,22 +143,18 @@ impl Step {
             chi_squared: misfit + pulls,
         })
     }
+}
 
-    fn compliances(&self, sites: &[Site]) -> Vec<f64> {
-        self.ratio
-            .iter()
-            .zip(sites)
-            .map(|(r, site)| r * site.compliance)
-            .collect()
-    }
+/// Compliances of sites, rad/(N·m), by their ratios to the nominal ones.
+fn compliances(ratio: &[f64], sites: &[Site]) -> Vec<f64> {
+    let each = ratio.iter().zip(sites);
+    each.map(|(r, site)| r * site.compliance).collect()
 }
 
 /// Standard deviations of the free ratios; zero for those at the bound.
 fn deviations(hessian: &DMatrix<f64>, free: &[bool]) -> Vec<f64> {
     let index: Vec<usize> = (0..free.len()).filter(|i| free[*i]).collect();
-    let inner = DMatrix::from_fn(index.len(), index.len(), |a, b| {
-        hessian[(index[a], index[b])]
-    });
+    let inner = hessian.select_rows(&index).select_columns(&index);
     let inverse = inner.cholesky().map(|root| root.inverse());
     let mut std = vec![0.0; free.len()];
     for (a, i) in index.iter().enumerate() {
@@ -172,11 +168,7 @@ fn deviations(hessian: &DMatrix<f64>, free: &[bool]) -> Vec<f64> {
 impl Refit {
     /// The fitted compliances of the sites, rad/(N·m).
     pub fn compliances(&self) -> Vec<f64> {
-        self.ratio
-            .iter()
-            .zip(&self.sites)
-            .map(|(r, site)| r * site.compliance)
-            .collect()
+        compliances(&self.ratio, &self.sites)
     }
 
     /// The stiffness of every site as it is reported, N·m/rad.

@@ -71,9 +71,7 @@ pub fn non_negative(hessian: &DMatrix<f64>, gradient: &DVector<f64>) -> Outcome<
 /// The minimum with the numbers that are not free held at zero.
 fn among(hessian: &DMatrix<f64>, gradient: &DVector<f64>, free: &[bool]) -> Option<DVector<f64>> {
     let index: Vec<usize> = (0..free.len()).filter(|i| free[*i]).collect();
-    let inner = DMatrix::from_fn(index.len(), index.len(), |a, b| {
-        hessian[(index[a], index[b])]
-    });
+    let inner = hessian.select_rows(&index).select_columns(&index);
     let right = DVector::from_fn(index.len(), |a, _| gradient[index[a]]);
     let solved = inner.cholesky()?.solve(&right);
     let mut x = DVector::zeros(free.len());

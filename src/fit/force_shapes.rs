@@ -198,10 +198,4 @@ impl Shapes {
             |rest: &Rest| (rest.count.iter().filter(|n| **n > 0.0).count() as f64 - 2.0).max(0.0);
         self.rests.iter().map(own).sum()
     }
-
-    /// Readings left out as wild.
-    pub fn wild(&self) -> usize {
-        let lines = self.setups.iter().flat_map(|s| s.lines);
-        lines.flatten().map(|line| line.wild).sum()
-    }
 }

@@ -2,6 +2,7 @@
 //! component, with an own intercept for every cycle, wild readings left out and counted.
 
 use super::parameter::{Status, Z95};
+use crate::ground::stats::rms;
 use crate::measurement::workspace_test::{Step, WorkspaceTest};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
@@ -240,7 +241,7 @@ pub(super) fn spread(residuals: &[f64]) -> f64 {
     sizes.sort_by(f64::total_cmp);
     match sizes.get(sizes.len() / 2) {
         Some(median) if *median > 0.0 => 1.4826 * median,
-        _ => (sizes.iter().map(|r| r * r).sum::<f64>() / sizes.len().max(1) as f64).sqrt(),
+        _ => rms(&sizes),
     }
 }
 

@@ -12,6 +12,7 @@ use super::starts::starts;
 use super::suitability::relation::{Relation, halved, ramps, slope};
 use crate::effects::{CLEARANCE_SLIDER, Composite, Effect, named};
 use crate::experiments::load_cycle::enclosed;
+use crate::ground::stats::ends;
 use crate::inference::descent::Stop;
 use crate::measurement::cycles::Cycles;
 use crate::measurement::load_cycle::LoadCycle;
@@ -135,9 +136,7 @@ pub fn losses(data: &Observation) -> Vec<(f64, f64)> {
     pairs
         .map(|(a, b)| {
             let (x, force) = (&data.scene.load[a..b], &data.reading[a..b]);
-            let (low, high) = x
-                .iter()
-                .fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
+            let (low, high) = ends(x);
             (enclosed(force, x), high - low)
         })
         .collect()

@@ -5,6 +5,7 @@ use super::observation::Observation;
 use super::screen::screen;
 use super::suitability::Doubt;
 use super::suitability::load_cycle::doubts;
+use crate::ground::stats::ends;
 use crate::measurement::cycles::Cycles;
 use crate::measurement::load_cycle::LoadCycle;
 use crate::sheet::number::engineering;
@@ -58,8 +59,8 @@ pub fn inspect(file: &LoadCycle) -> Inspection {
 }
 
 fn lines(file: &LoadCycle, found: &Inspection, jitter: f64) -> Vec<(String, String)> {
-    let (low, high) = range(&file.load);
-    let (dl, dh) = range(&file.deflection);
+    let (low, high) = ends(&file.load);
+    let (dl, dh) = ends(&file.deflection);
     let unit = file.port.deflection_unit();
     let mut lines = vec![
         (
@@ -111,11 +112,5 @@ fn lines(file: &LoadCycle, found: &Inspection, jitter: f64) -> Vec<(String, Stri
 
 fn sensor_noise(data: &Observation) -> f64 {
     let candidates = Candidates::new(&crate::effects::shapes(crate::effects::EFFECTS), data);
-    screen(data, &candidates).colour.rms
-}
-
-fn range(values: &[f64]) -> (f64, f64) {
-    values
-        .iter()
-        .fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)))
+    screen(data, &candidates).rms
 }

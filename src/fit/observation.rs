@@ -1,6 +1,7 @@
 //! Observed deflections under a load history, ready for fitting: reduced, whitened, repaired.
 
 use crate::effects::Scene;
+use crate::ground::stats::ends;
 use crate::measurement::cycles::Cycles;
 use crate::measurement::load_cycle::LoadCycle;
 use crate::signal::cosine::Cosine;
@@ -99,8 +100,7 @@ const WILD: f64 = 3.5;
 impl Observation {
     /// Smallest and largest load.
     pub fn load_range(&self) -> (f64, f64) {
-        let load = self.scene.load.iter();
-        load.fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)))
+        ends(&self.scene.load)
     }
 
     /// Prepares the first sensor of a file, averaged down to at most `most` rows. Where averaging would

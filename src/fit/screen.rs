@@ -6,37 +6,6 @@ use crate::fit::observation::Observation;
 use crate::signal::colour::Colour;
 use nalgebra::{DMatrix, DVector};
 
-/// What the screen found.
-#[derive(Clone)]
-pub struct Screen {
-    /// The span: curves as columns, in cosine coefficients.
-    span: DMatrix<f64>,
-    /// Noise of the readings.
-    pub colour: Colour,
-    /// Whitened sum of squares that the span could not explain.
-    pub saturated: f64,
-    /// Dimension of the span.
-    pub dimension: usize,
-    /// The colours that what lies outside the span leaves plausible.
-    pub tints: Vec<Tint>,
-}
-
-/// A plausible colour of the noise, and what the screen says of it.
-#[derive(Debug, Clone)]
-pub struct Tint {
-    /// The colour.
-    pub colour: Colour,
-    /// Its log likelihood outside the span.
-    pub likelihood: f64,
-    /// Whitened sum of squares outside the span.
-    pub outside: f64,
-    /// Nats by which its size inside the span is less likely than that of the screen's colour.
-    pub size: f64,
-}
-
-/// Colours this many nats below the best do not count any more.
-const PLAUSIBLE: f64 = 3.0;
-
 /// Curves of each effect that enter the span: its whole family, coarsely.
 const PER_EFFECT: usize = 4;
 /// Powers of the load on each branch.
@@ -44,64 +13,22 @@ const POWERS: usize = 7;
 /// Slow functions of time.
 const SLOW: usize = 6;
 
-impl Screen {
-    /// Screens again with more curves (cosine coefficients) in the span.
-    #[must_use]
-    pub fn widened(&self, curves: &[Vec<f64>], candidates: &Candidates) -> Self {
-        let (n, own) = (self.span.nrows(), self.span.ncols());
-        let wide = DMatrix::from_fn(n, own + curves.len(), |i, j| match j < own {
-            true => self.span[(i, j)],
-            false => curves[j - own][i],
-        });
-        Self::of(wide, candidates, self.colour.clone())
-    }
-
-    /// Estimates the noise outside of `span`, starting from a colour.
-    fn of(span: DMatrix<f64>, candidates: &Candidates, mut colour: Colour) -> Self {
-        let n = span.nrows();
-        let mut coefficients = Vec::new();
-        let mut free = Vec::new();
-        for _pass in 0..PASSES {
-            let (basis, left) = project(&span, &candidates.reading, &colour);
-            let share = |k: usize| (1.0 - basis.row(k).norm_squared()).max(0.0);
-            free = (0..n).map(share).collect();
-            coefficients = left.iter().zip(&colour.sigma).map(|(r, s)| r * s).collect();
-            colour = Colour::estimate(&coefficients, &free);
-        }
-        let (basis, left) = project(&span, &candidates.reading, &colour);
-        Self {
-            tints: tints(&coefficients, &free, &colour),
-            saturated: left.norm_squared(),
-            dimension: basis.ncols(),
-            colour,
-            span,
-        }
-    }
-}
-
 /// Passes in which colour and residual settle.
 const PASSES: usize = 3;
 
-/// Estimates the noise of an observation.
-pub fn screen(data: &Observation, candidates: &Candidates) -> Screen {
-    let white = Colour::white(data.rows(), 1.0);
-    Screen::of(span(data, candidates), candidates, white)
-}
-
-/// The plausible colours of a residual that the span has `1 − free` of.
-fn tints(coefficients: &[f64], free: &[f64], own: &Colour) -> Vec<Tint> {
-    let tint = |(likelihood, colour): (f64, Colour)| {
-        let lines = coefficients.iter().zip(&colour.sigma);
-        let inside = free.iter().zip(&colour.sigma).zip(&own.sigma);
-        Tint {
-            likelihood,
-            outside: lines.map(|(c, s)| (c / s).powi(2)).sum(),
-            size: inside.map(|((f, s), own)| (1.0 - f) * (s / own).ln()).sum(),
-            colour,
-        }
-    };
-    let all = Colour::plausible(coefficients, free, PLAUSIBLE);
-    all.into_iter().map(tint).collect()
+/// The noise of the readings: what lies outside of the span, and its colour.
+pub fn screen(data: &Observation, candidates: &Candidates) -> Colour {
+    let span = span(data, candidates);
+    let n = span.nrows();
+    let mut colour = Colour::white(n, 1.0);
+    for _pass in 0..PASSES {
+        let (basis, left) = project(&span, &candidates.reading, &colour);
+        let share = |k: usize| (1.0 - basis.row(k).norm_squared()).max(0.0);
+        let free: Vec<f64> = (0..n).map(share).collect();
+        let unwhitened = left.iter().zip(&colour.sigma).map(|(r, s)| r * s);
+        colour = Colour::estimate(&unwhitened.collect::<Vec<_>>(), &free);
+    }
+    colour
 }
 
 /// Orthonormal whitened basis of the span, and the whitened reading outside it.

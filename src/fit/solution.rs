@@ -7,6 +7,7 @@ use super::starts::starts;
 use crate::effects::composite::Slot;
 use crate::effects::{Composite, Scale};
 use crate::ground::products::gram;
+use crate::ground::stats::{difference, rms};
 use crate::inference::descent::Stop;
 use crate::measurement::load_cycle::Port;
 use crate::signal::colour::Colour;
@@ -30,8 +31,6 @@ pub struct Solution {
     pub residual: Vec<f64>,
     /// Root mean square of the residual.
     pub rms: f64,
-    /// Rows that counted.
-    pub rows: usize,
 }
 
 /// Relative standard error beyond which a parameter counts as not supported by the data.
@@ -138,20 +137,14 @@ pub fn conclude_with(problem: &Problem, optimum: Optimum, colour: Colour) -> Sol
 
 fn conclude(problem: &Problem, optimum: Optimum) -> Solution {
     let predicted = problem.model.predict(&optimum.p, &problem.data.scene);
-    let residual: Vec<f64> = problem
-        .data
-        .reading
-        .iter()
-        .zip(&predicted)
-        .map(|(y, f)| y - f)
-        .collect();
+    let residual: Vec<f64> = difference(&problem.data.reading, &predicted);
     let counted: Vec<f64> = residual
         .iter()
         .zip(problem.ignored)
         .filter(|(_, i)| !**i)
         .map(|(r, _)| *r)
         .collect();
-    let rms = (counted.iter().map(|r| r * r).sum::<f64>() / counted.len().max(1) as f64).sqrt();
+    let rms = rms(&counted);
     let pinned = covariance(problem.model, &optimum, true);
     Solution {
         model: problem.model.clone(),
@@ -160,7 +153,6 @@ fn conclude(problem: &Problem, optimum: Optimum) -> Solution {
         covariance: pinned,
         colour: problem.colour.clone(),
         rms,
-        rows: counted.len(),
         residual,
         p: optimum.p,
     }

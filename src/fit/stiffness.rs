@@ -144,7 +144,7 @@ fn pressed(file: &LoadCycle, request: &Request) -> Account {
         solution = simpler;
     }
     let candidates = Candidates::new(&shapes(EFFECTS), &data);
-    let noise = screen(&data, &candidates).colour;
+    let noise = screen(&data, &candidates);
     let (low, high) = data.load_range();
     let branches = settled_cycle(&solution.model, &solution.p, &data.scene, low, high);
     let site = file.site();

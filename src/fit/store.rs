@@ -2,9 +2,10 @@
 
 use super::parameter::Identified;
 use super::stored_text::{stored, stored_text};
-use crate::effects::Composite;
+use crate::effects::{Composite, Scene};
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
+use crate::measurement::load_cycle::LoadCycle;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -88,6 +89,22 @@ pub fn stored_scale(scene: &crate::effects::Scene) -> StoredScale {
 }
 
 impl StoredFit {
+    /// The fit of a file by a model with these parameters (SI); nothing is said of intervals.
+    pub fn of(file: &LoadCycle, model: &Composite, p: &[f64], scene: &Scene) -> Self {
+        let name = files::name(&file.path);
+        Self {
+            schema: SCHEMA.into(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            input: name,
+            input_sha256: file.sha256.clone(),
+            synthetic: file.facts.synthetic,
+            site: file.site(),
+            model: stored_effects(model, p),
+            scale: stored_scale(scene),
+            parameters: Vec::new(),
+        }
+    }
+
     /// The model and its parameters.
     pub fn model(&self) -> Outcome<(Composite, Vec<f64>)> {
         let names: Vec<&str> = self.model.iter().map(|e| e.effect.as_str()).collect();
@@ -111,11 +128,6 @@ impl StoredFit {
             p.extend(own);
         }
         Ok((model, p))
-    }
-
-    /// Writes it, replacing what was there.
-    pub fn write(&self, path: &Path) -> Outcome<()> {
-        files::replace(path, self.text()?.as_bytes())
     }
 
     /// Its text.

@@ -1,6 +1,6 @@
 //! The text of every fit on disk: what it is, then its tables.
 
-use crate::ground::problem::{Outcome, Problem};
+use crate::ground::problem::{Outcome, Problem, line_of_toml};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::path::Path;
@@ -36,12 +36,8 @@ pub fn stored<T: DeserializeOwned>(
 ) -> Outcome<T> {
     let refuse = |what: String, line: usize| Problem::new(what, remedy).at_line(line).in_file(path);
     let text = String::from_utf8(bytes).map_err(|_| refuse("is not UTF-8 text".into(), 1))?;
-    let line = |at: usize| {
-        let before = &text.as_bytes()[..at.min(text.len())];
-        1 + before.iter().filter(|b| **b == b'\n').count()
-    };
     toml::from_str(&text).map_err(|e| {
-        let at = e.span().map_or(1, |span| line(span.start));
-        refuse(format!("is not {is}: {}", e.message().trim()), at)
+        let what = format!("is not {is}: {}", e.message().trim());
+        refuse(what, line_of_toml(&text, &e))
     })
 }

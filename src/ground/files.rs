@@ -26,7 +26,8 @@ pub fn open(path: &Path) -> Outcome<(File, u64)> {
     opened().map_err(|error| unreadable(&error).in_file(path))
 }
 
-fn unreadable(error: &std::io::Error) -> Problem {
+/// A file that the system does not let one read.
+pub fn unreadable(error: &std::io::Error) -> Problem {
     let remedy = match error.kind() {
         std::io::ErrorKind::NotFound => "check the path; no such file is there",
         std::io::ErrorKind::PermissionDenied => "make the file readable for this user",
@@ -62,6 +63,12 @@ pub fn line_setting(path: &Path, key: &str) -> usize {
     let bytes = read_bytes(path).unwrap_or_default();
     let found = bytes.split(|byte| *byte == b'\n').position(sets);
     found.map_or(1, |before| before + 1)
+}
+
+/// Name of a file, without its folder.
+pub fn name(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default();
+    name.to_string_lossy().into_owned()
 }
 
 /// SHA-256 as 64 hex digits.

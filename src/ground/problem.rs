@@ -97,6 +97,19 @@ impl fmt::Display for Problem {
 
 impl std::error::Error for Problem {}
 
+/// 1-based line of a byte offset.
+pub fn line_of(text: &[u8], offset: usize) -> usize {
+    let before = text.iter().take(offset);
+    1 + before.filter(|byte| **byte == b'\n').count()
+}
+
+/// 1-based line at which a text is no TOML: the first where none is known.
+pub fn line_of_toml(text: &str, error: &toml::de::Error) -> usize {
+    error
+        .span()
+        .map_or(1, |span| line_of(text.as_bytes(), span.start))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

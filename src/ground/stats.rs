@@ -1,4 +1,4 @@
-//! Means, quantiles and sums of exponentials: written once.
+//! Means, sizes, quantiles and sums of exponentials: written once.
 
 /// 97.5 % point of the normal distribution: half width of a 95 % interval in standard deviations.
 pub const Z95: f64 = 1.959_963_984_540_054;
@@ -11,6 +11,40 @@ pub fn mean(values: &[f64]) -> f64 {
 /// Root of the mean square, not less the mean; 0 of nothing.
 pub fn rms(values: &[f64]) -> f64 {
     (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
+}
+
+/// What `a` has more than `b`, value by value.
+pub fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
+}
+
+/// Length as of a vector: root of the sum of squares.
+pub fn length(values: &[f64]) -> f64 {
+    values.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+/// Largest size, sign apart; 0 of nothing.
+pub fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, v| most.max(v.abs()))
+}
+
+/// Index of the largest size, sign apart; none of nothing.
+pub fn farthest(values: &[f64]) -> Option<usize> {
+    (0..values.len()).max_by(|a, b| values[*a].abs().total_cmp(&values[*b].abs()))
+}
+
+/// Indices from the largest value to the smallest.
+pub fn descending(values: &[f64]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|a, b| values[*b].total_cmp(&values[*a]));
+    order
+}
+
+/// Smallest and largest; the ends of all numbers, upside down, of nothing.
+pub fn ends(values: &[f64]) -> (f64, f64) {
+    values.iter().fold((f64::MAX, f64::MIN), |(low, high), v| {
+        (low.min(*v), high.max(*v))
+    })
 }
 
 /// Value below which the share `q` (0 to 1) of the values lies, linear between order statistics; 0 of nothing.
@@ -38,11 +72,6 @@ pub fn log_sum_exp(values: impl Iterator<Item = f64> + Clone) -> f64 {
         true => top + values.map(|v| (v - top).exp()).sum::<f64>().ln(),
         false => top,
     }
-}
-
-/// Sum of products.
-pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 /// 97.5 % point of Student's t, for intervals whose variance rests on few degrees of freedom (at least 1).

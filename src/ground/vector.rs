@@ -117,6 +117,27 @@ pub fn rotation<S: Scalar>(u: V3, angle: S) -> M3<S> {
     turn(&lift_matrix(IDENTITY), u, (angle.sin(), angle.cos()))
 }
 
+/// Rotation by a unit quaternion w, x, y, z: columns are the turned axes.
+pub fn of_quaternion([w, x, y, z]: [f64; 4]) -> M3 {
+    [
+        [
+            1.0 - 2.0 * (y * y + z * z),
+            2.0 * (x * y - w * z),
+            2.0 * (x * z + w * y),
+        ],
+        [
+            2.0 * (x * y + w * z),
+            1.0 - 2.0 * (x * x + z * z),
+            2.0 * (y * z - w * x),
+        ],
+        [
+            2.0 * (x * z - w * y),
+            2.0 * (y * z + w * x),
+            1.0 - 2.0 * (x * x + y * y),
+        ],
+    ]
+}
+
 /// Rz(yaw) Ry(pitch) Rx(roll), rad: the `rpy` of URDF; KUKA's A, B, C are yaw, pitch, roll.
 pub fn roll_pitch_yaw(roll: f64, pitch: f64, yaw: f64) -> M3 {
     let (x, y, z) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);

@@ -145,7 +145,6 @@ impl CubesTruth {
                 ..Facts::default()
             },
             readings: Vec::new(),
-            rows: 0,
             left_out: 0,
         }
     }

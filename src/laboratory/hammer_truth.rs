@@ -1,7 +1,7 @@
 //! The readable truth of the hammer tests of a campaign, and the files they make.
 
 use super::hammer_blow::{Blow, Instrument, strike};
-use super::recording::Recording;
+use super::recording::{Recording, head};
 use super::truth::LoadCycleTruth;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::random::Random;
@@ -166,17 +166,14 @@ impl HammerTruth {
     }
 
     fn facts(&self, file: &HammerFile, (robot, source): (&str, &str)) -> Vec<String> {
-        let mut facts = vec![
-            "kind = \"hammer\"".to_string(),
-            "synthetic = true   # simulated by `ident lab`; nobody measured this".to_string(),
-            format!("source = {}", toml::Value::from(source)),
-            format!("robot = {}", toml::Value::from(robot)),
+        let mut facts = head("hammer", robot, source);
+        facts.extend([
             format!("joint_angles_deg = {:?}", self.joint_angles_deg),
             format!(
                 "accelerometer_noise_m_s2 = {:?}",
                 self.instrument.accelerometer_noise
             ),
-        ];
+        ]);
         let play = if file.backlash {
             "with the play of truth.toml"
         } else {

@@ -7,6 +7,7 @@ use crate::fit::observation::Observation;
 use crate::fit::screen::screen;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::random::Random;
+use crate::ground::stats::{difference, ends};
 use crate::measurement::load_cycle::LoadCycle;
 
 /// An effect made to show with a given strength.
@@ -68,16 +69,13 @@ pub fn hide(
 pub fn noise_of(file: &LoadCycle) -> f64 {
     let data = Observation::of(file, 2000);
     let candidates = Candidates::new(&crate::effects::shapes(crate::effects::EFFECTS), &data);
-    screen(&data, &candidates).colour.rms
+    screen(&data, &candidates).rms
 }
 
 fn draw(effect: &dyn Effect, scene: &Scene, random: &mut Random) -> Vec<f64> {
     let parameters = effect.card().parameters;
     let value = |q: &crate::effects::Parameter| {
-        let (low, high) = q
-            .grid
-            .iter()
-            .fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
+        let (low, high) = ends(q.grid);
         random.uniform(low, high) * q.scale.of(scene)
     };
     let mut p: Vec<f64> = parameters.iter().map(value).collect();
@@ -96,7 +94,7 @@ fn response(effect: &'static dyn Effect, p: &[f64], scene: &Scene, deflection: &
         .collect();
     let mut with = deflection.to_vec();
     effect.respond(p, scene, &elastic, &mut with);
-    with.iter().zip(deflection).map(|(a, b)| a - b).collect()
+    difference(&with, deflection)
 }
 
 fn visible(addition: &[f64], role: Role, load: &[f64]) -> f64 {

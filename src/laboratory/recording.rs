@@ -1,5 +1,6 @@
 //! A simulated measurement file as text: front matter, header, rows.
 
+use crate::measurement::front::quoted;
 use std::fmt::Write;
 
 /// What a simulated sensor wrote.
@@ -14,6 +15,16 @@ pub struct Recording {
     pub decimals: Vec<usize>,
     /// Values in the columns' units, one vector per column of numbers.
     pub values: Vec<Vec<f64>>,
+}
+
+/// The facts that every simulated file begins with.
+pub fn head(kind: &str, robot: &str, source: &str) -> Vec<String> {
+    vec![
+        format!("kind = {}", quoted(kind)),
+        "synthetic = true   # simulated by `ident lab`; nobody measured this".to_string(),
+        format!("source = {}", quoted(source)),
+        format!("robot = {}", quoted(robot)),
+    ]
 }
 
 impl Recording {

@@ -1,6 +1,6 @@
 //! Simulated runs of a linear axis against a scale: a worn screw, with or without the table that corrects it.
 
-use super::recording::Recording;
+use super::recording::{Recording, head};
 use crate::fit::screw::groups::Joint;
 use crate::fit::screw::positions::Extremes;
 use crate::fit::screw::{Request, identify};
@@ -104,13 +104,8 @@ impl ScrewTruth {
     }
 
     fn facts(&self, (machine, source): (&str, &str)) -> Vec<String> {
-        let mut facts = vec![
-            "kind = \"screw\"".to_string(),
-            "synthetic = true   # simulated by `ident lab`; nobody measured this".to_string(),
-            format!("source = {}", toml::Value::from(source)),
-            format!("robot = {}", toml::Value::from(machine)),
-            format!("pitch_mm = {:?}", self.pitch_mm),
-        ];
+        let mut facts = head("screw", machine, source);
+        facts.extend([format!("pitch_mm = {:?}", self.pitch_mm)]);
         let corrected = self.corrected_by.iter();
         facts.extend(corrected.map(|by| format!("notes = {{ corrected_by = {by:?} }}")));
         facts

@@ -1,12 +1,12 @@
 //! Simulated readings of a force-torque sensor that carries a spindle through many orientations.
 
-use super::recording::Recording;
+use super::recording::{Recording, head};
 use crate::fit::force_sensor::statics::{N, reading};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::random::Random;
-use crate::ground::spatial::V3;
+use crate::ground::spatial::{V3, of_quaternion};
 use crate::ground::units::DEGREE;
-use crate::measurement::force_sensor::{matrix, quaternion};
+use crate::measurement::force_sensor::quaternion;
 use serde::Deserialize;
 
 /// One force-sensor test of a campaign.
@@ -136,21 +136,19 @@ impl SensorTruth {
 
     /// Force and moment of the hose, sensor axes.
     fn pull(&self, q: [f64; 4]) -> [f64; 6] {
-        let size = self.hose * matrix(q)[0][2];
+        let size = self.hose * of_quaternion(q)[0][2];
         [size, 0.0, 0.0, 0.0, HOSE_HEIGHT_M * size, 0.0]
     }
 
     fn facts(&self, robot: &str, source: &str) -> Vec<String> {
-        vec![
-            "kind = \"force-sensor\"".to_string(),
-            "synthetic = true   # simulated by `ident lab`; nobody measured this".to_string(),
-            format!("source = {}", toml::Value::from(source)),
-            format!("robot = {}", toml::Value::from(robot)),
+        let mut facts = head("force-sensor", robot, source);
+        facts.extend([
             format!("nominal_weight_N = {:?}", self.nominal_weight),
             format!("nominal_com_m = {:?}", self.nominal_com_m),
             format!("nominal_rel_std = {:?}", self.nominal_rel_std),
             format!("sensor_noise_N = {:?}", self.noise_force),
             format!("sensor_noise_Nm = {:?}", self.noise_moment),
-        ]
+        ]);
+        facts
     }
 }

@@ -8,7 +8,7 @@ use super::screw_truth::ScrewTruth;
 use super::sensor_truth::SensorTruth;
 use super::workspace::WorkspaceTruth;
 use crate::ground::files;
-use crate::ground::problem::{Outcome, Problem};
+use crate::ground::problem::{Outcome, Problem, line_of_toml};
 pub use load_cycle::LoadCycleTruth;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -59,18 +59,12 @@ impl Truth {
             Problem::new("is not UTF-8 text", "give a truth file in TOML").in_file(path)
         })?;
         toml::from_str(&text).map_err(|error| {
-            let start = error.span().map_or(0, |s| s.start.min(text.len()));
-            let line = text.as_bytes()[..start]
-                .iter()
-                .filter(|b| **b == b'\n')
-                .count()
-                + 1;
             Problem::new(
                 format!("is not a truth file: {}", error.message().trim()),
                 "compare with measurements/kr210/truth.toml",
             )
             .in_file(path)
-            .at_line(line)
+            .at_line(line_of_toml(&text, &error))
         })
     }
 

@@ -1,5 +1,7 @@
 //! Turning points and cycles of a load history.
 
+use crate::ground::stats::{ends, largest};
+
 /// A load history cut at its turning points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cycles {
@@ -20,10 +22,8 @@ impl Cycles {
     /// Finds turning points by a threshold on the swing, so that noise does not count, then cuts
     /// cycles where the load rises through its middle.
     pub fn find(load: &[f64]) -> Self {
-        let largest = load.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-        let (low, high) = load
-            .iter()
-            .fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
+        let largest = largest(load);
+        let (low, high) = ends(load);
         let threshold = SWING * (high - low).max(0.0);
         let first_loaded = load
             .iter()

@@ -6,7 +6,7 @@ use super::front::Front;
 use super::table::Table;
 use super::test::{Kind, Test};
 use crate::ground::problem::{Outcome, Problem};
-use crate::ground::spatial::M3;
+use crate::ground::stats::length;
 use crate::ground::units::Dimension;
 
 /// Farthest centre of mass of a tool from its sensor, m: as far as a whole robot reaches. Beyond, millimetres were meant.
@@ -154,7 +154,7 @@ impl<'a> Turn<'a> {
 const LENGTH: f64 = 0.01;
 
 fn unit(q: [f64; 4]) -> Outcome<[f64; 4]> {
-    let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let length = length(&q);
     match (length - 1.0).abs() <= LENGTH {
         true => Ok(q.map(|x| x / length)),
         false => Err(Problem::new(
@@ -174,27 +174,6 @@ pub fn quaternion(a: f64, b: f64, c: f64) -> [f64; 4] {
         ca * cb * sc - sa * sb * cc,
         ca * sb * cc + sa * cb * sc,
         sa * cb * cc - ca * sb * sc,
-    ]
-}
-
-/// Rotation matrix of a unit quaternion w, x, y, z.
-pub fn matrix([w, x, y, z]: [f64; 4]) -> M3 {
-    [
-        [
-            1.0 - 2.0 * (y * y + z * z),
-            2.0 * (x * y - w * z),
-            2.0 * (x * z + w * y),
-        ],
-        [
-            2.0 * (x * y + w * z),
-            1.0 - 2.0 * (x * x + z * z),
-            2.0 * (y * z - w * x),
-        ],
-        [
-            2.0 * (x * z - w * y),
-            2.0 * (y * z + w * x),
-            1.0 - 2.0 * (x * x + y * y),
-        ],
     ]
 }
 
@@ -238,12 +217,12 @@ fn readings(table: &Table) -> Outcome<Vec<Reading>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ground::spatial::roll_pitch_yaw;
+    use crate::ground::spatial::{of_quaternion, roll_pitch_yaw};
 
     #[test]
     fn quaternion_and_matrix_of_kuka_angles_agree() {
         for (a, b, c) in [(0.3, -0.7, 1.1), (-2.9, 1.5, 3.0), (0.0, 0.0, 0.0)] {
-            let (found, wanted) = (matrix(quaternion(a, b, c)), roll_pitch_yaw(c, b, a));
+            let (found, wanted) = (of_quaternion(quaternion(a, b, c)), roll_pitch_yaw(c, b, a));
             let pairs = found.as_flattened().iter().zip(wanted.as_flattened());
             assert!(pairs.fold(0.0_f64, |worst, (x, y)| worst.max((x - y).abs())) < 1e-14);
         }

@@ -2,7 +2,7 @@
 
 use super::foreign::Sidecar;
 use super::known_keys::unknown_key;
-use crate::ground::problem::{Outcome, Problem};
+use crate::ground::problem::{Outcome, Problem, line_of_toml};
 use std::collections::BTreeSet;
 use toml::{Table, Value};
 
@@ -48,17 +48,11 @@ impl Front {
     }
 
     fn broken(text: &str, error: &toml::de::Error) -> Problem {
-        let start = error.span().map_or(0, |span| span.start.min(text.len()));
-        let line = text.as_bytes()[..start]
-            .iter()
-            .filter(|b| **b == b'\n')
-            .count()
-            + 1;
         Problem::new(
             format!("front matter is not TOML: {}", error.message().trim()),
             "write each fact as `# key = value`, text in double quotes",
         )
-        .at_line(line)
+        .at_line(line_of_toml(text, error))
     }
 
     /// Takes over facts from beside the file, where the file does not state them itself.
@@ -136,6 +130,17 @@ impl Front {
         match self.number(key)? {
             Some(x) if x < 0.0 => {
                 Err(self.problem(key, format!("is {x}, below zero"), "give zero or more"))
+            }
+            other => Ok(other),
+        }
+    }
+
+    /// A relative standard deviation, if given; 1 and more is a percentage by mistake.
+    pub fn fraction(&self, key: &str) -> Outcome<Option<f64>> {
+        match self.not_negative(key)? {
+            Some(x) if x >= 1.0 => {
+                let what = format!("is {x}, 100 % or more");
+                Err(self.problem(key, what, "write it as a fraction: 0.02 for 2 %"))
             }
             other => Ok(other),
         }
@@ -252,6 +257,23 @@ impl Front {
     pub fn synthetic(&self) -> bool {
         matches!(self.facts.get("synthetic"), Some(Value::Boolean(true)))
     }
+}
+
+/// A text as TOML quotes it.
+pub fn quoted(text: &str) -> String {
+    Value::String(text.to_string()).to_string()
+}
+
+/// The fact `inputs`: path and SHA-256 of every file that a result rests on.
+pub fn inputs(files: &[(String, String)]) -> String {
+    let input = |(path, sha256): &(String, String)| {
+        let (path, sha256) = (quoted(path), quoted(sha256));
+        format!("#   {{ path = {path}, sha256 = {sha256} }},\n")
+    };
+    format!(
+        "# inputs = [\n{}# ]\n",
+        files.iter().map(input).collect::<String>()
+    )
 }
 
 #[cfg(test)]

@@ -39,7 +39,7 @@ impl Known {
     /// A fact that is no number, negative, or 100 % and more.
     pub fn read(front: &Front) -> Outcome<Self> {
         let default = Self::default();
-        let share = |key: &str| fraction(front, key);
+        let share = |key: &str| front.fraction(key);
         Ok(Self {
             mass_rel_std: share("mass_rel_std")?.unwrap_or(default.mass_rel_std),
             com_std_m: front
@@ -67,16 +67,5 @@ impl Known {
             damping_rel_std: damping.map(|(a, b)| a.max(b)),
             gain_rel_std: self.gain_rel_std.max(other.gain_rel_std),
         }
-    }
-}
-
-fn fraction(front: &Front, key: &str) -> Outcome<Option<f64>> {
-    match front.not_negative(key)? {
-        Some(x) if x >= 1.0 => Err(front.problem(
-            key,
-            format!("is {x}, 100 % or more"),
-            "write it as a fraction: 0.02 for 2 %",
-        )),
-        other => Ok(other),
     }
 }

@@ -2,7 +2,7 @@
 
 mod lists;
 
-use super::load_cycle::{check_time, dialect, interpolate};
+use super::load_cycle::{check_time, interpolate};
 use super::table::Table;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::units::Dimension;
@@ -73,12 +73,6 @@ pub struct JointMotion {
     pub facts: Facts,
     /// The joints that were measured.
     pub joints: Vec<JointRecord>,
-    /// Data rows of the file.
-    pub rows: usize,
-    /// What was converted into what, one line per joint.
-    pub conversions: Vec<String>,
-    /// How the file was written: delimiter and decimal sign.
-    pub dialect: String,
 }
 
 /// Rows of a joint below which nothing can be told.
@@ -122,30 +116,11 @@ impl JointMotion {
                 robot: table.front.text("robot")?.map(str::to_string),
                 synthetic: table.front.synthetic(),
             },
-            conversions: joints.iter().map(conversion).collect(),
-            dialect: dialect(&table),
-            rows: table.rows,
             joints,
             path: table.path,
             sha256: table.sha256,
         })
     }
-}
-
-fn conversion(joint: &JointRecord) -> String {
-    let torque = match joint.ratio {
-        Some(ratio) => format!("motor torque times {ratio:.4}"),
-        None => "motor torque without a gear ratio".into(),
-    };
-    let delay = joint.delay.map_or(String::new(), |d| {
-        format!("; motor channels read {} ms earlier as declared", 1e3 * d)
-    });
-    format!(
-        "{}: {} rows, {} left out for an empty cell; {torque}{delay}",
-        joint.site(),
-        joint.time.len(),
-        joint.left_out
-    )
 }
 
 /// Numbers of the joints that have columns; each must have what it needs, in the right unit.

@@ -6,8 +6,7 @@ mod lists;
 mod tests;
 
 use crate::ground::nearest::nearest;
-use crate::ground::problem::{Outcome, Problem};
-use std::ops::Range;
+use crate::ground::problem::{Outcome, Problem, line_of, line_of_toml};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -32,7 +31,7 @@ impl<'a> Document<'a> {
             let what = format!("is not TOML: {}", first_line(error.message()));
             let remedy =
                 "write `key = value` lines under `[table]` headings, texts in double quotes";
-            Problem::new(what, remedy).at_line(line_of(text, error.span()))
+            Problem::new(what, remedy).at_line(line_of_toml(text, &error))
         })?;
         Ok(Self { text, root })
     }
@@ -48,12 +47,6 @@ impl<'a> Document<'a> {
 
 fn first_line(message: &str) -> &str {
     message.lines().next().unwrap_or_default().trim()
-}
-
-fn line_of(text: &str, span: Option<Range<usize>>) -> usize {
-    let start = span.map_or(0, |span| span.start.min(text.len()));
-    let before = &text.as_bytes()[..start];
-    1 + before.iter().filter(|byte| **byte == b'\n').count()
 }
 
 /// The keys of one table.
@@ -78,7 +71,7 @@ impl<'a> Keys<'a> {
             let word = key.get_ref().as_ref();
             if !known.contains(&word) {
                 let problem = unknown(word, known).in_column(format!("{prefix}{word}"));
-                return Err(problem.at_line(line_of(text, Some(key.span()))));
+                return Err(problem.at_line(line_of(text.as_bytes(), key.span().start)));
             }
         }
         Ok(Self {
@@ -97,7 +90,9 @@ impl<'a> Keys<'a> {
     /// 1-based line of a key, or of the table if the key is not there.
     pub fn line_of(&self, key: &str) -> usize {
         let found = self.table.get_key_value(key);
-        found.map_or(self.line, |(key, _)| line_of(self.text, Some(key.span())))
+        found.map_or(self.line, |(key, _)| {
+            line_of(self.text.as_bytes(), key.span().start)
+        })
     }
 
     /// Whether the key is there.

@@ -5,6 +5,7 @@ use super::keys::{Document, Keys};
 use super::milling_force::CutSide;
 use crate::ground::files::{read_bytes, sha256};
 use crate::ground::problem::{Outcome, Problem};
+use crate::ground::stats::length;
 use crate::ground::vector::V3;
 use std::path::{Path, PathBuf};
 
@@ -107,7 +108,7 @@ fn mode(keys: &Keys<'_>) -> Outcome<TipMode> {
     };
     let direction = keys.vector("direction")?;
     let direction = direction.ok_or_else(|| keys.missing("direction", "direction = [1, 0, 0]"))?;
-    let length = direction.iter().map(|v| v * v).sum::<f64>().sqrt();
+    let length = length(&direction);
     if length < 1e-9 {
         return Err(keys.problem("direction", "has no length", "write for example [1, 0, 0]"));
     }

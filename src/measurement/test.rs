@@ -3,6 +3,7 @@
 use super::facts::stem;
 use super::front::Front;
 use super::table::Table;
+use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};
@@ -42,8 +43,6 @@ pub struct Test<F: Kind> {
     pub facts: F,
     /// The readings, in the order of the file.
     pub readings: Vec<F::Reading>,
-    /// Data rows of the file.
-    pub rows: usize,
     /// Rows left out for an empty cell.
     pub left_out: usize,
 }
@@ -72,7 +71,6 @@ impl<F: Kind> Test<F> {
         }
         Ok(Self {
             left_out: table.rows - readings.len(),
-            rows: table.rows,
             sha256: table.sha256,
             path: table.path,
             facts,
@@ -85,9 +83,14 @@ impl<F: Kind> Test<F> {
         stem(&self.path, F::NAME)
     }
 
+    /// The file with its hash: an input.
+    pub fn input(&self) -> (PathBuf, String) {
+        (self.path.clone(), self.sha256.clone())
+    }
+
     /// Name of the file and its hash: what a result rests on.
     pub fn provenance(&self) -> String {
-        let name = self.path.file_name().unwrap_or_default();
-        format!("{} {}", name.to_string_lossy(), self.sha256)
+        let name = files::name(&self.path);
+        format!("{} {}", name, self.sha256)
     }
 }

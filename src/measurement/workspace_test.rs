@@ -3,8 +3,9 @@
 
 mod unloaded;
 
+use super::facts::{measured, stem};
 use super::front::Front;
-use super::table::{Cells, Table};
+use super::table::Table;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::units::{DEGREE, Dimension};
 use std::path::{Path, PathBuf};
@@ -108,11 +109,7 @@ impl WorkspaceTest {
 
     /// File name without its ending.
     pub fn stem(&self) -> String {
-        let stem = self
-            .path
-            .file_stem()
-            .map(|s| s.to_string_lossy().to_string());
-        stem.unwrap_or_else(|| "workspace".into())
+        stem(&self.path, "workspace")
     }
 }
 
@@ -126,8 +123,8 @@ impl Facts {
         Ok(Self {
             robot: robot.to_string(),
             joint_angles: joint_angles(front)?,
-            nominal_rel_std: fraction(front, "nominal_stiffness_rel_std")?,
-            setup_repeatability: fraction(front, "setup_repeatability")?,
+            nominal_rel_std: front.fraction("nominal_stiffness_rel_std")?,
+            setup_repeatability: front.fraction("setup_repeatability")?,
             sensor_noise: front.not_negative("sensor_noise_mm")?.map(|mm| mm * 1e-3),
             synthetic: front.synthetic(),
         })
@@ -141,18 +138,6 @@ pub(super) const FACTS: &[&str] = &[
     "setup_repeatability",
     "sensor_noise_mm",
 ];
-
-/// A relative standard deviation; 1 and more is a percentage by mistake.
-fn fraction(front: &Front, key: &str) -> Outcome<Option<f64>> {
-    match front.not_negative(key)? {
-        Some(x) if x >= 1.0 => Err(front.problem(
-            key,
-            format!("is {x}, 100 % or more"),
-            "write it as a fraction: 0.02 for 2 %",
-        )),
-        other => Ok(other),
-    }
-}
 
 const ANGLES: &str = "joint_angles_deg";
 
@@ -259,17 +244,6 @@ impl<'a> Channels<'a> {
             force: self.force[row],
             displacement,
         }))
-    }
-}
-
-/// The numbers of a column with a unit, if the file has it, after a look at the unit.
-fn measured<'a>(table: &'a Table, stem: &str, wanted: Dimension) -> Outcome<Option<&'a [f64]>> {
-    let Some(column) = table.column(stem) else {
-        return Ok(None);
-    };
-    match (&column.cells, column.dimension) {
-        (Cells::Numbers(values), Some(found)) if found == wanted => Ok(Some(values)),
-        _ => Err(column.misplaced(wanted, table.first_line - 1)),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Forward dynamics: accelerations from torques.
 
 use super::chain::Chain;
-use super::dynamics::{base_acceleration, inertial_force, rnea};
+use super::dynamics::{base_acceleration, inertial_force};
 use super::kinematics::{place, weigh};
 use super::work::Work;
 use crate::ground::dual::Scalar;
@@ -24,17 +24,6 @@ pub fn aba<'w, S: Scalar>(
     articulate(chain, work, torque);
     accelerate(chain, work);
     &work.out
-}
-
-/// The forward dynamics of choice: [`aba`].
-pub fn forward_dynamics<'w, S: Scalar>(
-    chain: &Chain,
-    work: &'w mut Work<S>,
-    q: &[S],
-    v: &[S],
-    torque: &[S],
-) -> &'w [S] {
-    aba(chain, work, q, v, torque)
 }
 
 /// Force of each body at zero joint accelerations.
@@ -133,15 +122,4 @@ fn add_body<S: Scalar>(inertia: &mut [[S; 6]; 6], body: &Inertia<S>) {
         inertia[3 + j][i] -= h;
         inertia[3 + i][j] += h;
     }
-}
-
-/// Largest difference |M q̈ + C + G − τ| over the hinges, N·m: how well the accelerations fit.
-pub fn residual(chain: &Chain, q: &[f64], v: &[f64], a: &[f64], torque: &[f64]) -> f64 {
-    let mut work = Work::new(chain);
-    let needed = rnea(chain, &mut work, q, v, a);
-    let gaps = needed
-        .iter()
-        .zip(torque)
-        .map(|(need, given)| (need - given).abs());
-    gaps.fold(0.0, f64::max)
 }

@@ -26,6 +26,16 @@ impl Lanes {
         im: [0.0; LANES],
     };
 
+    /// At most so many numbers; the last one fills what is left.
+    pub(super) fn of(lines: &[C64]) -> Self {
+        let last = lines.last().copied().unwrap_or_default();
+        let at = |l: usize| lines.get(l).copied().unwrap_or(last);
+        Self {
+            re: std::array::from_fn(|l| at(l).re),
+            im: std::array::from_fn(|l| at(l).im),
+        }
+    }
+
     #[inline(always)]
     pub(super) fn minus_product(&mut self, a: &Self, b: &Self) {
         for l in 0..LANES {
@@ -103,12 +113,7 @@ pub fn response(modal: &Modal, work: &mut FrfWork, s: &[C64]) -> Vec<Response> {
     let proportional = off_diagonal(modal) < PROPORTIONAL;
     let mut out = Vec::with_capacity(s.len());
     for lines in s.chunks(LANES) {
-        let last = lines.last().copied().unwrap_or_default();
-        let at = |l: usize| lines.get(l).copied().unwrap_or(last);
-        let s = Lanes {
-            re: std::array::from_fn(|l| at(l).re),
-            im: std::array::from_fn(|l| at(l).im),
-        };
+        let s = Lanes::of(lines);
         if proportional {
             uncoupled(modal, work, &s);
         } else {

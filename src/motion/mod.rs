@@ -27,7 +27,7 @@ pub mod work;
 pub use build::{elastic, rigid};
 pub use chain::{Chain, Hinge};
 pub use dynamics::{crba, gravity_torque, rnea};
-pub use forward::{aba, forward_dynamics};
+pub use forward::aba;
 pub use kinematics::{forward_kinematics, jacobian, tcp};
 pub use linear::{Linear, linearise};
 pub use work::Work;

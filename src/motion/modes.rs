@@ -4,6 +4,7 @@ use super::linear::Linear;
 use crate::ground::cholesky;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::V3;
+use crate::ground::stats::descending;
 use nalgebra::{Complex, DMatrix, DVector};
 use std::f64::consts::TAU;
 
@@ -56,8 +57,7 @@ pub fn modal(linear: &Linear) -> Outcome<Modal> {
     }
     let lower = DMatrix::from_row_slice(n, n, &factor).lower_triangle();
     let eigen = flexible_mass(linear, &factor).symmetric_eigen();
-    let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+    let order = descending(eigen.eigenvalues.as_slice());
     let least = MASSLESS * order.first().map_or(0.0, |i| eigen.eigenvalues[*i]);
     let inertia = order
         .iter()

@@ -6,6 +6,7 @@ use super::work::Work;
 use crate::ground::cholesky;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{Pose, norm, product, rotation_vector, sub, transpose};
+use crate::ground::stats::length;
 
 /// Residual below which a pose counts as reached: m and rad.
 const REACHED: f64 = 1e-12;
@@ -20,19 +21,19 @@ pub fn solve(chain: &Chain, work: &mut Work, pose: &Pose, seed: &[f64]) -> Outco
     let mut miss = error(&forward_kinematics(chain, work, &q), pose);
     let mut damping = 1e-3;
     for _ in 0..STEPS {
-        if size(&miss) < REACHED || damping > 1e12 {
+        if length(&miss) < REACHED || damping > 1e12 {
             break;
         }
         let trial = step(chain, work, &q, &miss, damping);
         let gap = error(&forward_kinematics(chain, work, &trial), pose);
-        if size(&gap) < size(&miss) {
+        if length(&gap) < length(&miss) {
             (q, miss, damping) = (trial, gap, (damping * 0.1).max(1e-15));
         } else {
             damping *= 10.0;
             forward_kinematics(chain, work, &q);
         }
     }
-    match size(&miss) < 1e-9 {
+    match length(&miss) < 1e-9 {
         true => Ok(q),
         false => Err(Problem::new(
             format!(
@@ -50,10 +51,6 @@ pub fn error(at: &Pose, goal: &Pose) -> [f64; 6] {
     let p = sub(goal.point, at.point);
     let w = rotation_vector(&product(&goal.rotation, &transpose(&at.rotation)));
     [p[0], p[1], p[2], w[0], w[1], w[2]]
-}
-
-fn size(e: &[f64; 6]) -> f64 {
-    e.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// q + (JᵀJ + λ1)⁻¹ Jᵀ e; the chain is placed at q.

@@ -10,12 +10,7 @@ pub fn coordinates(linear: &Linear, s: &[C64]) -> Vec<[C64; 3]> {
     let mut space = Space::new(linear.n);
     let mut out = Vec::with_capacity(s.len() * linear.n);
     for lines in s.chunks(LANES) {
-        let last = lines.last().copied().unwrap_or_default();
-        let at = |l: usize| lines.get(l).copied().unwrap_or(last);
-        let s = Lanes {
-            re: std::array::from_fn(|l| at(l).re),
-            im: std::array::from_fn(|l| at(l).im),
-        };
+        let s = Lanes::of(lines);
         space.factor(linear, &s);
         space.forward(linear);
         space.backward();

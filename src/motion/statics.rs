@@ -152,14 +152,6 @@ fn relax(chain: &Chain, delta: &mut [f64], load: &[f64]) -> f64 {
     change
 }
 
-/// Deflection under own weight alone: how far the tool sags from the commanded pose, m.
-///
-/// # Errors
-/// As [`large_deflection`].
-pub fn sag(chain: &Chain, work: &mut Work, q: &[f64]) -> Outcome<V3> {
-    Ok(large_deflection(chain, work, q, [0.0; 3], Weight::Acting)?.displacement)
-}
-
 /// Places the chain and gives compliance and displacement in one go: (m/N, m).
 pub fn deflect(chain: &Chain, work: &mut Work, q: &[f64], force: V3) -> (M3, V3) {
     place(chain, work, q);

@@ -15,6 +15,7 @@ use super::work::Work;
 use crate::ground::cholesky;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{V3, dot};
+use crate::ground::stats::largest;
 
 const ITERATIONS: usize = 40;
 /// Change of speed per iteration, against the largest speed, at which a step is solved.
@@ -96,8 +97,7 @@ pub fn step(
     prepare(chain, space, state, h);
     for _ in 0..ITERATIONS {
         let change = correct(chain, space, state, h, force, &command)?;
-        let largest = space.speed.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-        if change <= SOLVED * largest + STILL {
+        if change <= SOLVED * largest(&space.speed) + STILL {
             advance(state, space, h, command);
             return Ok(());
         }
@@ -174,7 +174,7 @@ fn correct(
     for (i, change) in space.elastic.iter().zip(&space.rest) {
         space.speed[*i] += change;
     }
-    let largest = space.rest.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let largest = largest(&space.rest);
     if largest.is_finite() {
         Ok(largest)
     } else {

@@ -1,6 +1,6 @@
 //! Unit quaternions: orientations between two orientations, without Euler angles.
 
-use crate::ground::vector::{M3, V3, cross, dot, norm, scale, unit};
+use crate::ground::vector::{M3, V3, cross, dot, norm, of_quaternion, scale, unit};
 
 /// A unit quaternion (w, x, y, z); q and −q are the same orientation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -95,24 +95,7 @@ impl Quaternion {
 
     /// The matrix: columns are the turned axes.
     pub fn matrix(self) -> M3 {
-        let [w, x, y, z] = self.0;
-        [
-            [
-                1.0 - 2.0 * (y * y + z * z),
-                2.0 * (x * y - w * z),
-                2.0 * (x * z + w * y),
-            ],
-            [
-                2.0 * (x * y + w * z),
-                1.0 - 2.0 * (x * x + z * z),
-                2.0 * (y * z - w * x),
-            ],
-            [
-                2.0 * (x * z - w * y),
-                2.0 * (y * z + w * x),
-                1.0 - 2.0 * (x * x + y * y),
-            ],
-        ]
+        of_quaternion(self.0)
     }
 
     /// Length one again.

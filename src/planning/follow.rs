@@ -7,9 +7,6 @@ use crate::motion::inverse::{Posture, Postures};
 use crate::motion::{Work, numeric};
 use std::f64::consts::TAU;
 
-/// Sine of A5's angle below which the hand counts as straight.
-pub const STRAIGHT: f64 = 1e-4;
-
 /// A pose that the robot cannot reach.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Miss {

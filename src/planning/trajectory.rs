@@ -2,6 +2,7 @@
 
 use super::plan::{Plan, Row};
 use crate::ground::units::DEGREE;
+use crate::measurement::front::{self, quoted};
 use crate::path::quaternion::angles;
 use rayon::prelude::*;
 use std::fmt::Write;
@@ -16,14 +17,13 @@ const HEADER: &str = "time_s,x_mm,y_mm,z_mm,a_deg,b_deg,c_deg,\
 /// The file's text. `inputs`: path and SHA-256 of every file that it rests on, the job first.
 pub fn text(plan: &Plan, inputs: &[(String, String)]) -> String {
     let parts: Vec<String> = plan.rows.par_chunks(PART).map(part).collect();
-    let mut out = front(plan, inputs);
+    let mut out = head(plan, inputs);
     out.push_str(HEADER);
     parts.iter().for_each(|part| out.push_str(part));
     out
 }
 
-fn front(plan: &Plan, inputs: &[(String, String)]) -> String {
-    let quoted = |text: &str| toml::Value::String(text.to_string()).to_string();
+fn head(plan: &Plan, inputs: &[(String, String)]) -> String {
     let mut out = String::from("# kind = \"trajectory\"\n");
     let job = inputs.first().map_or("", |input| input.0.as_str());
     let _ = writeln!(out, "# job = {}", quoted(job));
@@ -31,17 +31,7 @@ fn front(plan: &Plan, inputs: &[(String, String)]) -> String {
     let _ = writeln!(out, "# cycle_ms = {:?}", plan.cycle * 1e3);
     let _ = writeln!(out, "# version = {}", quoted(env!("CARGO_PKG_VERSION")));
     let _ = writeln!(out, "# frame = \"workpiece\"");
-    let _ = writeln!(out, "# inputs = [");
-    for (path, sha256) in inputs {
-        let _ = writeln!(
-            out,
-            "#   {{ path = {}, sha256 = {} }},",
-            quoted(path),
-            quoted(sha256)
-        );
-    }
-    out.push_str("# ]\n");
-    out
+    out + &front::inputs(inputs)
 }
 
 fn part(rows: &[Row]) -> String {

@@ -1,6 +1,7 @@
 //! `course.csv`: force and deviation over the path.
 
 use super::run::Cut;
+use crate::measurement::front::{self, quoted};
 use std::fmt::Write;
 
 const HEADER: &str = "time_s,s_mm,x_mm,y_mm,z_mm,fx_N,fy_N,fz_N,dx_mm,dy_mm,dz_mm\n";
@@ -8,23 +9,13 @@ const HEADER: &str = "time_s,s_mm,x_mm,y_mm,z_mm,fx_N,fy_N,fz_N,dx_mm,dy_mm,dz_m
 /// The file's text. `inputs`: path and SHA-256 of every file that it rests on, the job first; `support`
 /// names what carried the tool.
 pub fn text(course: &[Cut], inputs: &[(String, String)], support: &str) -> String {
-    let quoted = |text: &str| toml::Value::String(text.to_string()).to_string();
     let job = inputs.first().map_or("", |input| input.0.as_str());
     let mut out = String::from("# kind = \"course\"\n");
     let _ = writeln!(out, "# job = {}", quoted(job));
     let _ = writeln!(out, "# version = {}", quoted(env!("CARGO_PKG_VERSION")));
     let _ = writeln!(out, "# frame = \"workpiece\"");
     let _ = writeln!(out, "# robot_is = {}", quoted(support));
-    let _ = writeln!(out, "# inputs = [");
-    for (path, hash) in inputs {
-        let _ = writeln!(
-            out,
-            "#   {{ path = {}, sha256 = {} }},",
-            quoted(path),
-            quoted(hash)
-        );
-    }
-    out.push_str("# ]\n");
+    out.push_str(&front::inputs(inputs));
     out.push_str(HEADER);
     course.iter().for_each(|cut| line(&mut out, cut));
     out

@@ -8,6 +8,7 @@
 use super::oscillator::Oscillator;
 use super::pose::Held;
 use crate::ground::spatial::{V3, add, dot, scale};
+use crate::ground::stats::largest;
 use crate::motion::Chain;
 use crate::motion::hinge_law::{HingeLaw, Memory};
 use crate::motion::modes::Modal;
@@ -259,10 +260,6 @@ impl Ports {
             rest.copy_from_slice(step.as_slice());
         }
     }
-}
-
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |m, v| m.max(v.abs()))
 }
 
 impl Hinge {

@@ -5,6 +5,7 @@ use super::way::{Moment, Way, normal_part};
 use crate::cutting::cutter::Cutter;
 use crate::ground::problem;
 use crate::ground::spatial::{V3, add, norm, scale, sub};
+use crate::ground::stats::mean;
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
@@ -120,7 +121,7 @@ impl Outcome {
             .filter(|c| c.cutting == cutting)
             .map(|c| measure(c).powi(2))
             .collect();
-        (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()
+        mean(&squares).sqrt()
     }
 }
 

@@ -66,12 +66,7 @@ impl Springs {
     }
 
     fn go(&mut self, moment: &Moment) -> Outcome<()> {
-        let moved = self
-            .pose
-            .iter()
-            .zip(&moment.joints)
-            .map(|(a, b)| (a - b).abs());
-        if moved.fold(0.0, f64::max) > SAME_POSE {
+        if !moment.is_at(&self.pose, SAME_POSE) {
             let held = self.carrier.held(&moment.joints)?;
             self.compliance = held.compliance();
             self.sag = sub(held.sag(), self.calibrated);

@@ -90,12 +90,7 @@ impl Swinging {
 
     /// Carries the state to the modes of a new pose: the springs keep their bend.
     fn go(&mut self, moment: &Moment) -> Outcome<()> {
-        let moved = self
-            .pose
-            .iter()
-            .zip(&moment.joints)
-            .map(|(a, b)| (a - b).abs());
-        if moved.fold(0.0, f64::max) <= SAME_POSE {
+        if moment.is_at(&self.pose, SAME_POSE) {
             return Ok(());
         }
         let n = self.modal.n;

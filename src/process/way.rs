@@ -42,6 +42,14 @@ pub struct Moment {
     pub accelerations: Vec<f64>,
 }
 
+impl Moment {
+    /// Whether every joint is within so much of a pose, rad.
+    pub(super) fn is_at(&self, pose: &[f64], within: f64) -> bool {
+        let moved = pose.iter().zip(&self.joints).map(|(a, b)| (a - b).abs());
+        moved.fold(0.0, f64::max) <= within
+    }
+}
+
 impl Way {
     /// A motion through these rows; `None` without any, or where time does not ascend.
     pub fn new(rows: Vec<Row>) -> Option<Self> {

@@ -6,13 +6,8 @@ use crate::ground::problem::Outcome;
 use crate::sheet::page::{Page, file};
 use std::path::{Path, PathBuf};
 
-/// Writes a page into a folder, each file in one step, `index.html` last: what it links to is there.
+/// Writes a page into a folder, each file in one step, the page last: what it links to is there.
 /// Everything is inked before anything is written. Returns the files in the order of writing.
-pub fn write(folder: &Path, page: &Page) -> Outcome<Vec<PathBuf>> {
-    write_as(folder, "index.html", page)
-}
-
-/// `write` with another name for the page.
 pub fn write_as(folder: &Path, name: &str, page: &Page) -> Outcome<Vec<PathBuf>> {
     let mut written = Vec::new();
     for (path, content) in inked(folder, name, page)? {
@@ -63,7 +58,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let chart = || Block::Chart(Chart::new("loop", "Loop", "See."));
         let page = Page::new("t", "s").with(chart()).with(chart());
-        let written = write(&folder.path().join("r"), &page).unwrap();
+        let written = write_as(&folder.path().join("r"), "index.html", &page).unwrap();
         let names: Vec<_> = written.iter().filter_map(|path| path.file_name()).collect();
         assert_eq!(names, ["loop.svg", "loop-2.svg", "index.html"]);
         let index = std::fs::read_to_string(&written[2]).unwrap();

@@ -147,8 +147,8 @@ fn order(panel: &Panel) -> Vec<usize> {
         (Mark::Bars, _) => 1,
         (Mark::Points, false) => 2,
         // A wide line shows on both sides of a thin one above it.
-        (Mark::Line | Mark::Dashed | Mark::Dotted | Mark::Steps, true) => 3,
-        (Mark::Line | Mark::Dashed | Mark::Dotted | Mark::Steps, false) => 4,
+        (Mark::Line | Mark::Dashed | Mark::Dotted, true) => 3,
+        (Mark::Line | Mark::Dashed | Mark::Dotted, false) => 4,
         (Mark::Points, true) => 5,
     };
     let mut order: Vec<usize> = (0..panel.series.len()).collect();

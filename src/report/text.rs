@@ -1,8 +1,6 @@
 //! Sheets as text for a terminal of 100 columns.
 
 use super::wrap::wrap_columns;
-use crate::sheet::chart::Chart;
-use crate::sheet::page::{Block, Page};
 use crate::sheet::table::Table;
 
 /// Columns of a terminal line.
@@ -51,63 +49,6 @@ pub fn indented(text: &str, indent: usize) -> String {
         .iter()
         .map(|line| format!("{:indent$}{line}\n", ""))
         .collect()
-}
-
-/// A whole page. Figures are named, not drawn; what is folded away in HTML is shown.
-pub fn page(page: &Page) -> String {
-    let mut out = String::new();
-    underlined(&page.title, '=', &mut out);
-    paragraph(&page.subtitle, &mut out);
-    if page.synthetic {
-        out.push_str("Synthetic data: nobody measured this.\n");
-    }
-    let figures: Vec<String> = page.figures().into_iter().map(|(stem, _)| stem).collect();
-    blocks(&page.blocks, &mut figures.iter(), &mut out);
-    out
-}
-
-fn blocks(blocks: &[Block], figures: &mut std::slice::Iter<String>, out: &mut String) {
-    for block in blocks {
-        out.push('\n');
-        match block {
-            Block::Heading(text) => underlined(text, '-', out),
-            Block::Verdict { tone, sentence } => {
-                paragraph(&format!("{}: {sentence}", tone.word()), out);
-            }
-            Block::Text(text) => paragraph(text, out),
-            Block::Table(inner) => out.push_str(&table(inner)),
-            Block::Scene(scene) => paragraph(&format!("In space: {}", scene.title), out),
-            Block::Chart(chart) => figure(chart, figures.next(), out),
-            Block::Details {
-                summary,
-                blocks: inner,
-            } => {
-                paragraph(summary, out);
-                self::blocks(inner, figures, out);
-            }
-        }
-    }
-}
-
-fn figure(chart: &Chart, stem: Option<&String>, out: &mut String) {
-    let file = stem.map_or(chart.name.as_str(), String::as_str);
-    let label = if chart.synthetic {
-        " (synthetic data)"
-    } else {
-        ""
-    };
-    paragraph(&format!("Figure {file}.svg: {}{label}", chart.title), out);
-    paragraph(&chart.caption, out);
-}
-
-fn underlined(text: &str, rule: char, out: &mut String) {
-    paragraph(text, out);
-    let longest = wrap_columns(text, COLUMNS)
-        .iter()
-        .map(|line| length(line))
-        .max();
-    out.extend(std::iter::repeat_n(rule, longest.unwrap_or(0).min(COLUMNS)));
-    out.push('\n');
 }
 
 fn paragraph(text: &str, out: &mut String) {
@@ -168,7 +109,6 @@ fn padded(text: &str, width: usize, right: bool) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sheet::page::Tone;
 
     #[test]
     fn long_cells_are_broken_within_the_line() {
@@ -196,19 +136,5 @@ mod tests {
             .with([""; 0])
             .noted("n");
         assert_eq!(table(&ragged), "a\n-  -\n1  2\nn\n");
-    }
-
-    #[test]
-    fn a_page_reads_from_top_to_bottom() {
-        let made = Page::new("Axis 6", "from axis6.csv")
-            .with(Block::heading("What is wrong"))
-            .with(Block::verdict(Tone::Attention, "The gear has play."))
-            .with(Block::details(
-                "More",
-                vec![Block::Chart(Chart::new("loop", "Loop", "See."))],
-            ));
-        let expected = "Axis 6\n======\nfrom axis6.csv\n\nWhat is wrong\n-------------\n\n\
-                        Attention: The gear has play.\n\nMore\n\nFigure loop.svg: Loop\nSee.\n";
-        assert_eq!(page(&made), expected);
     }
 }

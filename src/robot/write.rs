@@ -7,6 +7,7 @@ use super::model::{ElasticAxis, Joint, Robot, Tool};
 use super::spring::Spring;
 use crate::ground::spatial::IDENTITY;
 use crate::ground::units::DEGREE;
+use crate::measurement::front::quoted;
 use std::fmt::Write;
 
 /// The same for a robot that measurements extended, labelled where these were simulated.
@@ -25,13 +26,13 @@ pub fn write(robot: &Robot) -> String {
         out,
         "# Geometry in the base frame with every joint at zero; units stand in the names."
     );
-    let _ = writeln!(out, "name = {}", text(&robot.name));
-    let _ = writeln!(out, "source = {}", text(&robot.source));
+    let _ = writeln!(out, "name = {}", quoted(&robot.name));
+    let _ = writeln!(out, "source = {}", quoted(&robot.source));
     if !robot.notes.is_empty() {
         let notes: Vec<String> = robot
             .notes
             .iter()
-            .map(|note| format!("    {},\n", text(note)))
+            .map(|note| format!("    {},\n", quoted(note)))
             .collect();
         let _ = writeln!(out, "notes = [\n{}]", notes.concat());
     }
@@ -48,7 +49,7 @@ pub fn write(robot: &Robot) -> String {
 }
 
 fn joint_table(out: &mut String, joint: &Joint) {
-    let _ = writeln!(out, "\n[[joints]]\nname = {}", text(&joint.name));
+    let _ = writeln!(out, "\n[[joints]]\nname = {}", quoted(&joint.name));
     let _ = writeln!(out, "axis = {}", list(&joint.axis));
     let _ = writeln!(out, "point_m = {}", list(&joint.point));
     let _ = writeln!(out, "limits_deg = {}", list(&joint.limits.map(degrees)));
@@ -93,7 +94,7 @@ fn elastic_table(out: &mut String, axis: &ElasticAxis) {
     let _ = writeln!(
         out,
         "\n[[elastic]]\nname = {}\nafter = {}",
-        text(&axis.name),
+        quoted(&axis.name),
         axis.after
     );
     let _ = writeln!(
@@ -109,7 +110,7 @@ fn elastic_table(out: &mut String, axis: &ElasticAxis) {
 
 fn source_line(out: &mut String, source: Option<&str>) {
     if let Some(source) = source {
-        let _ = writeln!(out, "source = {}", text(source));
+        let _ = writeln!(out, "source = {}", quoted(source));
     }
 }
 
@@ -143,7 +144,7 @@ fn entries(spring: &Spring) -> Vec<String> {
         spring
             .source
             .iter()
-            .map(|source| format!("source = {}", text(source))),
+            .map(|source| format!("source = {}", quoted(source))),
     );
     out
 }
@@ -153,7 +154,7 @@ fn effect(effect: &JointEffect) -> String {
     let values: String = values
         .map(|(key, value)| format!(", {key} = {}", number(*value)))
         .collect();
-    format!("{{ name = {}{values} }}", text(&effect.name))
+    format!("{{ name = {}{values} }}", quoted(&effect.name))
 }
 
 fn inline_body(body: &Body) -> String {
@@ -183,10 +184,6 @@ fn degrees(radians: f64) -> f64 {
     } else {
         raw
     }
-}
-
-fn text(value: &str) -> String {
-    toml::Value::String(value.to_string()).to_string()
 }
 
 #[cfg(test)]

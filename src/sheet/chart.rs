@@ -45,8 +45,6 @@ pub enum Mark {
     Band,
     /// Bars from zero; series of one panel stand side by side.
     Bars,
-    /// Each value holds until the next point.
-    Steps,
     /// A rectangle of [`Series::cell`] about each point: one class of a map, the classes from little to much.
     Cells,
 }
@@ -97,11 +95,6 @@ impl Series {
     /// A dotted line.
     pub fn dotted(name: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
         Self::new(name, Mark::Dotted, points)
-    }
-
-    /// A line of steps.
-    pub fn steps(name: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
-        Self::new(name, Mark::Steps, points)
     }
 
     /// An area given by `[x, lower, upper]`.

@@ -44,13 +44,6 @@ impl Colour {
         }
     }
 
-    /// Every colour whose log likelihood lies within `nats` of the best, with it.
-    pub fn plausible(coefficients: &[f64], freedom: &[f64], nats: f64) -> Vec<(f64, Self)> {
-        let all = scored(coefficients, freedom, nats).into_iter();
-        all.map(|(likelihood, size, candidate)| (likelihood, candidate.into_colour(size)))
-            .collect()
-    }
-
     /// Standard deviation per sample of the least noisy tenth of the band: where white noise shows.
     pub fn floor(&self) -> f64 {
         let mut sorted = self.sigma.clone();

@@ -4,6 +4,7 @@
 use super::modal_fit::Task;
 use super::modal_model::Channels;
 use super::modal_structure::Structure;
+use crate::ground::stats::descending;
 use nalgebra::{DMatrix, SymmetricEigen};
 use rustfft::num_complex::Complex64;
 
@@ -59,8 +60,7 @@ pub fn principal(frf: &[Vec<Complex64>], outputs: usize, most: usize) -> Vec<Vec
         }
     }
     let eigen = SymmetricEigen::new(gram);
-    let mut order: Vec<usize> = (0..outputs).collect();
-    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+    let order = descending(eigen.eigenvalues.as_slice());
     let vector = |k: usize| eigen.eigenvectors.column(k).iter().copied().collect();
     order.into_iter().take(most).map(vector).collect()
 }

@@ -1,5 +1,7 @@
 //! Single wild readings: found against their neighbours, replaced and counted.
 
+use crate::ground::stats::ends;
+
 /// Robust standard deviation: 1.4826 · median |x − median|.
 pub fn robust_std(values: &[f64]) -> f64 {
     if values.is_empty() {
@@ -45,9 +47,7 @@ pub fn isolated(values: &[f64], limit: f64) -> Vec<usize> {
 /// How far a value lies outside the range of its four neighbours.
 fn beyond(values: &[f64], i: usize) -> f64 {
     let near = [values[i - 2], values[i - 1], values[i + 1], values[i + 2]];
-    let (low, high) = near
-        .iter()
-        .fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
+    let (low, high) = ends(&near);
     (values[i] - high).max(low - values[i]) - (high - low)
 }
 

@@ -18,11 +18,6 @@ impl Transform {
         Self { plan }
     }
 
-    /// Number of samples that go in.
-    pub fn samples(&self) -> usize {
-        self.plan.len()
-    }
-
     /// Number of lines that come out: N/2 + 1.
     pub fn lines(&self) -> usize {
         self.plan.complex_len()

@@ -183,13 +183,7 @@ fn few() -> Chart {
             "fifth",
             at(4.0).iter().map(|p| [p[0], p[1] * 1e-6]).collect(),
         ))
-        .with(Series::dotted("dotted", vec![[0.0, 0.0], [12.0, 4e-5]]))
-        .with(Series::steps(
-            "steps",
-            (0..12)
-                .map(|i| [f64::from(i), f64::from(i % 3) * 1e-5])
-                .collect(),
-        ));
+        .with(Series::dotted("dotted", vec![[0.0, 0.0], [12.0, 4e-5]]));
     let with_ends = Panel::new(Axis::new("Target", "mm"), Axis::new("Error", "µm"))
         .with(Series::points("with whiskers", at(1.0)).between(ends(1.0)))
         .with(Series::band(

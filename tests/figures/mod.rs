@@ -4,7 +4,7 @@
 mod gallery;
 
 use gallery::{all, noise};
-use ident::report::{folder, html, svg, text};
+use ident::report::{folder, html, svg};
 use ident::sheet::chart::{Axis, Chart, Mark, Panel, Series};
 use ident::sheet::page::{Block, Page, Tone};
 use ident::sheet::table::Table;
@@ -83,7 +83,6 @@ fn nothing_to_draw_is_no_reason_to_panic() {
         Mark::Dotted,
         Mark::Band,
         Mark::Bars,
-        Mark::Steps,
     ];
     for points in [
         vec![],
@@ -188,12 +187,7 @@ fn a_report_with_everything() {
         "All figures",
         all().into_iter().skip(2).map(Block::Chart).collect(),
     ));
-    let written = folder::write(&folder, &page).unwrap();
+    let written = folder::write_as(&folder, "index.html", &page).unwrap();
     let index = std::fs::read(written.last().unwrap()).unwrap();
     assert_eq!(index, html::ink(&page).unwrap().as_bytes());
-    assert!(
-        text::page(&page)
-            .lines()
-            .all(|line| line.chars().count() <= 100)
-    );
 }

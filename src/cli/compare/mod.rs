@@ -63,10 +63,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
             print_result("compare", &inputs, body(&comparison, page.as_deref()))?;
         }
     }
-    Ok(match comparison.changed().is_empty() {
-        true => Ending::Done,
-        false => Ending::Attention,
-    })
+    Ok(Ending::done_if(comparison.changed().is_empty()))
 }
 
 /// The fits that a name means.

@@ -143,10 +143,7 @@ pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
 }
 
 fn ending(result: &Corrected) -> Ending {
-    match result.is_proven() {
-        true => Ending::Done,
-        false => Ending::Attention,
-    }
+    Ending::done_if(result.is_proven())
 }
 
 impl Arguments {

@@ -4,6 +4,7 @@ use super::super::part_map::{classes, thinned};
 use super::account;
 use crate::compensation::corrected::{Corrected, Met};
 use crate::compensation::remaining::Station;
+use crate::ground::files;
 use crate::ground::spatial::norm;
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
 use crate::sheet::number::{ABSENT, significant};
@@ -18,7 +19,7 @@ const PLACES: usize = 3000;
 /// The page.
 pub fn page(result: &Corrected) -> Page {
     let path = &result.planned.toolpath.path;
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let name = files::name(path);
     let subtitle = format!(
         "{} for the robot {}",
         result.planned.job.path.display(),

@@ -1,9 +1,10 @@
 //! What `ident damping` tells on the terminal.
 
-use super::result::{Damped, file_name};
+use super::result::Damped;
 use crate::experiments::hammer_given::ScatterFrom;
 use crate::fit::damping::{Pair, Test};
 use crate::fit::parameter::{Identified, Status};
+use crate::ground::files;
 use crate::report::text::table;
 use crate::sheet::number::{engineering, fixed, significant};
 use crate::sheet::table::Table;
@@ -37,7 +38,7 @@ fn hits(damped: &Damped) -> String {
     let mut out = String::new();
     for test in &damped.input.tests {
         let used = test.frf.screened.iter().filter(|hit| hit.used()).count();
-        let (name, all) = (file_name(&test.path), test.frf.screened.len());
+        let (name, all) = (files::name(&test.path), test.frf.screened.len());
         let _ = match test.frf.scatter_from {
             ScatterFrom::Hits => writeln!(out, "{name}: {used} of {all} hits used"),
             from => writeln!(out, "{name}: FRFs as given; scatter: {}", from.sentence()),
@@ -159,7 +160,7 @@ pub fn matches(damped: &Damped) -> Table {
     for (test, pairs) in damped.input.tests.iter().zip(&damped.account.pairs) {
         for pair in pairs {
             let name = match many {
-                true => format!("{} {}", file_name(&test.path), pair.name),
+                true => format!("{} {}", files::name(&test.path), pair.name),
                 false => pair.name.clone(),
             };
             out.push(row(name, pair));

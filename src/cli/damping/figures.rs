@@ -1,9 +1,9 @@
 //! The figures of `ident damping`.
 
-use super::result::file_name;
 use crate::experiments::hammer_frf::{HammerFrf, InputFrf};
 use crate::experiments::hammer_modes::stabilisation;
 use crate::fit::damping::{AXES, Pair, Test};
+use crate::ground::files;
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
 use crate::signal::modal_model::frequency;
 use rustfft::num_complex::Complex64;
@@ -45,7 +45,7 @@ pub fn pair(test: &Test, pair: &Pair, stem: &str) -> Chart {
     );
     Chart::new(
         stem,
-        format!("H_{} of {}", pair.name, file_name(&test.path)),
+        format!("H_{} of {}", pair.name, files::name(&test.path)),
         caption,
     )
     .synthetic(test.record.synthetic)
@@ -135,7 +135,7 @@ pub fn hits(test: &Test, pair: &Pair, stem: &str) -> Option<Chart> {
         panel = panel.with(Series::line(format!("hit {}", label.hit), points));
     }
     let used = input.hits.len();
-    let title = format!("H_{} of {}, hit by hit", pair.name, file_name(&test.path));
+    let title = format!("H_{} of {}, hit by hit", pair.name, files::name(&test.path));
     let caption = format!("{used} hits of different force: a linear structure gives one curve.");
     Some(
         Chart::new(stem, title, caption)
@@ -161,7 +161,7 @@ pub fn poles(test: &Test, to_hz: f64, stem: &str) -> Chart {
     let taken = test.modes.iter().flat_map(|mode| line(mode.frequency_hz));
     panel = panel.with(Series::dashed("mode taken", taken.collect()));
     let caption = "A pole is stable where the order before had it too, within 1 % in frequency and 20 % in damping.";
-    let title = format!("Stabilisation, {}", file_name(&test.path));
+    let title = format!("Stabilisation, {}", files::name(&test.path));
     Chart::new(stem, title, caption)
         .synthetic(test.record.synthetic)
         .with(panel)

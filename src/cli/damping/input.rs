@@ -6,6 +6,7 @@ use crate::experiments::hammer_frf::Settings;
 use crate::fit::damping::{Test, test};
 use crate::fit::suitability::Doubt;
 use crate::fit::suitability::hammer::{doubts, refuse};
+use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::units::DEGREE;
 use crate::measurement::hammer::HammerRecord;
@@ -27,6 +28,14 @@ pub struct Input {
     pub passed_over: Vec<PathBuf>,
     /// What is odd about the tests.
     pub doubts: Vec<Doubt>,
+}
+
+impl Input {
+    /// Names of the files.
+    pub fn names(&self) -> String {
+        let names = self.tests.iter().map(|t| files::name(&t.path));
+        names.collect::<Vec<_>>().join(", ")
+    }
 }
 
 /// Reads what the arguments mean.

@@ -2,9 +2,10 @@
 
 use super::account::{self, dampings, fixed_combinations, matches};
 use super::figures::{hits, pair, poles};
-use super::result::{Damped, file_name};
+use super::result::Damped;
 use crate::experiments::robot_picture::{mode_blocks, modes};
 use crate::fit::damping::{Pair, Test};
+use crate::ground::files;
 use crate::motion::skeleton::skeleton;
 use crate::sheet::chart::Chart;
 use crate::sheet::page::{Block, Page, Tone};
@@ -15,16 +16,10 @@ const SWINGS: usize = 4;
 
 /// The page: does the simulation meet the measurement, with which constants, how was it measured.
 pub fn page(damped: &Damped) -> Page {
-    let names: Vec<String> = damped
-        .input
-        .tests
-        .iter()
-        .map(|t| file_name(&t.path))
-        .collect();
     let subtitle = format!(
         "{} from {}",
         damped.input.robot.robot.name,
-        names.join(", ")
+        damped.input.names()
     );
     let mut page = Page::new("Damping from hammer tests", subtitle);
     page.synthetic = damped.synthetic();
@@ -151,7 +146,7 @@ fn hit_table(damped: &Damped) -> Table {
                 .why()
                 .map_or("used".into(), |why| format!("left out: {why}"));
             table.push([
-                file_name(&test.path),
+                files::name(&test.path),
                 hit.direction.clone(),
                 hit.hit.clone(),
                 verdict,

@@ -1,9 +1,10 @@
 //! What `ident damping` remarks about its tests and about the model it tuned.
 
-use super::result::{Damped, file_name};
+use super::result::Damped;
 use crate::fit::damping::{Pair, Test};
 use crate::fit::damping_statement::{MISFIT, good};
 use crate::fit::frf_nuisance::Pull;
+use crate::ground::files;
 use crate::sheet::number::significant;
 
 /// How many stiffnesses a remark names.
@@ -15,7 +16,7 @@ impl Damped {
         let tests = &self.input.tests;
         let named = |test: &Test, remark: &String| match tests.len() {
             1 => remark.clone(),
-            _ => format!("{}: {remark}", file_name(&test.path)),
+            _ => format!("{}: {remark}", files::name(&test.path)),
         };
         let of_tests = tests
             .iter()

@@ -54,10 +54,7 @@ impl Damped {
         let mut tests = self.input.tests.iter();
         let left =
             tests.any(|t| !t.frf.remarks.is_empty() || t.frf.screened.iter().any(|h| !h.used()));
-        match left || !self.met() || !self.of_model().is_empty() {
-            true => Ending::Attention,
-            false => Ending::Done,
-        }
+        Ending::attention_if(left || !self.met() || !self.of_model().is_empty())
     }
 
     /// Whether every pair is met in shape and scale.
@@ -264,10 +261,4 @@ impl Damped {
 
 fn matched(found: &FrfMatch) -> Value {
     json!({"frac": number(found.frac), "log_error_dB": number(found.log_error_db)})
-}
-
-/// The last part of a path.
-pub fn file_name(path: &Path) -> String {
-    path.file_name()
-        .map_or_else(String::new, |name| name.to_string_lossy().to_string())
 }

@@ -1,7 +1,7 @@
 //! What `ident damping` leaves on disk: the fit, the robot that simulation loads, the report.
 
 use super::page::page;
-use super::result::{Damped, file_name};
+use super::result::Damped;
 use crate::fit::damping_store::{SCHEMA, StoredDamping, StoredInput};
 use crate::fit::frf_robot::damped as with_dampings;
 use crate::ground::files;
@@ -38,18 +38,12 @@ pub fn all(damped: &Damped) -> Outcome<Vec<PathBuf>> {
 
 /// The robot with its dampings, as text.
 fn robot(damped: &Damped) -> String {
-    let names: Vec<String> = damped
-        .input
-        .tests
-        .iter()
-        .map(|t| file_name(&t.path))
-        .collect();
     let label = if damped.synthetic() {
         " (synthetic)"
     } else {
         ""
     };
-    let origin = format!("{}{label}", names.join(", "));
+    let origin = format!("{}{label}", damped.input.names());
     let account = &damped.account;
     let robot = with_dampings(
         &damped.input.robot.robot,
@@ -66,7 +60,7 @@ fn stored(damped: &Damped) -> StoredDamping {
     let tests = damped.input.tests.iter();
     let mut inputs: Vec<StoredInput> = tests
         .map(|test| StoredInput {
-            file: file_name(&test.path),
+            file: files::name(&test.path),
             sha256: test.record.sha256.clone(),
         })
         .collect();

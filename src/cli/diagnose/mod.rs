@@ -5,7 +5,7 @@ mod next;
 mod page;
 mod tables;
 
-use super::output::{print, tell};
+use super::output::{located, print};
 use super::progress::Progress;
 use super::run::place;
 use super::{Ending, Verb, arguments, parsed};
@@ -14,7 +14,7 @@ use crate::findings::kinds::{kind, load_cycle};
 use crate::findings::sentence::sentences;
 use crate::ground::files::replace;
 use crate::ground::problem::{Outcome, Problem};
-use crate::measurement::workspace::{Place, resolve};
+use crate::measurement::workspace::Place;
 use crate::report::json::body;
 use crate::report::{folder, html, svg, text};
 use crate::sheet::page::file;
@@ -86,10 +86,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
     };
     print(&said)?;
     let fine = |one: &DiagnosedFile| one.found.answer().is_fine();
-    Ok(match results.iter().all(fine) {
-        true => Ending::Done,
-        false => Ending::Attention,
-    })
+    Ok(Ending::done_if(results.iter().all(fine)))
 }
 
 fn misplaced(what: &str) -> Problem {
@@ -101,8 +98,7 @@ fn misplaced(what: &str) -> Problem {
 }
 
 fn one(name: &Path, fit: Option<&Path>) -> Outcome<DiagnosedFile> {
-    let (path, said) = resolve(name)?;
-    said.iter().for_each(|s| tell(s));
+    let path = located(name)?;
     let (kind, diagnose) = kind(&path)?;
     let found = match fit {
         None => diagnose(&path)?,

@@ -5,13 +5,14 @@ use super::tables::{candidates_table, causes_table};
 use crate::findings::kinds::Diagnosed;
 use crate::findings::sentence::{candidates, left, sentences};
 use crate::findings::{Answer, Verdict};
+use crate::ground::files;
 use crate::sheet::page::{Block, Page, Tone};
 
 /// The page of one measurement called `stem`.
 pub fn page(result: &dyn Diagnosed, stem: &str) -> Page {
     let (answer, source) = (result.answer(), result.source());
-    let name = source.path.file_name().unwrap_or_default();
-    let subtitle = format!("{}, from {}", result.about(), name.to_string_lossy());
+    let name = files::name(source.path);
+    let subtitle = format!("{}, from {}", result.about(), name);
     let mut page = Page::new(format!("Diagnosis of {stem}"), subtitle);
     page.synthetic = source.synthetic;
     let mut said = sentences(answer).into_iter();

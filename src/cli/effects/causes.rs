@@ -1,20 +1,12 @@
 //! Causes of the whole robot, listed and explained beside the effects of one axis.
 
 use crate::causes::{CAUSES, Cause, Sight};
-use crate::effects::Family;
 use serde_json::{Value, json};
 
 fn sight(sight: Sight) -> &'static str {
     match sight {
         Sight::Workspace => "workspace tests",
         Sight::Hammer => "hammer tests",
-    }
-}
-
-fn family(cause: &dyn Cause) -> &'static str {
-    match cause.card().family {
-        Family::Physics => "physics",
-        Family::Measurement => "measurement",
     }
 }
 
@@ -25,7 +17,7 @@ pub fn rows() -> Vec<[String; 4]> {
         let shows: Vec<&str> = card.shows.iter().map(|s| sight(s.0)).collect();
         [
             card.name.to_string(),
-            family(*cause).to_string(),
+            cause.card().family.name().to_string(),
             shows.join(", "),
             card.summary.to_string(),
         ]
@@ -43,7 +35,12 @@ pub fn all_named(name: &str) -> Vec<&'static dyn Cause> {
 pub fn card(cause: &dyn Cause) -> String {
     let card = cause.card();
     let mut lines = vec![
-        format!("{} ({}): {}", card.name, family(cause), card.summary),
+        format!(
+            "{} ({}): {}",
+            card.name,
+            cause.card().family.name(),
+            card.summary
+        ),
         format!("equation  {}", card.equation),
         format!("source    {}", card.source),
     ];
@@ -69,7 +66,7 @@ pub fn value(cause: &dyn Cause) -> Value {
         .map(|(kind, how)| json!({"in": sight(*kind), "as": how}));
     json!({
         "name": card.name,
-        "family": family(cause),
+        "family": cause.card().family.name(),
         "summary": card.summary,
         "equation": card.equation,
         "source": card.source,

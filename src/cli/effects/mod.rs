@@ -6,12 +6,13 @@ mod kinds;
 use super::output::print;
 use super::{Ending, Verb, arguments, parsed};
 use crate::causes::{CAUSES, Cause};
-use crate::effects::{EFFECTS, Effect, Family};
+use crate::effects::{EFFECTS, Effect};
 use crate::findings::kinds::{Known, known};
 use crate::findings::load_cycle::look_alikes::{Picture, look_alikes, picture};
 use crate::fit::solution::unit_of;
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
+use crate::ground::stats::largest;
 use crate::measurement::load_cycle::Port;
 use crate::report::{json, svg, text};
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
@@ -79,18 +80,15 @@ fn named(name: &str) -> Outcome<&'static dyn Effect> {
     })
 }
 
-fn family(effect: &dyn Effect) -> &'static str {
-    match effect.card().family {
-        Family::Physics => "physics",
-        Family::Measurement => "measurement",
-    }
-}
-
 fn list() -> String {
     let header = ["effect", "family", "what it is"];
     let mut table = Table::new("Effects in load cycles of one axis", header);
     for effect in EFFECTS {
-        table.push([effect.card().name, family(*effect), effect.card().summary]);
+        table.push([
+            effect.card().name,
+            effect.card().family.name(),
+            effect.card().summary,
+        ]);
     }
     let header = ["cause", "family", "shows in", "what it is"];
     let mut robot = Table::new("Causes in tests of the whole robot", header);
@@ -145,7 +143,7 @@ fn value(effect: &dyn Effect) -> Value {
     json!({
         "name": card.name,
         "cause": card.cause,
-        "family": family(effect),
+        "family": effect.card().family.name(),
         "summary": card.summary,
         "equation": card.equation,
         "source": card.source,
@@ -172,7 +170,12 @@ fn cards(
 fn card(effect: &'static dyn Effect) -> String {
     let card = effect.card();
     let mut lines = vec![
-        format!("{} ({}): {}", card.name, family(effect), card.summary),
+        format!(
+            "{} ({}): {}",
+            card.name,
+            effect.card().family.name(),
+            card.summary
+        ),
         format!("equation  {}", card.equation),
         format!("source    {}", card.source),
         format!("shows as  {}", card.signature),
@@ -202,11 +205,7 @@ fn card(effect: &'static dyn Effect) -> String {
 fn sketch(picture: &Picture) -> String {
     const WIDTH: usize = 61;
     const HEIGHT: usize = 13;
-    let largest = picture
-        .misfit
-        .iter()
-        .fold(0.0_f64, |m, v| m.max(v.abs()))
-        .max(f64::MIN_POSITIVE);
+    let largest = largest(&picture.misfit).max(f64::MIN_POSITIVE);
     let mut rows = vec![vec![' '; WIDTH]; HEIGHT];
     rows[HEIGHT / 2] = vec!['·'; WIDTH];
     for (u, y) in picture.load.iter().zip(&picture.misfit) {

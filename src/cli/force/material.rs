@@ -2,6 +2,7 @@
 
 use super::Found;
 use crate::cutting::LINEAR_EDGE;
+use crate::measurement::front::quoted;
 use crate::sheet::number::significant;
 
 /// Least spread that is written: no dynamometer is known better.
@@ -44,10 +45,6 @@ pub fn text(found: &Found) -> String {
         }
     }
     text
-}
-
-fn quoted(text: &str) -> String {
-    toml::Value::String(text.to_string()).to_string()
 }
 
 /// Six significant digits, always a TOML float.

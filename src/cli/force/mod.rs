@@ -6,7 +6,7 @@ mod material;
 mod page;
 mod tables;
 
-use super::output::{print, tell};
+use super::output::{located, print};
 use super::{Ending, Verb, arguments, parsed};
 use crate::fit::cut_force::{Account, identify};
 use crate::fit::parameter::Status;
@@ -14,7 +14,7 @@ use crate::fit::suitability::{self, Doubt, is_odd};
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::milling_force::MillingForce;
-use crate::measurement::workspace::{Place, resolve};
+use crate::measurement::workspace::Place;
 use crate::report::{folder, text as terminal};
 use clap::{ArgMatches, Args};
 use std::path::PathBuf;
@@ -69,9 +69,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
 fn act(arguments: &Arguments) -> Outcome<Found> {
     let mut files = Vec::new();
     for name in &arguments.files {
-        let (path, said) = resolve(name)?;
-        said.iter().for_each(|s| tell(s));
-        files.push(MillingForce::read(&path)?);
+        files.push(MillingForce::read(&located(name)?)?);
     }
     one_tool(&files)?;
     let mut doubts = Vec::new();
@@ -138,10 +136,7 @@ impl Found {
 fn ending(found: &Found) -> Ending {
     let open = |s: &Status| *s == Status::NotIdentifiable;
     let coefficients = &found.account.parameters[..6];
-    match is_odd(&found.doubts) || coefficients.iter().any(|p| open(&p.status)) {
-        true => Ending::Attention,
-        false => Ending::Done,
-    }
+    Ending::attention_if(is_odd(&found.doubts) || coefficients.iter().any(|p| open(&p.status)))
 }
 
 fn write(found: &Found) -> Outcome<Vec<PathBuf>> {

@@ -103,10 +103,9 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
         true => document(&all),
         false => all.iter().map(account).collect(),
     })?;
-    Ok(match all.iter().all(|one| one.missing.is_empty()) {
-        true => Ending::Done,
-        false => Ending::Attention,
-    })
+    Ok(Ending::done_if(
+        all.iter().all(|one| one.missing.is_empty()),
+    ))
 }
 
 /// Reads a file; `talk`: who is asked for what nobody stated.

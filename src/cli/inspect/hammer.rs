@@ -4,6 +4,7 @@ use super::{Account, degrees, range, span, title};
 use crate::fit::suitability::Doubt;
 use crate::fit::suitability::hammer::doubts;
 use crate::ground::problem::Outcome;
+use crate::ground::stats::largest;
 use crate::measurement::hammer::{HammerRecord, HammerRun};
 use crate::measurement::hammer_uff::read_any;
 use crate::report::json;
@@ -60,8 +61,7 @@ impl Direction<'_> {
 
     /// Largest force of each record, N.
     fn peak(&self) -> [f64; 2] {
-        let largest = |run: &&HammerRun| run.force.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
-        range(self.runs.iter().map(largest))
+        range(self.runs.iter().map(|run| largest(&run.force)))
     }
 }
 

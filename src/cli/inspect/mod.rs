@@ -8,13 +8,12 @@ mod toolpath;
 mod universal;
 mod workspace;
 
-use super::output::{print, tell};
+use super::output::{located, print};
 use super::{Ending, Verb, arguments, parsed};
 use crate::findings::kinds::KINDS;
 use crate::ground::problem::Outcome;
 use crate::measurement::hammer_uff::is_universal;
 use crate::measurement::leading::{front_of, kind_of};
-use crate::measurement::workspace::resolve;
 use crate::report::json;
 use clap::{ArgMatches, Args};
 use serde_json::{Map, Value};
@@ -71,8 +70,7 @@ const ENDINGS: &[(Reader, EndingTest)] = &[
 
 fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let arguments: Arguments = parsed(matches);
-    let (path, said) = resolve(&arguments.file)?;
-    said.iter().for_each(|s| tell(s));
+    let path = located(&arguments.file)?;
     let mut account = reader(&path)?(&path)?;
     let odd = account.odd.iter().map(|odd| format!("odd: {odd}"));
     account.lines.extend(odd);
@@ -83,10 +81,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
         true => json::print(account.json),
         false => account.lines.join("\n") + "\n",
     })?;
-    Ok(match account.odd.is_empty() {
-        true => Ending::Done,
-        false => Ending::Attention,
-    })
+    Ok(Ending::done_if(account.odd.is_empty()))
 }
 
 /// Who reads a file of this kind; a file that does not say its kind is taken for load cycles.

@@ -145,10 +145,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
     for remark in account::remarks(&result) {
         tell(&format!("{}: {remark}", result.planned.job.path.display()));
     }
-    Ok(match result.needs_attention() {
-        true => Ending::Attention,
-        false => Ending::Done,
-    })
+    Ok(Ending::attention_if(result.needs_attention()))
 }
 
 fn act(arguments: &Arguments) -> Outcome<Result> {

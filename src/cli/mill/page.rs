@@ -1,13 +1,14 @@
 //! The report page of `ident mill`.
 
 use super::{Result, account, figures};
+use crate::ground::files;
 use crate::process::setup::Support;
 use crate::sheet::page::{Block, Page, Tone};
 
 /// The page.
 pub fn page(result: &Result) -> Page {
     let path = &result.planned.toolpath.path;
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let name = files::name(path);
     let subtitle = format!(
         "{} by the robot {}",
         result.planned.job.path.display(),

@@ -90,10 +90,7 @@ pub fn run(arguments: &super::Arguments) -> Outcome<Ending> {
         false if arguments.dry_run => print(&text)?,
         false => print(&account(&robot, &guessed, &remarks, [&path, &picture]))?,
     }
-    Ok(match remarks.is_empty() {
-        true => Ending::Done,
-        false => Ending::Attention,
-    })
+    Ok(Ending::done_if(remarks.is_empty()))
 }
 
 fn said(remark: &Remark) -> String {
@@ -114,7 +111,7 @@ fn robot(own: &FromFile, from: &Path) -> Outcome<(Robot, Guessed)> {
         text.map_err(|_| Problem::new("is not UTF-8 text", "save it as UTF-8").in_file(from))?;
     let (mut robot, mass) = read(text, own).map_err(|problem| problem.in_text(from))?;
     if robot.source.trim().is_empty() {
-        let name = from.file_name().unwrap_or_default().to_string_lossy();
+        let name = files::name(from);
         robot.source = format!("geometry: {name}");
     }
     let mass_kg = own.mass_kg.or(mass);

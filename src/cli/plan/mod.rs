@@ -67,10 +67,7 @@ pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
 }
 
 fn ending(planned: &Planned) -> Ending {
-    match planned.plan.exceeded.is_empty() {
-        true => Ending::Done,
-        false => Ending::Attention,
-    }
+    Ending::done_if(planned.plan.exceeded.is_empty())
 }
 
 fn run(matches: &ArgMatches) -> Outcome<Ending> {

@@ -1,6 +1,7 @@
 //! The report page of `ident plan`.
 
 use super::{Planned, account, figures};
+use crate::ground::files;
 use crate::ground::units::DEGREE;
 use crate::planning::exceeded::JointUse;
 use crate::sheet::number::{ABSENT, significant};
@@ -9,8 +10,7 @@ use crate::sheet::table::Table;
 
 /// The page.
 pub fn page(planned: &Planned) -> Page {
-    let name = planned.toolpath.path.file_name().unwrap_or_default();
-    let name = name.to_string_lossy();
+    let name = files::name(&planned.toolpath.path);
     let subtitle = format!(
         "{} for the robot {}",
         planned.job.path.display(),

@@ -7,7 +7,7 @@ mod request;
 mod tables;
 
 use super::chapter::Chapter;
-use super::output::{print, tell};
+use super::output::{located, print, tell};
 use super::{Ending, Verb, arguments, from_words, parsed};
 use crate::fit::screw::in_motion::{Demand, Run, in_motion};
 use crate::fit::screw::positions::Extremes;
@@ -17,7 +17,7 @@ use crate::ground::files;
 use crate::ground::problem::Outcome;
 use crate::measurement::pitch_table::{EXPORTERS, Exporter, PitchTable, exporter};
 use crate::measurement::screw::ScrewTest;
-use crate::measurement::workspace::{Place, resolve};
+use crate::measurement::workspace::Place;
 use crate::report::{folder, text};
 use clap::{ArgMatches, Args, ValueEnum};
 use request::{demand, request};
@@ -145,27 +145,16 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
 /// A file that cannot be read, results that cannot be written.
 pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
     let one = |file: PathBuf| {
-        let test = ScrewTest::read(&file)?;
-        if let Err(why) = passed(&test) {
-            let input = (test.path.clone(), test.sha256.clone());
-            return Ok(Chapter::withheld(test.stem(), input, &why));
-        }
         let judged = judge(&from_words::<Arguments>(&[file]))?;
         write(&judged)?;
         Ok(Chapter {
             title: judged.stem(),
             ending: judged.ending(),
-            inputs: judged
-                .tests
-                .iter()
-                .map(|t| (t.path.clone(), t.sha256.clone()))
-                .collect(),
+            inputs: judged.tests.iter().map(ScrewTest::input).collect(),
             page: page::page(&judged),
         })
     };
-    let parts = place.files_of("screw")?.into_iter().map(one);
-    let parts = parts.collect::<Outcome<Vec<_>>>()?;
-    Ok(Chapter::together("Linear axes", parts))
+    Chapter::of_each(place, "Linear axes", passed, one)
 }
 
 fn judge(arguments: &Arguments) -> Outcome<Judged> {
@@ -218,17 +207,12 @@ fn passed(test: &ScrewTest) -> Outcome<Vec<Doubt>> {
 }
 
 fn read(name: &Path) -> Outcome<ScrewTest> {
-    let (path, said) = resolve(name)?;
-    said.iter().for_each(|s| tell(s));
-    ScrewTest::read(&path)
+    ScrewTest::read(&located(name)?)
 }
 
 impl Judged {
     fn ending(&self) -> Ending {
-        match self.account.figures.a {
-            Some(_) if !is_odd(&self.doubts) => Ending::Done,
-            _ => Ending::Attention,
-        }
+        Ending::done_if(self.account.figures.a.is_some() && !is_odd(&self.doubts))
     }
 
     fn stem(&self) -> String {

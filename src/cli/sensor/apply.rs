@@ -2,6 +2,7 @@
 
 use crate::fit::force_sensor::fitted::rms;
 use crate::fit::force_sensor::model::Model;
+use crate::ground::files;
 use crate::measurement::force_sensor::{CHANNELS, SensorTest};
 use crate::measurement::workspace::Place;
 use crate::sheet::number::significant;
@@ -49,13 +50,7 @@ impl Applied {
         if self.record.facts.synthetic {
             text.push_str("# synthetic = true\n");
         }
-        let name = self
-            .record
-            .path
-            .file_name()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .to_string();
+        let name = files::name(&self.record.path);
         let _ = writeln!(
             text,
             "# notes = {{ corrected = {name:?}, sha256 = \"{}\" }}",

@@ -6,7 +6,7 @@ mod page;
 mod tables;
 
 use super::chapter::Chapter;
-use super::output::{print, tell};
+use super::output::{located, print, tell};
 use super::{Ending, Verb, arguments, from_words, parsed};
 use crate::fit::force_sensor::model::Model;
 use crate::fit::force_sensor::store::StoredSensor;
@@ -16,7 +16,7 @@ use crate::fit::suitability::{self, Doubt, is_odd};
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::force_sensor::SensorTest;
-use crate::measurement::workspace::{Place, resolve};
+use crate::measurement::workspace::Place;
 use crate::report::{folder, text};
 use apply::Applied;
 use clap::{ArgMatches, Args};
@@ -101,27 +101,16 @@ fn examine(arguments: &Arguments) -> Outcome<Identified> {
 /// A file that cannot be read, results that cannot be written.
 pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
     let one = |file: PathBuf| {
-        let test = SensorTest::read(&file)?;
-        if let Err(why) = passed(&test) {
-            let input = (test.path.clone(), test.sha256.clone());
-            return Ok(Chapter::withheld(test.stem(), input, &why));
-        }
         let found = examine(&from_words::<Arguments>(&[file]))?;
         write(&found)?;
         Ok(Chapter {
             title: found.stem(),
             ending: found.ending(),
-            inputs: found
-                .tests
-                .iter()
-                .map(|t| (t.path.clone(), t.sha256.clone()))
-                .collect(),
+            inputs: found.tests.iter().map(SensorTest::input).collect(),
             page: page::page(&found),
         })
     };
-    let parts = place.files_of("force-sensor")?.into_iter().map(one);
-    let parts = parts.collect::<Outcome<Vec<_>>>()?;
-    Ok(Chapter::together("The force sensor", parts))
+    Chapter::of_each(place, "The force sensor", passed, one)
 }
 
 /// What is odd about a test that can carry a number.
@@ -132,9 +121,7 @@ fn passed(test: &SensorTest) -> Outcome<Vec<Doubt>> {
 }
 
 fn read(name: &Path) -> Outcome<SensorTest> {
-    let (path, said) = resolve(name)?;
-    said.iter().for_each(|s| tell(s));
-    SensorTest::read(&path)
+    SensorTest::read(&located(name)?)
 }
 
 fn applied(record: &Path, model: &Model) -> Outcome<Applied> {
@@ -167,10 +154,8 @@ fn only_apply(file: &Path, arguments: &Arguments) -> Outcome<Ending> {
 
 impl Identified {
     fn ending(&self) -> Ending {
-        match self.account.fitted.known[..10].iter().all(|known| *known) {
-            true if !is_odd(&self.doubts) => Ending::Done,
-            _ => Ending::Attention,
-        }
+        let known = &self.account.fitted.known[..10];
+        Ending::done_if(known.iter().all(|known| *known) && !is_odd(&self.doubts))
     }
 
     fn stem(&self) -> String {

@@ -5,6 +5,7 @@ use crate::cli::Ending;
 use crate::cli::output::{print, print_result};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{M3, V3};
+use crate::ground::stats::length;
 use crate::motion::Work;
 use crate::motion::statics::{Equilibrium, Weight, deflect, large_deflection};
 use clap::Args;
@@ -91,7 +92,7 @@ impl Answer {
 
     fn text(&self, [fx, fy, fz]: V3) -> String {
         let [x, y, z] = self.linear.map(|d| d * 1e3);
-        let size = self.linear.iter().map(|d| d * d).sum::<f64>().sqrt() * 1e3;
+        let size = length(&self.linear) * 1e3;
         let stiffness = self
             .stiffness()
             .map(|k| k.map_or("rigid".into(), |k| format!("{:.1} N/mm", k * 1e-3)));

@@ -8,17 +8,17 @@ mod tables;
 pub use cubes::chapter as cubes_chapter;
 
 use super::chapter::Chapter;
-use super::output::{print, tell};
+use super::output::{located, print, tell};
 use super::progress::Progress;
 use super::validate;
 use super::{Ending, Verb, arguments, from_words, parsed};
 use crate::effects::Composite;
 use crate::fit::stiffness::{Account, DEFAULT_EFFECTS, Request, identify};
-use crate::fit::store::{SCHEMA, StoredFit, stored_effects, stored_scale};
+use crate::fit::store::StoredFit;
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::load_cycle::LoadCycle;
-use crate::measurement::workspace::{Place, resolve};
+use crate::measurement::workspace::Place;
 use crate::report::{html, svg, text};
 use crate::robot::load::load;
 use crate::sheet::page::file;
@@ -156,8 +156,7 @@ fn request(arguments: &Arguments) -> Outcome<Request> {
 fn paths(arguments: &Arguments) -> Outcome<Vec<PathBuf>> {
     let mut paths: Vec<PathBuf> = Vec::new();
     for name in &arguments.files {
-        let (path, said) = resolve(name)?;
-        said.iter().for_each(|s| tell(s));
+        let path = located(name)?;
         if !arguments.dry_run {
             Place::nameable(&path)?;
         }
@@ -191,10 +190,7 @@ fn one(path: PathBuf, request: &Request) -> Outcome<Result> {
 
 /// 1 when something needs attention: no stiffness, or data that are odd.
 fn ending(results: &[Result]) -> Ending {
-    match results.iter().all(|r| r.account.is_fine()) {
-        true => Ending::Done,
-        false => Ending::Attention,
-    }
+    Ending::done_if(results.iter().all(|r| r.account.is_fine()))
 }
 
 fn write(results: &[Result]) -> Outcome<()> {
@@ -267,21 +263,10 @@ fn ink(results: &[&Result]) -> Outcome<Vec<(PathBuf, String)>> {
 
 fn stored(result: &Result) -> StoredFit {
     let account = &result.account;
+    let (model, p) = (&account.solution.model, &account.solution.p);
     StoredFit {
-        schema: SCHEMA.into(),
-        version: env!("CARGO_PKG_VERSION").into(),
-        input: result
-            .file
-            .path
-            .file_name()
-            .map(|n| n.to_string_lossy().to_string())
-            .unwrap_or_default(),
-        input_sha256: result.file.sha256.clone(),
-        synthetic: result.file.facts.synthetic,
-        site: result.file.site(),
-        model: stored_effects(&account.solution.model, &account.solution.p),
-        scale: stored_scale(&account.data.scene),
         parameters: account.parameters.clone(),
+        ..StoredFit::of(&result.file, model, p, &account.data.scene)
     }
 }
 

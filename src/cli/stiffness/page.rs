@@ -5,6 +5,7 @@ use super::tables::tables;
 use crate::experiments::load_cycle::Curves;
 use crate::fit::parameter::Status;
 use crate::fit::stiffness::Account;
+use crate::ground::stats::difference;
 use crate::sheet::chart::Chart;
 use crate::sheet::number::{ABSENT, engineering, prefix, significant};
 use crate::sheet::page::{Block, Page};
@@ -127,11 +128,5 @@ fn parameters_table(result: &Result) -> Table {
 }
 
 fn fitted(account: &Account) -> Vec<f64> {
-    account
-        .data
-        .reading
-        .iter()
-        .zip(&account.solution.residual)
-        .map(|(y, r)| y - r)
-        .collect()
+    difference(&account.data.reading, &account.solution.residual)
 }

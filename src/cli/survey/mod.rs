@@ -101,10 +101,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
         )?,
         false => print(&tables::text(&told, written.as_deref()))?,
     }
-    Ok(match told.found.remarks.is_empty() {
-        true => Ending::Done,
-        false => Ending::Attention,
-    })
+    Ok(Ending::done_if(told.found.remarks.is_empty()))
 }
 
 /// The reports of the campaign, else `reports/`.

@@ -6,7 +6,7 @@ mod page;
 mod tables;
 
 use super::chapter::Chapter;
-use super::output::{print, tell, warn};
+use super::output::{located, print, tell, warn};
 use super::{Ending, Verb, arguments, from_words, parsed};
 use crate::experiments::workspace::fits;
 use crate::fit::axis_tests::{self, AxisTest};
@@ -14,7 +14,7 @@ use crate::fit::identified_robot::{text, with_axis_tests, with_points};
 use crate::fit::validation::{Validation, needs_attention, validate};
 use crate::ground::files;
 use crate::ground::problem::Outcome;
-use crate::measurement::workspace::{Place, campaign, only_of_kind, resolve};
+use crate::measurement::workspace::{Place, campaign, only_of_kind};
 use crate::measurement::workspace_test::WorkspaceTest;
 use crate::report::{folder, text as terminal};
 use crate::robot::Robot;
@@ -78,11 +78,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
 
 fn measurement(arguments: &Arguments) -> Outcome<PathBuf> {
     match &arguments.file {
-        Some(file) => {
-            let (path, said) = resolve(file)?;
-            said.iter().for_each(|s| tell(s));
-            Ok(path)
-        }
+        Some(file) => located(file),
         None => only_of_kind(
             &campaign(Path::new(""), arguments.campaign.as_deref())?,
             "workspace",
@@ -111,10 +107,7 @@ pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
 }
 
 fn ending(validated: &Validated) -> Ending {
-    match needs_attention(&validated.found) {
-        true => Ending::Attention,
-        false => Ending::Done,
-    }
+    Ending::attention_if(needs_attention(&validated.found))
 }
 
 /// Writes the identified robot of a campaign after its axis tests changed: with what the points of
@@ -155,7 +148,7 @@ pub fn known_tests(place: &Place, robot: &Robot) -> Outcome<Vec<AxisTest>> {
 
 /// The measurement and the start of its hash.
 fn provenance(test: &WorkspaceTest) -> String {
-    let name = test.path.file_name().unwrap_or_default().to_string_lossy();
+    let name = files::name(&test.path);
     let short: String = test.sha256.chars().take(12).collect();
     format!("{name} {short}")
 }

@@ -1,12 +1,12 @@
 //! A survey as it swings, with a still of every mode for paper, and maps of modal assurance.
 
 use super::modes::SurveyMode;
-use crate::ground::spatial::{V3, add, norm, scale};
+use crate::experiments::robot_picture::swinging;
+use crate::ground::spatial::{V3, add, norm};
 use crate::measurement::survey::Survey;
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
 use crate::sheet::number::fixed;
 use crate::sheet::page::Block;
-use crate::sheet::scene::{Scene, Strand};
 use rustfft::num_complex::Complex64;
 
 /// Largest movement of a mode as drawn, over the size of the survey.
@@ -37,7 +37,11 @@ pub fn mode_blocks(survey: &Survey, modes: &[SurveyMode]) -> Vec<Block> {
         let wire = wire(survey, &mode.shape);
         let name = format!("survey-mode-{}", i + 1);
         [
-            Block::Scene(scene(&title, &wire)),
+            Block::Scene(swinging(
+                &title,
+                &wire.at,
+                wire.swing.each_ref().map(Vec::as_slice),
+            )),
             Block::Chart(still(&name, &title, survey, &wire)),
         ]
     });
@@ -53,14 +57,6 @@ fn movements(survey: &Survey, shape: &[Complex64]) -> Vec<[Complex64; 3]> {
     moved
 }
 
-fn diagonal(survey: &Survey) -> f64 {
-    let extent = |k: usize| {
-        let along = || survey.geometry.points.iter().map(|point| point.at[k]);
-        along().fold(f64::MIN, f64::max) - along().fold(f64::MAX, f64::min)
-    };
-    norm([extent(0), extent(1), extent(2)])
-}
-
 /// All wires as one line with breaks; points on no wire as crosses.
 fn wire(survey: &Survey, shape: &[Complex64]) -> Wire {
     let moved = movements(survey, shape);
@@ -68,7 +64,7 @@ fn wire(survey: &Survey, shape: &[Complex64]) -> Wire {
         .iter()
         .map(|v| norm(v.map(|x| x.norm())))
         .fold(0.0, f64::max);
-    let size = diagonal(survey);
+    let size = norm(survey.geometry.extents());
     let by = if most > 0.0 { DRAWN * size / most } else { 0.0 };
     let mut wire = Wire {
         at: Vec::new(),
@@ -97,32 +93,6 @@ fn wire(survey: &Survey, shape: &[Complex64]) -> Wire {
         }
     }
     wire
-}
-
-fn millimetres(points: &[V3]) -> Vec<V3> {
-    points.iter().map(|p| scale(1e3, *p)).collect()
-}
-
-fn scene(title: &str, wire: &Wire) -> Scene {
-    let still = Strand {
-        name: "at rest".into(),
-        points: millimetres(&wire.at),
-        thin: true,
-        ..Strand::default()
-    };
-    let [swing, lead] = &wire.swing;
-    let moving = Strand {
-        name: "swinging, enlarged".into(),
-        points: millimetres(&wire.at),
-        swing: millimetres(swing),
-        lead: millimetres(lead),
-        ..Strand::default()
-    };
-    Scene {
-        title: title.into(),
-        unit: "mm".into(),
-        strands: vec![moving, still],
-    }
 }
 
 /// Where a point is on paper: across and up.
@@ -156,13 +126,13 @@ fn still(name: &str, title: &str, survey: &Survey, wire: &Wire) -> Chart {
             - if k == 2 {
                 0.0
             } else {
-                1.3 * TRIAD * diagonal(survey)
+                1.3 * TRIAD * norm(survey.geometry.extents())
             }
     });
     let mut triad = Vec::new();
     for (axis, label) in ["x", "y", "z"].into_iter().enumerate() {
         let mut end = corner;
-        end[axis] += TRIAD * diagonal(survey);
+        end[axis] += TRIAD * norm(survey.geometry.extents());
         triad.extend([seen(&corner), seen(&end), [f64::NAN; 2]]);
         panel = panel.named(seen(&end), label);
     }

@@ -4,6 +4,7 @@ use super::robot::stiffened;
 use crate::findings::Answer;
 use crate::findings::kinds::{Diagnosed, kind};
 use crate::fit::axis_tests::AxisTest;
+use crate::ground::files;
 use crate::ground::problem::Outcome;
 use crate::measurement::workspace::Place;
 use serde::Serialize;
@@ -62,8 +63,7 @@ impl DiagnosedFile {
 
     /// File name.
     pub fn name(&self) -> String {
-        let name = self.path().file_name().unwrap_or_default();
-        name.to_string_lossy().to_string()
+        files::name(self.path())
     }
 
     /// Where the extended model goes, and its text; none if nothing was extended.

@@ -2,6 +2,7 @@
 
 use super::DiagnosedFile;
 use crate::fit::axis_tests::AxisTest;
+use crate::ground::files;
 use crate::ground::problem::Outcome;
 use crate::measurement::hammer_uff::without_hits;
 use crate::measurement::workspace::Place;
@@ -62,10 +63,9 @@ pub fn closed_gaps(files: &[DiagnosedFile], tests: &[AxisTest]) -> Option<String
 /// A folder that cannot be read.
 pub fn passed_over(place: &Place) -> Outcome<Option<String>> {
     let files = place.files_of("hammer")?.into_iter();
-    let names = files.filter(|path| without_hits(path)).map(|path| {
-        let name = path.file_name().unwrap_or_default();
-        name.to_string_lossy().to_string()
-    });
+    let names = files
+        .filter(|path| without_hits(path))
+        .map(|path| files::name(&path));
     let names: Vec<String> = names.collect();
     Ok((!names.is_empty()).then(|| {
         format!(

@@ -9,6 +9,7 @@ use crate::experiments::cubes::{AddedAxes, Setup};
 use crate::findings::engine::{Blamed, Member, Statement};
 use crate::findings::physics;
 use crate::ground::spatial::{V3, norm, rotate, rotation, scale};
+use crate::ground::stats::difference;
 use crate::robot::Robot;
 
 /// What was found.
@@ -205,11 +206,7 @@ impl Case {
     pub fn under(&self, gain: f64, turn: V3) -> Vec<f64> {
         let robot = self.altered(None, None);
         let there = self.loosened(&self.fixed(&robot, gain, turn));
-        there
-            .iter()
-            .zip(&self.simulated)
-            .map(|(a, b)| a - b)
-            .collect()
+        difference(&there, &self.simulated)
     }
 }
 

@@ -5,6 +5,7 @@ use super::{Case, EFFECTS, floor};
 use crate::findings::engine::{Aspects, Blamed, Experiment, Nuisance, Remaining, Statement, White};
 use crate::findings::physics;
 use crate::findings::table;
+use crate::ground::stats::{self, farthest};
 
 impl Experiment for Case {
     fn unit(&self) -> &'static str {
@@ -66,17 +67,15 @@ impl Experiment for Case {
     }
 
     fn would_tell(&self, rivals: &[(&'static str, String)]) -> String {
-        let own = rivals
-            .iter()
-            .any(|r| EFFECTS.iter().any(|effect| effect.name == r.0));
-        match own {
-            true => table::would_tell(EFFECTS, rivals),
-            false => "put a cube between them, or load by a moment of the bar".into(),
-        }
+        table::would_tell_or(
+            EFFECTS,
+            rivals,
+            "put a cube between them, or load by a moment of the bar",
+        )
     }
 
     fn place(&self, missed: &[f64]) -> String {
-        let worst = (0..missed.len()).max_by(|a, b| missed[*a].abs().total_cmp(&missed[*b].abs()));
+        let worst = farthest(missed);
         worst.map_or("nowhere".into(), |i| {
             let row = self.rows[i];
             format!(
@@ -94,9 +93,9 @@ impl Experiment for Case {
                 .iter()
                 .zip(left)
                 .filter(|(r, _)| r.cube == cube)
-                .map(|(_, l)| l * l)
+                .map(|(_, l)| *l)
                 .collect();
-            (own.iter().sum::<f64>() / own.len().max(1) as f64).sqrt()
+            stats::rms(&own)
         };
         Remaining {
             shape: cubes.map(|cube| [cube as f64, rms(cube)]).collect(),

@@ -2,9 +2,9 @@
 
 use super::Case;
 use crate::findings::engine::Member;
-use crate::findings::table::{Effect, Place};
+use crate::findings::table::{Effect, Place, together};
 use crate::ground::spatial::{V3, cross, sub};
-use crate::inference::gaussian::Size;
+use crate::ground::stats::length;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "frame_motion",
@@ -14,27 +14,19 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     law_error: 0.3,
     can_be: |_, _| true,
     places: |case| vec![Place::new("frame", members(case))],
-    parameters: |_, blamed| {
-        let size = |own: &[f64]| own.iter().map(|x| x * x).sum::<f64>().sqrt();
-        match blamed.shape[..] {
-            [_, tests] => vec![("shift_rms", size(&blamed.amounts) / tests.sqrt(), "m")],
-            _ => vec![
-                ("shift", size(&blamed.amounts[..3]), "m"),
-                ("test", blamed.shape[0], "1"),
-            ],
-        }
+    parameters: |_, blamed| match blamed.shape[..] {
+        [_, tests] => vec![("shift_rms", length(&blamed.amounts) / tests.sqrt(), "m")],
+        _ => vec![
+            ("shift", length(&blamed.amounts[..3]), "m"),
+            ("test", blamed.shape[0], "1"),
+        ],
     },
     would_tell: "measure a cube on the foundation too",
 };
 
 fn members(case: &Case) -> Vec<Member> {
     let tests = case.tests();
-    let one = |test: &i64, turns: bool| Member {
-        columns: moves(case, *test, turns),
-        size: Size::Free,
-        positive: None,
-        shape: vec![*test as f64],
-    };
+    let one = |test: &i64, turns: bool| together(moves(case, *test, turns), &[*test as f64]);
     let every = (tests.len() > 2)
         .then(|| restless(case, &tests))
         .into_iter();
@@ -61,12 +53,10 @@ fn moves(case: &Case, test: i64, turns: bool) -> Vec<Vec<f64>> {
 /// Another shift in every test.
 fn restless(case: &Case, tests: &[i64]) -> Member {
     let columns = tests.iter().flat_map(|test| moves(case, *test, false));
-    Member {
-        columns: columns.filter(|c| c.contains(&1.0)).collect(),
-        size: Size::Free,
-        positive: None,
-        shape: vec![0.0, tests.len() as f64],
-    }
+    together(
+        columns.filter(|c| c.contains(&1.0)).collect(),
+        &[0.0, tests.len() as f64],
+    )
 }
 
 /// Rows of one test from component and place of the cube (less that of the first).

@@ -3,6 +3,7 @@
 use super::Case;
 use crate::findings::engine::Member;
 use crate::findings::table::{Effect, Place};
+use crate::ground::stats::length;
 use crate::inference::gaussian::Size;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
@@ -13,7 +14,7 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     can_be: |_, _| true,
     places: |case| vec![Place::new("sensor", members(case))],
     parameters: |_, blamed| {
-        let size = blamed.amounts.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let size = length(&blamed.amounts);
         vec![("angle", size, "rad")]
     },
     would_tell: "measure the direction of the cables",

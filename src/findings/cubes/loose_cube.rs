@@ -2,9 +2,9 @@
 
 use super::Case;
 use crate::findings::engine::{Blamed, Member};
-use crate::findings::table::{Effect, Place};
+use crate::findings::table::{Effect, Place, together};
 use crate::ground::spatial::{cross, sub};
-use crate::inference::gaussian::Size;
+use crate::ground::stats::length;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "loose_cube",
@@ -25,11 +25,7 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     },
     parameters: |_, blamed| match blamed.shape.get(1) {
         Some(test) if blamed.amounts.len() > 1 => {
-            let size = blamed.amounts[..3]
-                .iter()
-                .map(|x| x * x)
-                .sum::<f64>()
-                .sqrt();
+            let size = length(&blamed.amounts[..3]);
             vec![("slip", size, "m"), ("test", *test, "1")]
         }
         Some(test) => vec![("share", blamed.amounts[0], "1"), ("test", *test, "1")],
@@ -80,12 +76,7 @@ fn members(case: &Case, cube: usize) -> Vec<Member> {
             .map(part)
             .filter(|c| c.iter().any(|x| *x != 0.0))
             .collect();
-        members.push(Member {
-            columns,
-            size: Size::Free,
-            positive: None,
-            shape: vec![1.0, test as f64],
-        });
+        members.push(together(columns, &[1.0, test as f64]));
     }
     members
 }

@@ -18,6 +18,7 @@ use crate::causes::Cause;
 use crate::causes::places::number_in;
 use crate::experiments::cubes::Setup;
 use crate::ground::problem::Outcome;
+use crate::ground::stats::difference;
 use crate::measurement::cubes::CubeTest;
 use crate::robot::Robot;
 use about::About;
@@ -143,11 +144,7 @@ impl OnRobot for Case {
             return Vec::new();
         }
         let there = self.loosened(&fixed);
-        there
-            .iter()
-            .zip(&self.simulated)
-            .map(|(a, b)| a - b)
-            .collect()
+        difference(&there, &self.simulated)
     }
 
     /// A link that the robot file bends at axes of its own is blamed through these first.

@@ -6,6 +6,7 @@ use crate::causes::places::softened;
 use crate::findings::engine::{Blamed, Member};
 use crate::findings::physics::OnRobot;
 use crate::findings::table::{Effect, Place};
+use crate::ground::stats::length;
 
 pub(super) const BASE: Effect<Case> = effect(
     "base_compliance",
@@ -60,7 +61,7 @@ fn places(case: &Case, own: fn(usize, usize) -> bool) -> Vec<Place> {
 fn members(case: &Case, site: &str) -> Vec<Member> {
     let robot = case.with_softer(site, TRIED);
     let column: Vec<f64> = case.change(&robot).iter().map(|x| x / TRIED).collect();
-    let size = column.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let size = length(&column);
     match size > 1e-3 * case.noise {
         true => vec![Member::given(column, ORDINARY).shaped(&[OWN])],
         false => Vec::new(),

@@ -2,8 +2,7 @@
 
 use super::Case;
 use crate::findings::engine::Member;
-use crate::findings::table::{Effect, Place};
-use crate::inference::gaussian::Size;
+use crate::findings::table::{Effect, Place, each_and_all};
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "centre_of_mass",
@@ -31,13 +30,5 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 };
 
 fn members(case: &Case) -> Vec<Member> {
-    let column = |k: usize| case.parameter(1 + k);
-    let single = (0..3).map(|k| Member::free(column(k)).shaped(&[k as f64]));
-    let all = Member {
-        columns: (0..3).map(column).collect(),
-        size: Size::Free,
-        positive: None,
-        shape: vec![0.0, 1.0, 2.0],
-    };
-    single.chain([all]).collect()
+    each_and_all(3, |k| case.parameter(1 + k))
 }

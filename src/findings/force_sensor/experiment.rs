@@ -5,6 +5,7 @@ use super::{Case, EFFECTS};
 use crate::findings::engine::{Aspects, Blamed, Experiment, Nuisance, Remaining, Statement, White};
 use crate::findings::table;
 use crate::fit::force_sensor::remainder::terms;
+use crate::ground::stats::farthest;
 
 /// Relative standard deviation of a nominal weight and centre where none is stated.
 const USUAL: f64 = 0.01;
@@ -58,7 +59,7 @@ impl Experiment for Case {
     }
 
     fn place(&self, missed: &[f64]) -> String {
-        let worst = (0..missed.len()).max_by(|a, b| missed[*a].abs().total_cmp(&missed[*b].abs()));
+        let worst = farthest(missed);
         let point = worst.map_or(0, |row| self.points.1[self.points.0[row / 6]]);
         format!("largest at point {point}")
     }

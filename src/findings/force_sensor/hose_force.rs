@@ -4,8 +4,8 @@
 use super::Case;
 use crate::findings::engine::Member;
 use crate::findings::table::{self, Effect, Place};
-use crate::ground::spatial::{V3, cross, norm, rotate_back, scale};
-use crate::measurement::force_sensor::{Reading, matrix};
+use crate::ground::spatial::{V3, cross, norm, of_quaternion, rotate_back, scale};
+use crate::measurement::force_sensor::Reading;
 use crate::path::quaternion::Quaternion;
 use std::collections::BTreeSet;
 
@@ -28,7 +28,7 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 
 /// The nine entries of R at a reading.
 fn entries(case: &Case, i: usize) -> Vec<f64> {
-    matrix(case.test.readings[i].quaternion)
+    of_quaternion(case.test.readings[i].quaternion)
         .as_flattened()
         .to_vec()
 }
@@ -102,7 +102,8 @@ fn directions() -> Vec<V3> {
 /// (which is first of all the end along the sensor's z), and with the lever of that end.
 fn towards(case: &Case, way: V3, windings: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let aside = across(way);
-    let pull = |i: usize, along: V3| rotate_back(&matrix(case.test.readings[i].quaternion), along);
+    let pull =
+        |i: usize, along: V3| rotate_back(&of_quaternion(case.test.readings[i].quaternion), along);
     let column = |of: &dyn Fn(usize) -> (V3, V3)| {
         case.column(|i, c| {
             let (force, moment) = of(i);

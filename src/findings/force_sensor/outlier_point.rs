@@ -3,9 +3,9 @@
 
 use super::Case;
 use crate::findings::engine::Member;
-use crate::findings::table::{Effect, Place};
+use crate::findings::table::{Effect, Place, together};
 use crate::ground::spatial::{V3, cross};
-use crate::inference::gaussian::Size;
+use crate::ground::stats::length;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "outlier_point",
@@ -22,20 +22,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
         }
     },
     parameters: |_, blamed| match blamed.shape[0] {
-        0.0 => vec![(
-            "turn",
-            blamed.amounts.iter().map(|x| x * x).sum::<f64>().sqrt(),
-            "rad",
-        )],
-        _ => vec![(
-            "force",
-            blamed.amounts[..3]
-                .iter()
-                .map(|x| x * x)
-                .sum::<f64>()
-                .sqrt(),
-            "N",
-        )],
+        0.0 => vec![("turn", length(&blamed.amounts), "rad")],
+        _ => vec![("force", length(&blamed.amounts[..3]), "N")],
     },
     would_tell: "repeat that orientation",
 };
@@ -59,12 +47,7 @@ fn members(case: &Case, at: usize) -> Vec<Member> {
         })
     };
     let free = |own: usize| case.column(|i, c| if here(i) && c == own { 1.0 } else { 0.0 });
-    let member = |columns: Vec<Vec<f64>>, shape: f64| Member {
-        columns,
-        size: Size::Free,
-        positive: None,
-        shape: vec![shape],
-    };
+    let member = |columns: Vec<Vec<f64>>, shape: f64| together(columns, &[shape]);
     vec![
         member((0..3).map(turned).collect(), 0.0),
         member((0..6).map(free).collect(), 1.0),

@@ -2,8 +2,7 @@
 
 use super::Case;
 use crate::findings::engine::Member;
-use crate::findings::table::{self, Pattern};
-use crate::inference::gaussian::Size;
+use crate::findings::table::{self, Pattern, together};
 
 /// All of them.
 pub(super) const PATTERNS: &[Pattern<Case>] = &[
@@ -29,15 +28,6 @@ pub(super) const PATTERNS: &[Pattern<Case>] = &[
     },
 ];
 
-fn free(columns: Vec<Vec<f64>>, shape: f64) -> Member {
-    Member {
-        columns,
-        size: Size::Free,
-        positive: None,
-        shape: vec![shape],
-    }
-}
-
 /// All zeros from a point on, but the first and the last, which are outliers.
 fn jumps(case: &Case) -> Vec<Member> {
     let count = case.points.1.len();
@@ -45,7 +35,7 @@ fn jumps(case: &Case) -> Vec<Member> {
         let channel = |own: usize| {
             case.column(|i, c| f64::from(u8::from(c == own && case.points.0[i] >= point)))
         };
-        free((0..6).map(channel).collect(), point as f64)
+        together((0..6).map(channel).collect(), &[point as f64])
     };
     (2..count.saturating_sub(1)).map(from).collect()
 }
@@ -84,14 +74,8 @@ fn bends(case: &Case) -> Vec<Member> {
                 }
             })
         };
-        free(
-            vec![
-                power(|x| x * x),
-                power(|x| x * x.abs()),
-                power(|x| x.powi(3)),
-            ],
-            own as f64,
-        )
+        let powers: [fn(f64) -> f64; 3] = [|x| x * x, |x| x * x.abs(), |x| x.powi(3)];
+        together(powers.map(power).to_vec(), &[own as f64])
     };
     (0..6)
         .map(bend)

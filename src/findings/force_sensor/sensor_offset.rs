@@ -2,8 +2,7 @@
 
 use super::Case;
 use crate::findings::engine::Member;
-use crate::findings::table::{Effect, Place};
-use crate::inference::gaussian::Size;
+use crate::findings::table::{Effect, Place, together};
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "sensor_offset",
@@ -45,13 +44,7 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 };
 
 fn member(case: &Case, channels: &[usize]) -> Member {
-    Member {
-        columns: channels
-            .iter()
-            .map(|own| case.column(|_, c| f64::from(u8::from(c == *own))))
-            .collect(),
-        size: Size::Free,
-        positive: None,
-        shape: channels.iter().map(|c| *c as f64).collect(),
-    }
+    let one = |own: &usize| case.column(|_, c| f64::from(u8::from(c == *own)));
+    let shape: Vec<f64> = channels.iter().map(|c| *c as f64).collect();
+    together(channels.iter().map(one).collect(), &shape)
 }

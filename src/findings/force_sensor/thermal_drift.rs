@@ -2,8 +2,7 @@
 
 use super::Case;
 use crate::findings::engine::Member;
-use crate::findings::table::{self, Effect, Place};
-use crate::inference::gaussian::Size;
+use crate::findings::table::{self, Effect, Place, together, warmed};
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "thermal_drift",
@@ -44,26 +43,14 @@ fn members(case: &Case) -> Vec<Member> {
 }
 
 fn member(case: &Case, constant: f64, channels: &[usize]) -> Member {
-    let warm = |u: f64| match constant {
-        0.0 => u,
-        c => (1.0 - (-u / c).exp()) / (1.0 - (-1.0 / c).exp()),
-    };
     let one = |own: usize| {
-        case.column(|i, c| {
-            if c == own {
-                warm(case.progress[i])
-            } else {
-                0.0
-            }
+        case.column(|i, c| match c == own {
+            true => warmed(case.progress[i], constant),
+            false => 0.0,
         })
     };
-    Member {
-        columns: channels.iter().map(|own| one(*own)).collect(),
-        size: Size::Free,
-        positive: None,
-        shape: [constant]
-            .into_iter()
-            .chain(channels.iter().map(|c| *c as f64))
-            .collect(),
-    }
+    let columns = channels.iter().map(|own| one(*own)).collect();
+    let channels = channels.iter().map(|c| *c as f64);
+    let shape: Vec<f64> = std::iter::once(constant).chain(channels).collect();
+    together(columns, &shape)
 }

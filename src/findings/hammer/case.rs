@@ -278,12 +278,8 @@ impl Case<'_> {
 }
 
 fn verdict(named: &Named, left: bool, explained: f64) -> Verdict {
-    match (named.causes.is_empty() && named.groups.is_empty(), left) {
-        (true, true) => Verdict::UnknownCause,
-        (true, false) => Verdict::Sufficient,
-        (false, true) if explained < THE_STORY => Verdict::UnknownCause,
-        (false, true) => Verdict::PartlyExplained,
-        (false, false) if named.causes.is_empty() => Verdict::CannotTell,
-        (false, false) => Verdict::Explained,
+    match Verdict::of(named.causes.len(), named.groups.len(), left) {
+        Verdict::PartlyExplained if explained < THE_STORY => Verdict::UnknownCause,
+        other => other,
     }
 }

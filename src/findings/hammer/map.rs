@@ -37,8 +37,6 @@ pub struct Fit {
     pub residual: DVector<f64>,
     /// Weighted slopes.
     pub slopes: DMatrix<f64>,
-    /// Matrices of the nuisances.
-    pub nuisance: Nuisance,
 }
 
 /// A point with what it leaves, and its weighted slopes with their normal matrix once asked for.
@@ -145,7 +143,6 @@ impl Cost<'_> {
             precision,
             residual: here.residual,
             slopes,
-            nuisance: self.nuisance,
         };
         fit.evidence = fit.evidence_at(1.0).ok_or_else(singular)?;
         Ok(fit)

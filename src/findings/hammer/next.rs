@@ -180,19 +180,8 @@ fn kept(fit: &Fit, point: &Point) -> DMatrix<f64> {
 
 /// The explanation taken along; a fresh instrument leaves its faults behind.
 fn carried(fit: &Fit, fresh: bool) -> Point {
-    let mut point = Point::nothing();
-    point.theta.clone_from(&fit.point.theta);
-    for (suspect, amounts) in fit.point.each() {
-        if suspect.is_physical() || !fresh {
-            let scaled: Vec<f64> = amounts
-                .iter()
-                .zip(suspect.spreads())
-                .map(|(a, s)| a / s)
-                .collect();
-            point = point.and(suspect, &scaled);
-        }
-    }
-    point
+    fit.point
+        .with_only(|suspect| suspect.is_physical() || !fresh)
 }
 
 fn rows(machine: &Machine, point: &Point, data: &Data) -> Outcome<Vec<f64>> {

@@ -60,6 +60,17 @@ impl Point {
         self.set.iter().zip(amounts).collect()
     }
 
+    /// Where it ended, with only some of its causes.
+    pub fn with_only(&self, keep: impl Fn(&Suspect) -> bool) -> Self {
+        let mut point = Self::nothing();
+        point.theta.clone_from(&self.theta);
+        for (own, amounts) in self.each().into_iter().filter(|(own, _)| keep(own)) {
+            let scaled = amounts.iter().zip(own.spreads()).map(|(a, s)| a / s);
+            point = point.and(own, &scaled.collect::<Vec<_>>());
+        }
+        point
+    }
+
     /// Bounds of all amounts.
     pub fn bounds(&self) -> Vec<[f64; 2]> {
         self.set.iter().flat_map(Suspect::bounds).collect()

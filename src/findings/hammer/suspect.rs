@@ -3,6 +3,7 @@
 use crate::causes::{self, Amount, Cause, Sight};
 use crate::effects::Family;
 use crate::findings::belief::Place;
+use crate::ground::stats::largest;
 use crate::robot::Robot;
 
 /// Where an amount that cannot be negative starts to exist, in spreads.
@@ -31,9 +32,7 @@ impl Suspect {
     /// Spread of each amount: the prior's standard deviation, as far as its starts reach.
     pub fn spreads(&self) -> Vec<f64> {
         let amounts = self.amounts().iter();
-        amounts
-            .map(|a| a.starts.iter().fold(0.0_f64, |m, s| m.max(s.abs())))
-            .collect()
+        amounts.map(|a| largest(a.starts)).collect()
     }
 
     /// Bounds of each amount, in spreads.

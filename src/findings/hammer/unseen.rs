@@ -44,19 +44,7 @@ pub fn gain(machine: &Machine, folds: &[Fold], suspect: &Suspect) -> Gain {
 
 /// The set of `chosen` without `suspect`, where it ended.
 pub fn without(chosen: &Point, suspect: &Suspect) -> Point {
-    let mut point = Point::nothing();
-    point.theta.clone_from(&chosen.theta);
-    for (own, amounts) in chosen.each() {
-        if !same(own, suspect) {
-            let scaled: Vec<f64> = amounts
-                .iter()
-                .zip(own.spreads())
-                .map(|(a, s)| a / s)
-                .collect();
-            point = point.and(own, &scaled);
-        }
-    }
-    point
+    chosen.with_only(|own| !same(own, suspect))
 }
 
 /// Per pair: weighted sum of squares on held-out hits, and sum of weights.

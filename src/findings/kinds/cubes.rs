@@ -5,6 +5,7 @@ use crate::findings::cubes::Case;
 use crate::findings::engine::{Found, Judgement};
 use crate::fit::suitability::{self, Doubt};
 use crate::ground::problem::Outcome;
+use crate::ground::stats::rms;
 use crate::measurement::cubes::CubeTest;
 use crate::robot::load;
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
@@ -103,8 +104,8 @@ impl Case {
             .iter()
             .zip(values)
             .filter(|(r, _)| r.cube == cube && r.component / 3 == first / 3)
-            .map(|(_, v)| v * v)
+            .map(|(_, v)| *v)
             .collect();
-        (own.iter().sum::<f64>() / own.len().max(1) as f64).sqrt()
+        rms(&own)
     }
 }

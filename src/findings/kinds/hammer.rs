@@ -64,11 +64,7 @@ impl Diagnosed for HammerDiagnosis {
     }
 
     fn source(&self) -> Source<'_> {
-        Source {
-            path: &self.path,
-            sha256: &self.record.sha256,
-            synthetic: self.record.synthetic,
-        }
+        Source::new(&self.path, &self.record.sha256, self.record.synthetic)
     }
 
     fn about(&self) -> String {

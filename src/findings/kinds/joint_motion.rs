@@ -4,7 +4,9 @@ use super::{Diagnosed, Source};
 use crate::findings::Answer;
 use crate::findings::joint_motion::{JointFinding, MotionDiagnosis, diagnose, judgement};
 use crate::fit::joint_motion_store::{SCHEMA, StoredCause, StoredMotion, StoredValue};
+use crate::ground::files;
 use crate::ground::problem::Outcome;
+use crate::ground::stats::largest;
 use crate::measurement::joint_motion::JointMotion;
 use crate::robot;
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
@@ -37,11 +39,11 @@ impl Diagnosed for Motion {
     }
 
     fn source(&self) -> Source<'_> {
-        Source {
-            path: &self.file.path,
-            sha256: &self.file.sha256,
-            synthetic: self.file.facts.synthetic,
-        }
+        Source::new(
+            &self.file.path,
+            &self.file.sha256,
+            self.file.facts.synthetic,
+        )
     }
 
     fn about(&self) -> String {
@@ -97,11 +99,11 @@ impl Motion {
             site: c.site.clone(),
             parameters: c.parameters.iter().map(value).collect(),
         });
-        let input = self.file.path.file_name().unwrap_or_default();
+        let input = files::name(&self.file.path);
         StoredMotion {
             schema: SCHEMA.into(),
             version: env!("CARGO_PKG_VERSION").into(),
-            input: input.to_string_lossy().to_string(),
+            input,
             input_sha256: self.file.sha256.clone(),
             synthetic: self.file.facts.synthetic,
             robot: self.file.facts.robot.clone(),
@@ -114,10 +116,9 @@ impl Motion {
     /// Twist over time and over speed, measured against simulated and explained, and what is left.
     fn measured(&self, joint: &JointFinding) -> Chart {
         let data = &joint.data;
-        let largest = data.twist.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
-        let (scale, unit) = prefix(largest, "rad");
+        let (scale, unit) = prefix(largest(&data.twist), "rad");
         let left = joint.residual();
-        let (fine, fine_unit) = prefix(left.iter().fold(0.0_f64, |m, y| m.max(y.abs())), "rad");
+        let (fine, fine_unit) = prefix(largest(&left), "rad");
         let time = || Axis::new("Time", "s");
         let twist = || Axis::new("Link − motor angle", unit.clone());
         let over = |x: &[f64], y: &[f64], scale: f64| -> Vec<[f64; 2]> {
@@ -167,14 +168,8 @@ impl Motion {
         .synthetic(self.file.facts.synthetic);
         self.found.joints.iter().fold(chart, |chart, joint| {
             let left = joint.residual();
-            let largest = left.iter().fold(0.0_f64, |m, y| m.max(y.abs()));
-            let (scale, unit) = prefix(largest, "rad");
-            let load = joint
-                .data
-                .torque
-                .iter()
-                .fold(0.0_f64, |m, y| m.max(y.abs()));
-            let (load_scale, load_unit) = prefix(load, "N·m");
+            let (scale, unit) = prefix(largest(&left), "rad");
+            let (load_scale, load_unit) = prefix(largest(&joint.data.torque), "N·m");
             let torque = joint.data.torque.iter();
             let points = torque.zip(&left).map(|(t, y)| [t * load_scale, y * scale]);
             chart.with(

@@ -5,7 +5,7 @@ use super::{Diagnosed, Source};
 use crate::experiments::load_cycle::Curves;
 use crate::findings::Answer;
 use crate::findings::load_cycle::{Diagnosis, Settings, diagnose};
-use crate::fit::store::{SCHEMA, StoredFit, stored_effects, stored_scale};
+use crate::fit::store::StoredFit;
 use crate::ground::problem::Outcome;
 use crate::measurement::load_cycle::LoadCycle;
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
@@ -69,11 +69,11 @@ impl Diagnosed for CycleDiagnosis {
     }
 
     fn source(&self) -> Source<'_> {
-        Source {
-            path: &self.file.path,
-            sha256: &self.file.sha256,
-            synthetic: self.file.facts.synthetic,
-        }
+        Source::new(
+            &self.file.path,
+            &self.file.sha256,
+            self.file.facts.synthetic,
+        )
     }
 
     fn about(&self) -> String {
@@ -114,22 +114,8 @@ impl Diagnosed for CycleDiagnosis {
 
 impl CycleDiagnosis {
     fn stored(&self) -> StoredFit {
-        StoredFit {
-            schema: SCHEMA.into(),
-            version: env!("CARGO_PKG_VERSION").into(),
-            input: self
-                .file
-                .path
-                .file_name()
-                .map(|n| n.to_string_lossy().to_string())
-                .unwrap_or_default(),
-            input_sha256: self.file.sha256.clone(),
-            synthetic: self.file.facts.synthetic,
-            site: self.file.site(),
-            model: stored_effects(&self.found.model, &self.found.p),
-            scale: stored_scale(&self.found.data.scene),
-            parameters: Vec::new(),
-        }
+        let found = &self.found;
+        StoredFit::of(&self.file, &found.model, &found.p, &found.data.scene)
     }
 }
 

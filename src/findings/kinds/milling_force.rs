@@ -43,11 +43,11 @@ pub fn diagnosed(path: &Path) -> Outcome<Box<dyn Diagnosed>> {
 
 impl Measured for Case {
     fn source(&self) -> Source<'_> {
-        Source {
-            path: &self.file().path,
-            sha256: &self.file().sha256,
-            synthetic: self.file().facts.synthetic,
-        }
+        Source::new(
+            &self.file().path,
+            &self.file().sha256,
+            self.file().facts.synthetic,
+        )
     }
 
     fn about(&self) -> String {

@@ -43,13 +43,18 @@ pub struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    /// Of a file whose rows are single readings.
-    pub fn of<F: Kind>(test: &'a Test<F>, synthetic: bool) -> Self {
+    /// A file with its hash.
+    pub fn new(path: &'a Path, sha256: &'a str, synthetic: bool) -> Self {
         Self {
-            path: &test.path,
-            sha256: &test.sha256,
+            path,
+            sha256,
             synthetic,
         }
+    }
+
+    /// Of a file whose rows are single readings.
+    pub fn of<F: Kind>(test: &'a Test<F>, synthetic: bool) -> Self {
+        Self::new(&test.path, &test.sha256, synthetic)
     }
 }
 

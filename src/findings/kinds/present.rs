@@ -8,6 +8,7 @@ use crate::fit::imposed::is_imposed;
 use crate::fit::parameter::{Status, Z95};
 use crate::fit::store::StoredFit;
 use crate::ground::problem::{Outcome, Problem};
+use crate::ground::stats::largest;
 use crate::measurement::load_cycle::{Axis, LEVER_REL_STD, LoadCycle, Port};
 use crate::robot::load::{Loaded, load};
 use crate::robot::spring::Spring;
@@ -155,10 +156,9 @@ const CONTACT: f64 = 0.02;
 fn gapped(spring: &Spring, file: &LoadCycle) -> Option<Present> {
     let gap: f64 = spring.backlash.iter().sum();
     let model = Composite::named(&["backlash"]).ok().filter(|_| gap > 0.0)?;
-    let largest = file.load.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     Some(Present {
         model,
-        p: vec![spring.stiffness, gap, CONTACT * largest],
+        p: vec![spring.stiffness, gap, CONTACT * largest(&file.load)],
         scale: None,
         shapes: false,
     })

@@ -9,6 +9,7 @@ use crate::findings::workspace::{Limit, WorkspaceDiagnosis, diagnose, judgement}
 use crate::findings::{Answer, Verdict};
 use crate::fit::force_steps::Setup;
 use crate::fit::validation::mean_and_max;
+use crate::ground::files;
 use crate::ground::problem::Outcome;
 use crate::ground::spatial::M3;
 use crate::measurement::workspace_test::{DIRECTIONS, WorkspaceTest};
@@ -48,11 +49,11 @@ impl Diagnosed for Workspace {
     }
 
     fn source(&self) -> Source<'_> {
-        Source {
-            path: &self.test.path,
-            sha256: &self.test.sha256,
-            synthetic: self.test.facts.synthetic,
-        }
+        Source::new(
+            &self.test.path,
+            &self.test.sha256,
+            self.test.facts.synthetic,
+        )
     }
 
     fn about(&self) -> String {
@@ -145,7 +146,7 @@ impl Workspace {
     /// The extended robot as a file, with where it comes from.
     fn extended(&self) -> String {
         let mut robot = self.found.extended.clone();
-        let name = self.test.path.file_name().unwrap_or_default();
+        let name = files::name(&self.test.path);
         let short: String = self.test.sha256.chars().take(12).collect();
         let causes = self.found.causes.iter();
         let causes: Vec<String> = causes
@@ -155,7 +156,7 @@ impl Workspace {
             "Extended by ident {} diagnose from {}, {} {short}: {}.",
             env!("CARGO_PKG_VERSION"),
             self.robot.path,
-            name.to_string_lossy(),
+            name,
             causes.join(", ")
         ));
         write::labelled(&robot, self.test.facts.synthetic)

@@ -9,6 +9,7 @@ use super::unseen::{Split, gain, held_out};
 use crate::findings::answer::{Cause, LIMIT};
 use crate::fit::parameter::Z95;
 use crate::fit::solution::unit_of;
+use crate::ground::stats::difference;
 use nalgebra::{DMatrix, DVector};
 
 /// A law whose curve moves by less than this share of its own size is the same law.
@@ -55,7 +56,7 @@ impl Case<'_> {
         let whole = model.predict(p, scene);
         let (bare, q) = without(model, p, place.as_slice());
         let bare = bare.predict(&q, scene);
-        let found = whole.iter().zip(&bare).map(|(a, b)| a - b).collect();
+        let found = difference(&whole, &bare);
         let found = less_spring(found, &scene.load);
         let own = less_spring(present.beyond_spring(scene, Some(cause)), &scene.load);
         let moved = rms(found.iter().zip(&own).map(|(a, b)| a - b));

@@ -1,6 +1,5 @@
 //! From named causes to the verdict: what is left, and how far the present simulation is off.
 
-use super::adequacy::Adequacy;
 use super::case::Case;
 use super::diagnosis::Diagnosis;
 use super::naming::Named;
@@ -8,7 +7,7 @@ use super::refine::Refined;
 use super::structure;
 use crate::effects::Composite;
 use crate::findings::answer::{Answer, Verdict};
-use crate::ground::stats::rms;
+use crate::ground::stats::{difference, rms};
 
 impl Case<'_> {
     /// The diagnosis. `shapes`: what changes the curve; `others`: scales and lattices.
@@ -32,19 +31,12 @@ impl Case<'_> {
         let (model, p) = self.extended(&chosen, &named);
         let extended = model.predict(&p, &self.data.scene);
         let simulated = self.simulated(scaled);
-        let misses = |f: &[f64]| -> Vec<f64> {
-            self.data
-                .reading
-                .iter()
-                .zip(f)
-                .map(|(y, f)| y - f)
-                .collect()
-        };
+        let misses = |f: &[f64]| -> Vec<f64> { difference(&self.data.reading, f) };
         let missed = misses(&simulated);
         let noise = self.found.answer.discrepancy.noise_rms;
         let discrepancy = structure::discrepancy(&missed, &self.data, noise);
         let answer = Answer {
-            verdict: verdict(&named, left),
+            verdict: Verdict::of(named.causes.len(), named.groups.len(), left),
             discrepancy,
             causes: named.causes,
             groups: named.groups,
@@ -52,14 +44,8 @@ impl Case<'_> {
             doubts: Vec::new(),
             ..self.found.answer.clone()
         };
-        let adequacy = Adequacy {
-            p_value: answer.p_value,
-            unexplained: answer.unexplained.share_of_variance,
-            test: "generic structure",
-        };
         Diagnosis {
             answer,
-            adequacy,
             model,
             p,
             simulated,
@@ -97,15 +83,5 @@ impl Case<'_> {
             _ => self.plain.optimum.p[0],
         };
         scene.load.iter().map(|m| m / stiffness).collect()
-    }
-}
-
-fn verdict(named: &Named, left: bool) -> Verdict {
-    match (named.causes.is_empty() && named.groups.is_empty(), left) {
-        (true, true) => Verdict::UnknownCause,
-        (true, false) => Verdict::Sufficient,
-        (false, true) => Verdict::PartlyExplained,
-        (false, false) if named.causes.is_empty() => Verdict::CannotTell,
-        (false, false) => Verdict::Explained,
     }
 }

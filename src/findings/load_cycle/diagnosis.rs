@@ -1,6 +1,5 @@
 //! The diagnosis of one load-cycle file: from the screen to the verdict.
 
-use super::adequacy::Adequacy;
 use super::case::Case;
 use super::imposed::diagnose_imposed;
 use super::present::Present;
@@ -15,8 +14,6 @@ use crate::measurement::load_cycle::LoadCycle;
 pub struct Diagnosis {
     /// The answer.
     pub answer: Answer,
-    /// Is anything left?
-    pub adequacy: Adequacy,
     /// The extended model.
     pub model: Composite,
     /// Its parameters, SI.

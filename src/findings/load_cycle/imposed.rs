@@ -5,7 +5,6 @@
 //! own error is far above the noise, and a channel's fault would be blamed for it. For the same
 //! reason no evidence is compared: the probability of a cause is that of its gain on unseen cycles.
 
-use super::adequacy::Adequacy;
 use super::diagnosis::Diagnosis;
 use super::structure;
 use super::unseen::{Split, gain, held_out};
@@ -15,6 +14,7 @@ use crate::findings::gain::Gain;
 use crate::fit::imposed::{observe, solve};
 use crate::fit::observation::{MOST_ROWS, Observation};
 use crate::fit::solution::{Solution, unit_of};
+use crate::ground::stats::difference;
 use crate::measurement::load_cycle::{LoadCycle, Port};
 use crate::signal::colour::Colour;
 use crate::signal::smooth::noise;
@@ -130,13 +130,7 @@ fn conclude(
         (false, true) => Verdict::PartlyExplained,
         (false, false) => Verdict::Explained,
     };
-    let fitted = |s: &Solution| {
-        data.reading
-            .iter()
-            .zip(&s.residual)
-            .map(|(y, r)| y - r)
-            .collect::<Vec<_>>()
-    };
+    let fitted = |s: &Solution| difference(&data.reading, &s.residual);
     let answer = Answer {
         verdict,
         discrepancy,
@@ -152,11 +146,6 @@ fn conclude(
     };
     Diagnosis {
         answer,
-        adequacy: Adequacy {
-            p_value: 0.0,
-            unexplained: share,
-            test: "lack of fit",
-        },
         simulated: fitted(&plain),
         extended: fitted(&chosen),
         model: chosen.model.clone(),

@@ -2,6 +2,7 @@
 
 use crate::findings::gain::Gain;
 use crate::fit::parameter::Z95;
+use crate::ground::stats::mean;
 
 /// Step of the lattice on which the values lie, if they do: the largest distance between
 /// neighbouring distinct values that explains nearly all the others as its multiples.
@@ -55,7 +56,7 @@ fn lattice_of(gaps: &[f64], first: f64) -> Option<f64> {
         .copied()
         .filter(|g| (g / first - 1.0).abs() < 0.15)
         .collect();
-    let step = near.iter().sum::<f64>() / near.len().max(1) as f64;
+    let step = mean(&near);
     // only short distances can tell a multiple from chance
     let short: Vec<f64> = gaps
         .iter()

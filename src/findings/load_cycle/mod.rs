@@ -4,7 +4,6 @@
 //! of causes in turn (`statement`, `noise`, and the common engine) → the named laws fitted (`case`,
 //! `refine`) → scales and lattice → what is left → verdict (`conclusion`).
 
-pub mod adequacy;
 mod beyond;
 mod case;
 mod conclusion;

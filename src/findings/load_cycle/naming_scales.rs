@@ -8,6 +8,7 @@ use super::unseen::{Split, gain, held_out};
 use crate::experiments::load_cycle::{settle, settled_cycle};
 use crate::findings::answer::{Cause, Group};
 use crate::findings::gain::Gain;
+use crate::ground::stats::{difference, largest};
 
 /// A law that misses the truth by this share of its own size still counts as right.
 const FORMULA_ERROR: f64 = 0.07;
@@ -25,12 +26,7 @@ impl Case<'_> {
 
     /// How far a set's stiffness is from the nominal one.
     fn excess(&self, chosen: &Refined) -> Option<f64> {
-        let (low, high) = self
-            .data
-            .scene
-            .load
-            .iter()
-            .fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
+        let (low, high) = self.data.load_range();
         let (load, deflection) = settled_cycle(
             &chosen.model,
             &chosen.optimum.p,
@@ -44,11 +40,10 @@ impl Case<'_> {
 
     /// Relative standard error of the spring, with what an error of the laws beside it may take over.
     fn relative_error(&self, chosen: &Refined) -> f64 {
-        let largest = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let spring = chosen.optimum.p[0];
         let elastic: Vec<f64> = self.data.scene.load.iter().map(|m| m / spring).collect();
         let whole = chosen.model.predict(&chosen.optimum.p, &self.data.scene);
-        let beside: Vec<f64> = whole.iter().zip(&elastic).map(|(a, b)| a - b).collect();
+        let beside: Vec<f64> = difference(&whole, &elastic);
         let taken = FORMULA_ERROR * largest(&beside) / largest(&elastic).max(f64::MIN_POSITIVE);
         self.spring_error(chosen).hypot(taken)
     }

@@ -5,6 +5,7 @@
 
 use crate::experiments::load_cycle::Settled;
 use crate::fit::second::log_ratio;
+use crate::ground::stats::ends;
 use crate::measurement::load_cycle::LoadCycle;
 
 /// What the scales say.
@@ -21,8 +22,6 @@ pub struct ScaleFinding {
     pub candidates: Vec<(&'static str, String, f64)>,
     /// Relative excess of reading over expectation.
     pub excess: f64,
-    /// Its standard deviation under the stated uncertainties.
-    pub spread: f64,
 }
 
 /// Stated spreads where the file states none.
@@ -42,9 +41,7 @@ pub fn nominal_excess(file: &LoadCycle, spring: f64, settled: &Settled) -> Optio
         .filter(|k| **k > 0.0)
         .map(|k| (nominal / k).ln())
         .collect();
-    let (low, high) = logs
-        .iter()
-        .fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
+    let (low, high) = ends(&logs);
     if logs.is_empty() {
         return None;
     }
@@ -69,7 +66,7 @@ pub fn judge(file: &LoadCycle, excess: Option<f64>, stderr: f64) -> Scales {
     };
     let between = (2.0 * spreads.lever.powi(2) + error * error).sqrt();
     if ratio.abs() > LIMIT * between {
-        let (wrong, finding) = disagreement(ratio, between, excess, &spreads);
+        let (wrong, finding) = disagreement(ratio, excess, &spreads);
         scales.findings.push(finding);
         let good = excess.map(|e| if wrong == 1 { e + ratio } else { e });
         scales
@@ -104,12 +101,7 @@ impl Spreads {
 }
 
 /// The lasers disagree: which one is off, and whether it can be an inclined one (reads too little).
-fn disagreement(
-    ratio: f64,
-    between: f64,
-    excess: Option<f64>,
-    spreads: &Spreads,
-) -> (usize, ScaleFinding) {
+fn disagreement(ratio: f64, excess: Option<f64>, spreads: &Spreads) -> (usize, ScaleFinding) {
     let nats = |e: f64| -0.5 * (e / spreads.total).powi(2);
     let odds = excess.map_or(0.0, |e| nats(e + ratio) - nats(e));
     let wrong = if odds >= 0.0 { 1 } else { 2 };
@@ -129,7 +121,6 @@ fn disagreement(
         ScaleFinding {
             candidates,
             excess: off.exp_m1(),
-            spread: between,
         },
     )
 }
@@ -157,7 +148,6 @@ fn agreed(file: &LoadCycle, excess: f64, spreads: &Spreads) -> Option<ScaleFindi
     Some(ScaleFinding {
         candidates,
         excess: excess.exp_m1(),
-        spread: spreads.total,
     })
 }
 
@@ -193,6 +183,5 @@ fn alone(file: &LoadCycle, excess: f64, spreads: &Spreads) -> Option<ScaleFindin
     Some(ScaleFinding {
         candidates,
         excess: excess.exp_m1(),
-        spread: spreads.total,
     })
 }

@@ -15,7 +15,7 @@ use crate::findings::engine::{
     Aspects, Blamed, Experiment, Judgement, Member, Nuisance, Remaining, Statement, Suspect,
 };
 use crate::fit::observation::Observation;
-use crate::ground::stats::rms;
+use crate::ground::stats::{difference, rms};
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
@@ -52,12 +52,7 @@ impl<'a> Record<'a> {
     ) -> Self {
         let view = View::of(data);
         let elastic = elastic(data);
-        let left: Vec<f64> = data
-            .reading
-            .iter()
-            .zip(elastic)
-            .map(|(y, e)| y - e)
-            .collect();
+        let left: Vec<f64> = difference(&data.reading, &elastic);
         let first = stated.unwrap_or(0.0).max(rough(&left));
         let digits = 1e-9 * data.scene.deflection_scale;
         let cosine = Arc::new(crate::signal::cosine::Cosine::new(data.rows()));

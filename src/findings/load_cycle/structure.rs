@@ -4,6 +4,7 @@ use crate::findings::answer::{Discrepancy, Structure};
 use crate::findings::engine::Remaining;
 use crate::fit::observation::Observation;
 use crate::fit::screen::directions;
+use crate::ground::stats::ends;
 
 /// Bins of the pictures.
 const BINS: usize = 12;
@@ -93,10 +94,8 @@ pub fn structure(
     let shape = binned(&data.scene.load, residual);
     let over_time = binned(&data.scene.time, residual);
     let swing = |v: &[[f64; 2]]| {
-        v.iter()
-            .fold((f64::MAX, f64::MIN), |(l, h), p| (l.min(p[1]), h.max(p[1])))
-            .1
-            - v.iter().fold(f64::MAX, |l, p| l.min(p[1]))
+        let (low, high) = ends(&v.iter().map(|p| p[1]).collect::<Vec<_>>());
+        high - low
     };
     let description = match (test, swing(&shape) > swing(&over_time)) {
         ("periodic line", _) => "a periodic oscillation in time that follows no load.".to_string(),
@@ -123,9 +122,7 @@ pub fn remaining(residual: &[f64], data: &Observation) -> Remaining {
 
 /// Means of `y` in bins of `x`.
 pub fn binned(x: &[f64], y: &[f64]) -> Vec<[f64; 2]> {
-    let (low, high) = x
-        .iter()
-        .fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
+    let (low, high) = ends(x);
     if high <= low {
         return Vec::new();
     }

@@ -4,6 +4,7 @@ use crate::effects::Composite;
 use crate::findings::gain::Gain;
 use crate::fit::least_squares::{Problem, minimise};
 use crate::fit::observation::Observation;
+use crate::ground::stats::difference;
 use crate::inference::descent::Stop;
 use crate::signal::colour::Colour;
 
@@ -72,7 +73,7 @@ pub fn gain(before: &[f64], after: &[f64], data: &Observation) -> Gain {
     let n = before.len() as f64;
     let square = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>() / n;
     let (b, a) = (square(before), square(after).max(f64::MIN_POSITIVE));
-    let mut lifted: Vec<f64> = before.iter().zip(after).map(|(x, y)| x - y).collect();
+    let mut lifted: Vec<f64> = difference(before, after);
     data.cosine.transform(&mut lifted);
     let spectrum = spectrum(after, data);
     let (mut ss, mut ds) = (0.0, 0.0);

@@ -6,6 +6,7 @@ use super::hold::{Lever, levers};
 use crate::findings::engine::{Blamed, Member};
 use crate::findings::table::{Effect, Place};
 use crate::ground::spatial::{V3, scale};
+use crate::ground::stats::largest;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "backlash",
@@ -106,7 +107,7 @@ fn dragged(angles: &[f64], gap: f64) -> Vec<f64> {
 
 /// +1 or −1, kept while what drives it is idle; none where it never changes.
 fn flanks(drive: &[f64]) -> Option<Vec<f64>> {
-    let most = drive.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
+    let most = largest(drive);
     let clear = |d: &f64| d.abs() > IDLE * most;
     let mut now = drive.iter().find(|d| clear(d))?.signum();
     let side: Vec<f64> = drive

@@ -7,6 +7,7 @@ use super::{Case, EFFECTS, Stated};
 use crate::findings::engine::{Aspects, Blamed, Experiment, Remaining, Statement};
 use crate::findings::physics;
 use crate::findings::table;
+use crate::ground::stats::{farthest, largest};
 
 /// Readings that a stated noise is worth.
 const WORTH: f64 = 60.0;
@@ -70,17 +71,15 @@ impl Experiment for Case {
     }
 
     fn would_tell(&self, rivals: &[(&'static str, String)]) -> String {
-        let own = rivals
-            .iter()
-            .any(|r| EFFECTS.iter().any(|effect| effect.name == r.0));
-        match own {
-            true => table::would_tell(EFFECTS, rivals),
-            false => "mill with the tool turned to another orientation, or load the axes one by one (`ident stiffness`)".into(),
-        }
+        table::would_tell_or(
+            EFFECTS,
+            rivals,
+            "mill with the tool turned to another orientation, or load the axes one by one (`ident stiffness`)",
+        )
     }
 
     fn place(&self, missed: &[f64]) -> String {
-        let worst = (0..missed.len()).max_by(|a, b| missed[*a].abs().total_cmp(&missed[*b].abs()));
+        let worst = farthest(missed);
         worst.map_or("nowhere".into(), |i| {
             let station = &self.stations[self.rows[i].station];
             format!("largest at {:.1} mm of the path", 1e3 * station.s_m)
@@ -131,7 +130,7 @@ impl Case {
                 span.push(column.collect::<Vec<f64>>());
             }
         }
-        let sizes = self.simulated.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
+        let sizes = largest(&self.simulated);
         if sizes > 0.0 {
             let missed = missed(self).into_iter();
             span.extend(missed.map(|m| m.iter().map(|x| x / sizes).collect()));

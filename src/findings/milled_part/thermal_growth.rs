@@ -2,9 +2,8 @@
 
 use super::{Case, Station};
 use crate::findings::engine::{Blamed, Member};
-use crate::findings::table::{Effect, Place};
+use crate::findings::table::{Effect, Place, together, warmed};
 use crate::ground::spatial::{V3, add, norm, rotate_back, scale};
-use crate::inference::gaussian::Size;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "thermal_growth",
@@ -33,13 +32,6 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 
 /// Time constants over the length of the job; 0: in proportion to time.
 const CONSTANTS: [f64; 3] = [0.0, 0.2, 0.5];
-
-fn warm(progress: f64, constant: f64) -> f64 {
-    match constant {
-        0.0 => progress,
-        c => (1.0 - (-progress / c).exp()) / (1.0 - (-1.0 / c).exp()),
-    }
-}
 
 /// Where what is one moves the tool at a station before the cut answers: amount by amount, at a site.
 fn directions(case: &Case, site: &str, s: &Station) -> Vec<V3> {
@@ -72,7 +64,7 @@ pub(super) fn moves(case: &Case, blamed: &Blamed) -> Option<Vec<V3>> {
             let along = directions(case, &blamed.site, s);
             let each = along.iter().zip(&blamed.amounts);
             let whole = each.fold([0.0; 3], |sum, (d, a)| add(sum, scale(*a, *d)));
-            scale(warm(s.progress, blamed.shape[1]), whole)
+            scale(warmed(s.progress, blamed.shape[1]), whole)
         };
         case.stations.iter().map(at).collect()
     })
@@ -81,17 +73,12 @@ pub(super) fn moves(case: &Case, blamed: &Blamed) -> Option<Vec<V3>> {
 fn member(case: &Case, site: &str, constant: f64) -> Member {
     let each = case.stations.iter();
     let along: Vec<(f64, Vec<V3>)> = each
-        .map(|s| (warm(s.progress, constant), directions(case, site, s)))
+        .map(|s| (warmed(s.progress, constant), directions(case, site, s)))
         .collect();
     let count = along.first().map_or(0, |(_, d)| d.len());
     let column = |k: usize| {
         let moved: Vec<V3> = along.iter().map(|(w, d)| scale(*w, d[k])).collect();
         case.answered(&moved)
     };
-    Member {
-        columns: (0..count).map(column).collect(),
-        size: Size::Free,
-        positive: None,
-        shape: vec![-1.0, constant],
-    }
+    together((0..count).map(column).collect(), &[-1.0, constant])
 }

@@ -2,8 +2,7 @@
 
 use super::Case;
 use crate::findings::engine::Member;
-use crate::findings::table::{Effect, Place};
-use crate::inference::gaussian::Size;
+use crate::findings::table::{Effect, Place, together};
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "workpiece_offset",
@@ -23,12 +22,10 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 };
 
 fn members(case: &Case) -> Vec<Member> {
-    vec![Member {
-        columns: (0..3)
+    vec![together(
+        (0..3)
             .map(|k| case.column(|_, row| row.across[k]))
             .collect(),
-        size: Size::Free,
-        positive: None,
-        shape: vec![-1.0],
-    }]
+        &[-1.0],
+    )]
 }

@@ -2,9 +2,8 @@
 
 use super::Case;
 use crate::findings::engine::Member;
-use crate::findings::table::{Effect, Place};
+use crate::findings::table::{Effect, Place, together};
 use crate::ground::spatial::{V3, add, cross, dot, scale, sub};
-use crate::inference::gaussian::Size;
 use crate::measurement::job::Stock;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
@@ -34,11 +33,8 @@ fn members(case: &Case) -> Vec<Member> {
         let axis: V3 = std::array::from_fn(|i| f64::from(u8::from(i == k)));
         case.column(|s, row| dot(row.across, cross(axis, sub(s.tip, still))))
     };
-    let member = |(axes, still): (&[usize], V3)| Member {
-        columns: axes.iter().map(|k| about(*k, still)).collect(),
-        size: Size::Free,
-        positive: None,
-        shape: vec![-1.0],
+    let member = |(axes, still): (&[usize], V3)| {
+        together(axes.iter().map(|k| about(*k, still)).collect(), &[-1.0])
     };
     let forms: [&[usize]; 2] = [&[2], &[0, 1, 2]];
     let places = pivots(case).into_iter();

@@ -3,9 +3,8 @@
 
 use super::Case;
 use crate::findings::engine::Member;
-use crate::findings::table::{Effect, Place};
+use crate::findings::table::{Effect, Place, together};
 use crate::fit::screw::cyclic::Sight;
-use crate::inference::gaussian::Size;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "cyclic_error",
@@ -37,15 +36,13 @@ fn members(case: &Case) -> Vec<Member> {
     let wave = |h: i32| {
         let angle =
             |i: usize| std::f64::consts::TAU * f64::from(h) * case.test.readings[i].target / pitch;
-        Member {
-            columns: vec![
+        together(
+            vec![
                 case.column(|i| angle(i).sin()),
                 case.column(|i| angle(i).cos()),
             ],
-            size: Size::Free,
-            positive: None,
-            shape: vec![f64::from(h)],
-        }
+            &[f64::from(h)],
+        )
     };
     (1..=HARMONICS).map(wave).collect()
 }

@@ -7,6 +7,7 @@ use crate::findings::engine::{
 };
 use crate::findings::table;
 use crate::fit::screw::positions::in_mm;
+use crate::ground::stats::farthest;
 use crate::sheet::number::fixed;
 
 impl Experiment for Case {
@@ -48,7 +49,7 @@ impl Experiment for Case {
     }
 
     fn place(&self, missed: &[f64]) -> String {
-        let worst = (0..missed.len()).max_by(|a, b| missed[*a].abs().total_cmp(&missed[*b].abs()));
+        let worst = farthest(missed);
         let target = worst.map_or(0.0, |i| self.test.readings[i].target);
         format!("largest at {} mm", fixed(in_mm(target), 1))
     }

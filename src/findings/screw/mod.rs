@@ -11,6 +11,7 @@ mod wear_zone;
 
 use super::table::Effect;
 use crate::fit::screw::cyclic::Sight;
+use crate::ground::stats::mean;
 use crate::measurement::screw::ScrewTest;
 use std::collections::BTreeMap;
 
@@ -178,7 +179,7 @@ fn noise(test: &ScrewTest, deviation: &[f64]) -> (f64, f64) {
     match freedom {
         0..4 => (floor, 0.0),
         n => {
-            let mean = squares.iter().sum::<f64>() / squares.len().max(1) as f64;
+            let mean = mean(&squares);
             (
                 (mean / share).sqrt().max(0.3 * floor),
                 NEIGHBOURS * n as f64,

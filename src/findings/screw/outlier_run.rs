@@ -2,8 +2,7 @@
 
 use super::Case;
 use crate::findings::engine::Member;
-use crate::findings::table::{Effect, Place};
-use crate::inference::gaussian::Size;
+use crate::findings::table::{Effect, Place, together};
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "outlier_run",
@@ -40,12 +39,10 @@ fn members(case: &Case, run: i64) -> Vec<Member> {
             }
         }))
     };
-    let sloped = Member {
-        columns: vec![case.column(own), case.column(|i| own(i) * case.at[i])],
-        size: Size::Free,
-        positive: None,
-        shape: vec![1.0],
-    };
+    let sloped = together(
+        vec![case.column(own), case.column(|i| own(i) * case.at[i])],
+        &[1.0],
+    );
     let mut members = vec![Member::free(case.column(own)), sloped];
     if case.both_ways() {
         members.extend([way(1.0), way(-1.0)]);

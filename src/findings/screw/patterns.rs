@@ -3,8 +3,7 @@
 
 use super::Case;
 use crate::findings::engine::Member;
-use crate::findings::table::{self, Pattern};
-use crate::inference::gaussian::Size;
+use crate::findings::table::{self, Pattern, together};
 use std::f64::consts::TAU;
 
 /// All of them.
@@ -54,15 +53,13 @@ fn periods(case: &Case) -> Vec<Member> {
     let turns = (0..=count).map(|k| SLOWEST + STEP * f64::from(k));
     let wave = |turns: f64| {
         let angle = |i: usize| TAU * turns * case.at[i] / travel;
-        Member {
-            columns: vec![
+        together(
+            vec![
                 case.column(|i| angle(i).sin()),
                 case.column(|i| angle(i).cos()),
             ],
-            size: Size::Free,
-            positive: None,
-            shape: vec![travel / turns],
-        }
+            &[travel / turns],
+        )
     };
     turns.filter(|t| !own(*t)).map(wave).collect()
 }

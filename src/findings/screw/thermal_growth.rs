@@ -3,8 +3,7 @@
 
 use super::Case;
 use crate::findings::engine::Member;
-use crate::findings::table::{self, Effect, Place};
-use crate::inference::gaussian::Size;
+use crate::findings::table::{self, Effect, Place, together, warmed};
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "thermal_growth",
@@ -50,20 +49,12 @@ fn members(case: &Case) -> Vec<Member> {
 /// Growth over the lapse of each time constant: about the middle, and a shift, since the screw's fixed end is
 /// not known.
 fn member(case: &Case, lapse: &[f64], constants: &[f64]) -> Member {
-    let warm = |u: f64, constant: f64| match constant {
-        0.0 => u,
-        c => (1.0 - (-u / c).exp()) / (1.0 - (-1.0 / c).exp()),
-    };
     let two = |constant: &f64| {
-        let lever = |of: &dyn Fn(usize) -> f64| case.column(|i| of(i) * warm(lapse[i], *constant));
+        let lever =
+            |of: &dyn Fn(usize) -> f64| case.column(|i| of(i) * warmed(lapse[i], *constant));
         [lever(&|i| case.at[i]), lever(&|_| case.half)]
     };
-    Member {
-        columns: constants.iter().flat_map(two).collect(),
-        size: Size::Free,
-        positive: None,
-        shape: constants.to_vec(),
-    }
+    together(constants.iter().flat_map(two).collect(), constants)
 }
 
 /// Growth over the travel and shift, over half of it, in the last fifth of a record.

@@ -3,8 +3,7 @@
 
 use super::Case;
 use crate::findings::engine::Member;
-use crate::findings::table::{Effect, Place};
-use crate::inference::gaussian::Size;
+use crate::findings::table::{Effect, Place, together};
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "wear_zone",
@@ -85,10 +84,5 @@ fn member(case: &Case, centre: f64, width: f64, power: f64) -> Member {
     if case.both_ways() {
         columns.push(case.column(|i| case.side[i] * bump(i)));
     }
-    Member {
-        columns,
-        size: Size::Free,
-        positive: None,
-        shape: vec![centre, width, power],
-    }
+    together(columns, &[centre, width, power])
 }

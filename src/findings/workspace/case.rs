@@ -8,7 +8,7 @@ use super::patterns::Scene;
 use super::search::search;
 use super::seats::Seats;
 use super::set::Set;
-use super::smooth::{norm, smooth};
+use super::smooth::smooth;
 use super::weights::weigh;
 use crate::experiments::drive_law::{Law, STOP};
 use crate::experiments::workspace::Response;
@@ -16,7 +16,7 @@ use crate::findings::engine::Judgement;
 use crate::findings::engine::posterior::Posterior;
 use crate::fit::force_shapes::Shapes;
 use crate::fit::weighing::Weighing;
-use crate::ground::spatial::{M3, V3};
+use crate::ground::spatial::{M3, V3, norm};
 use crate::measurement::workspace_test::WorkspaceTest;
 use crate::robot::Robot;
 use nalgebra::DVector;
@@ -106,7 +106,7 @@ impl<'a> Case<'a> {
             let size = |p: usize, d: usize| {
                 let error: V3 =
                     std::array::from_fn(|k| smooth.read[p][d][k] - scene.base.slopes[p][d][k]);
-                (exact * norm(&smooth.read[p][d])).hypot(LAW * norm(&error))
+                (exact * norm(smooth.read[p][d])).hypot(LAW * norm(error))
             };
             weighing.tolerate(size);
             weighing.about_slopes(|p, d| smooth.read[p][d]);

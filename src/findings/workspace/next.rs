@@ -9,7 +9,7 @@ use crate::experiments::workspace::Response;
 use crate::fit::force_shapes::Shapes;
 use crate::fit::force_steps::Setup;
 use crate::fit::weighing::Weighing;
-use crate::ground::spatial::V3;
+use crate::ground::spatial::{V3, norm};
 use crate::robot::Robot;
 use nalgebra::{DMatrix, DVector};
 
@@ -204,7 +204,7 @@ fn separations(known: &Known, probe: &Probe, suspects: &[Suspect]) -> Vec<f64> {
         &complete(&known.shapes.setups, probe.complete),
         known.repeatability,
     );
-    weighing.tolerate(|p, d| MODEL * norm(&scene.reference[p][d]));
+    weighing.tolerate(|p, d| MODEL * norm(scene.reference[p][d]));
     weighing.about_slopes(|p, d| scene.reference[p][d]);
     let springs = match probe.sensor {
         None => weighing.design(
@@ -275,8 +275,4 @@ fn rows(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
         true => a[(i, j)],
         false => b[(i - n, j)],
     })
-}
-
-fn norm(v: &V3) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

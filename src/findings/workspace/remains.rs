@@ -4,6 +4,7 @@ use super::adequacy::{Adequacy, Squares};
 use super::case::Case;
 use super::set::Set;
 use crate::findings::answer::{Discrepancy, Structure};
+use crate::ground::stats::rms;
 use crate::measurement::workspace_test::DIRECTIONS;
 
 impl Case<'_> {
@@ -120,7 +121,7 @@ impl Case<'_> {
             .copied()
             .filter(|n| *n > 0.0)
             .collect();
-        let rms = (used.iter().map(|n| n * n).sum::<f64>() / used.len().max(1) as f64).sqrt();
+        let rms = rms(&used);
         let repeatability = self.test.facts.setup_repeatability;
         let shared = repeatability.map_or("no stated repeatability".to_string(), |r| {
             format!("{:.1} % of every set-up", 100.0 * r)

@@ -80,8 +80,3 @@ pub fn smooth(
         real: all(false),
     }
 }
-
-/// Length of a vector.
-pub fn norm(v: &V3) -> f64 {
-    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
-}

@@ -2,10 +2,11 @@
 //! where one of them explains the error best, the cause is unknown, and this is what is seen.
 
 use crate::causes::contract::{Amount, Blame, Card, Cause, Sight};
-use crate::causes::places::{UNIT_COMPLIANCE, added, number_in, soften};
+use crate::causes::places::{UNIT_COMPLIANCE, added, drives, number_in, soften};
 use crate::effects::Family;
 use crate::experiments::drive_law::Law;
 use crate::ground::spatial::V3;
+use crate::ground::stats::descending;
 use crate::robot::model::ElasticAxis;
 use crate::robot::{Robot, Spring};
 use nalgebra::{DMatrix, DVector};
@@ -98,13 +99,7 @@ const UNEVEN: Card = Card {
 };
 
 const fn share(name: &'static str, meaning: &'static str) -> Amount {
-    Amount {
-        name,
-        unit: "1",
-        meaning,
-        bounds: [0.0, 100.0],
-        starts: &[0.5],
-    }
+    Amount::new(name, "1", meaning, [0.0, 100.0], &[0.5])
 }
 
 const LAWS: [Law; 3] = [
@@ -142,11 +137,6 @@ impl Cause for Uneven {
     }
 }
 
-fn drives(robot: &Robot) -> Vec<String> {
-    let elastic = robot.joints.iter().filter(|joint| joint.drive.is_some());
-    elastic.map(|joint| joint.name.clone()).collect()
-}
-
 /// A drive whose compliance waves with its angle.
 pub struct Wave;
 
@@ -171,13 +161,13 @@ const WAVE: Card = Card {
 };
 
 const fn mode(name: &'static str) -> Amount {
-    Amount {
+    Amount::new(
         name,
-        unit: "1",
-        meaning: "excess of compliance that goes with one shape over the angle",
-        bounds: [-100.0, 100.0],
-        starts: &[0.3],
-    }
+        "1",
+        "excess of compliance that goes with one shape over the angle",
+        [-100.0, 100.0],
+        &[0.3],
+    )
 }
 
 impl Cause for Wave {
@@ -214,8 +204,7 @@ pub fn modes(
     let angles: Vec<f64> = measured.iter().map(|i| points[*i][joint]).collect();
     let root = root_of_kernel(&angles);
     let eigen = root.tr_mul(&root).symmetric_eigen();
-    let mut order: Vec<usize> = (0..root.ncols()).collect();
-    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+    let order = descending(eigen.eigenvalues.as_slice());
     let mut modes = DMatrix::zeros(angles.len(), WAVE.amounts.len());
     for (k, at) in order.iter().take(WAVE.amounts.len()).enumerate() {
         modes.set_column(k, &(&root * eigen.eigenvectors.column(*at)));

@@ -1,6 +1,7 @@
 //! Readings of one point become one: noise within a point is not what limits the fit.
 
 use crate::ground::problem::{Outcome, Problem};
+use crate::ground::stats::length;
 use crate::measurement::force_sensor::{Reading, SensorTest};
 
 /// The mean reading of one point.
@@ -76,7 +77,7 @@ impl Pose {
     }
 
     fn mean(mut self) -> Self {
-        let length = self.quaternion.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let length = length(&self.quaternion);
         self.quaternion = self.quaternion.map(|x| x / length.max(f64::MIN_POSITIVE));
         self.load = self.load.map(|x| x / self.count as f64);
         self

@@ -7,7 +7,8 @@ use super::poses::Pose;
 use super::remainder::terms;
 use super::statics::{N, sizes, slopes};
 use crate::ground::products;
-use crate::measurement::force_sensor::{matrix, quaternion};
+use crate::ground::spatial::of_quaternion;
+use crate::measurement::force_sensor::quaternion;
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 /// A remainder of few terms.
@@ -168,7 +169,7 @@ impl<'a> Bench<'a> {
 }
 
 fn entries(q: [f64; 4]) -> [f64; 9] {
-    let flat = matrix(q);
+    let flat = of_quaternion(q);
     std::array::from_fn(|k| flat[k / 3][k % 3])
 }
 

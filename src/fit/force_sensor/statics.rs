@@ -5,8 +5,9 @@
 //! d = (R Rot(ρ))ᵀ Rot(τ)ᵀ (0, 0, −1), weight W, centre of mass r (sensor frame) and offsets o:
 //! F = o_F + W d, M = o_M + W r × d.
 
-use crate::ground::spatial::{M3, V3, cross, norm, rotate_back, rotation, scale, unit};
-use crate::measurement::force_sensor::matrix;
+use crate::ground::spatial::{
+    M3, V3, cross, norm, of_quaternion, rotate_back, rotation, scale, unit,
+};
 
 /// Number of parameters.
 pub const N: usize = 15;
@@ -123,7 +124,7 @@ pub fn reading(p: &[f64; N], q: [f64; 4]) -> [f64; 6] {
     let gravity = rotate_back(&turned([p[13], p[14], 0.0]), [0.0, 0.0, -1.0]);
     let d = rotate_back(
         &turned([p[10], p[11], p[12]]),
-        rotate_back(&matrix(q), gravity),
+        rotate_back(&of_quaternion(q), gravity),
     );
     let (f, m) = (scale(p[0], d), cross([p[1], p[2], p[3]], scale(p[0], d)));
     [

@@ -1,7 +1,8 @@
 //! What may be wrong with one channel, whatever was measured: it is dead, clipped, wild, or follows
 //! nothing.
 
-use super::{Said, Weight, extent, range};
+use super::{Rule, Said, Weight, extent, range, said_if};
+use crate::ground::stats::largest;
 use nalgebra::{DMatrix, DVector};
 
 /// A channel beside what drives it, reading by reading.
@@ -45,8 +46,17 @@ const USUAL: f64 = 0.9;
 
 /// Whether values never change.
 pub fn is_dead(values: &[f64]) -> bool {
-    let size = values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let size = largest(values);
     values.iter().filter(|v| v.is_finite()).count() >= FEW && extent(values) <= STILL * size
+}
+
+/// A channel that never changes passes for a load that is not there.
+pub const fn dead_rule<L>(look: L) -> Rule<L> {
+    Rule {
+        name: "dead",
+        remedy: "check the cable of that channel, and measure again",
+        look,
+    }
 }
 
 /// Channels that never change.
@@ -57,6 +67,15 @@ pub fn dead(channels: &[Channel]) -> Said {
         (Weight::Fatal, what)
     })
     .collect()
+}
+
+/// A channel at the end of its range repeats one number while the test goes on.
+pub const fn clipped_rule<L>(look: L) -> Rule<L> {
+    Rule {
+        name: "clipped",
+        remedy: "measure again with a wider range of that channel",
+        look,
+    }
 }
 
 /// Channels that stand at an extreme while the drive goes on.
@@ -106,12 +125,19 @@ pub fn copied<T: Ord>(readings: impl Iterator<Item = T>) -> Said {
     all.sort_unstable();
     all.dedup();
     let copies = rows - all.len();
-    match copies as f64 > MANY * rows as f64 {
-        true => vec![(
-            Weight::Odd,
-            format!("{copies} of {rows} readings are exact copies of others"),
-        )],
-        false => Vec::new(),
+    said_if(
+        copies as f64 > MANY * rows as f64,
+        Weight::Odd,
+        format!("{copies} of {rows} readings are exact copies of others"),
+    )
+}
+
+/// One absurd reading turns every mean and every fit.
+pub const fn wild_rule<L>(look: L) -> Rule<L> {
+    Rule {
+        name: "wild",
+        remedy: "empty that cell, or correct it",
+        look,
     }
 }
 
@@ -156,11 +182,13 @@ pub fn sum(values: &[f64], columns: &[Vec<f64>]) -> Option<Sum> {
         let middle = mean(v);
         rows.iter().map(|i| v[*i] - middle).collect()
     };
-    let size = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     let y = centred(values);
     let own: Vec<Vec<f64>> = columns.iter().map(|c| centred(c)).collect();
-    let sizes: Vec<f64> = own.iter().map(|c| size(c).max(f64::MIN_POSITIVE)).collect();
-    let scale = size(&y);
+    let sizes: Vec<f64> = own
+        .iter()
+        .map(|c| largest(c).max(f64::MIN_POSITIVE))
+        .collect();
+    let scale = largest(&y);
     if !(scale.is_finite() && scale > 0.0) {
         return None;
     }

@@ -1,8 +1,9 @@
 //! Whether data can carry a number at all. Every verb passes this gate before it says `identified`,
 //! `explained` or `sufficient`.
 //!
-//! One rule is one file and one line in the table of its kind (`RULES` of each module here): what it looks at, what it finds odd, how grave that is, and
-//! what to do about it. What a rule finds is a [`Doubt`].
+//! One rule is one file and one line in the table of its kind (`RULES` of each module here): what it finds odd, how
+//! grave that is, and what to do about it. Rules about single channels stand in [`channel`]. What a rule finds is a
+//! [`Doubt`].
 
 pub mod channel;
 pub mod cubes;
@@ -18,6 +19,7 @@ pub mod screw;
 pub mod workspace;
 
 use crate::ground::problem::{Outcome, Problem};
+use crate::robot::load::load;
 use serde::Serialize;
 use std::path::Path;
 
@@ -33,23 +35,10 @@ pub enum Weight {
     Fatal,
 }
 
-impl Weight {
-    /// As in the JSON.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Note => "note",
-            Self::Odd => "odd",
-            Self::Fatal => "fatal",
-        }
-    }
-}
-
 /// One rule of the gate; `L` is the function that looks at a kind of measurement.
 pub struct Rule<L> {
     /// Its name, as in the JSON.
     pub name: &'static str,
-    /// What it looks at and why that matters, one sentence.
-    pub about: &'static str,
     /// What to do about what it finds, imperative.
     pub remedy: &'static str,
     /// What it finds: how grave, and one clause each.
@@ -81,6 +70,21 @@ impl Doubt {
 
 /// What a rule says: how grave, and what is odd.
 pub type Said = Vec<(Weight, String)>;
+
+/// What a rule says that finds one thing or nothing.
+pub(crate) fn said_if(odd: bool, weight: Weight, what: impl Into<String>) -> Said {
+    odd.then(|| (weight, what.into())).into_iter().collect()
+}
+
+/// A robot that a file names, and nobody knows.
+pub(crate) fn strange_robot(robot: Option<&String>, file: &Path) -> Said {
+    let strange = robot.filter(|name| load(name, Some(file)).is_err());
+    let what = |name: &String| format!("the robot `{name}` is not known here");
+    strange
+        .map(|name| (Weight::Note, what(name)))
+        .into_iter()
+        .collect()
+}
 
 /// What a table of rules finds when each is called, the gravest first.
 pub fn doubts<L: Copy>(rules: &[Rule<L>], call: impl Fn(L) -> Said) -> Vec<Doubt> {

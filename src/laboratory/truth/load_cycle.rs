@@ -5,7 +5,7 @@ use crate::experiments::schedule;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::random::Random;
 use crate::laboratory::noise::autoregressive;
-use crate::laboratory::recording::Recording;
+use crate::laboratory::recording::{Recording, head};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -151,16 +151,13 @@ impl LoadCycleTruth {
     }
 
     fn facts(&self, robot: &str, source: &str) -> Vec<String> {
-        let mut facts = vec![
-            "kind = \"load-cycle\"".to_string(),
-            "synthetic = true   # simulated by `ident lab`; nobody measured this".to_string(),
-            format!("source = {}", toml::Value::from(source)),
-            format!("robot = {}", toml::Value::from(robot)),
+        let mut facts = head("load-cycle", robot, source);
+        facts.extend([
             format!("joint = {}", self.joint),
             format!("axis = {}", toml::Value::from(self.axis.as_str())),
             format!("load_lever_m = {:?}", self.load_lever_m),
             format!("sensor_lever_m = {:?}", self.sensor_lever_m),
-        ];
+        ]);
         facts.extend(
             self.sensor2_lever_m
                 .map(|lever| format!("sensor2_lever_m = {lever:?}")),

@@ -2,7 +2,7 @@
 //! Front matter goes first, then the sidecar, then the folder.
 
 use crate::ground::files::read_bytes;
-use crate::ground::problem::{Outcome, Problem};
+use crate::ground::problem::{Outcome, Problem, line_of_toml};
 use crate::measurement::known_keys::known_to_no_kind;
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
@@ -169,13 +169,9 @@ fn read(path: &Path) -> Outcome<Option<Table>> {
     };
     let text =
         String::from_utf8(read_bytes(path)?).map_err(|_| refuse("is not UTF-8 text".into(), 1))?;
-    let line = |at: usize| {
-        let before = &text.as_bytes()[..at.min(text.len())];
-        1 + before.iter().filter(|b| **b == b'\n').count()
-    };
     let table = text.parse::<Table>().map_err(|error| {
-        let at = error.span().map_or(1, |span| line(span.start));
-        refuse(format!("is not TOML: {}", error.message().trim()), at)
+        let what = format!("is not TOML: {}", error.message().trim());
+        refuse(what, line_of_toml(&text, &error))
     })?;
     let more = [OF_THE_FOLDER, OF_THE_FILE].concat();
     for key in table.keys() {

@@ -90,7 +90,7 @@ impl<'a> Keys<'a> {
         let members = value.as_array().ok_or_else(wrong)?;
         let one = |member: &'a Spanned<DeValue<'a>>| {
             let table = member.get_ref().as_table().ok_or_else(wrong)?;
-            let line = line_of(self.text, Some(member.span()));
+            let line = line_of(self.text.as_bytes(), member.span().start);
             let prefix = format!("{}{key}.", self.prefix);
             Keys::of(self.text, table, prefix, line, known)
         };

@@ -240,7 +240,7 @@ fn take(table: &mut Table, stem: &str, factor: f64) -> Vec<f64> {
     values
 }
 
-pub(crate) fn dialect(table: &Table) -> String {
+fn dialect(table: &Table) -> String {
     let delimiter = match table.delimiter {
         '\t' => "tab".to_string(),
         other => format!("`{other}`"),

@@ -8,10 +8,11 @@ pub(super) use facts::FACTS;
 pub use facts::{Facts, LEVER_REL_STD, lever_spread};
 pub use port::{Axis, Port};
 
+use super::facts::stem;
 use super::table::Table;
 use crate::ground::problem::{Outcome, Problem};
 use channels::Channels;
-pub(crate) use channels::{check_time, dialect};
+pub(crate) use channels::check_time;
 use std::path::{Path, PathBuf};
 
 /// One load-cycle file, SI, rows with a missing load or deflection left out (and counted).
@@ -74,11 +75,7 @@ impl LoadCycle {
 
     /// File name without its ending.
     pub fn stem(&self) -> String {
-        let stem = self
-            .path
-            .file_stem()
-            .map(|s| s.to_string_lossy().to_string());
-        stem.unwrap_or_else(|| "measurement".into())
+        stem(&self.path, "measurement")
     }
 
     fn check_rows(&self) -> Outcome<()> {

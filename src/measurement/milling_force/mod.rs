@@ -5,7 +5,6 @@ mod facts;
 pub(super) use facts::KEYS;
 pub use facts::{CutFacts, CutSide, Facts, Nominal};
 
-use super::load_cycle::dialect;
 use super::table::{Column, Table};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::V3;
@@ -34,12 +33,8 @@ pub struct MillingForce {
     pub facts: Facts,
     /// One record for each of [`Facts::cuts`].
     pub records: Vec<Record>,
-    /// Data rows of the file.
-    pub rows: usize,
     /// Rows left out because a cell was empty.
     pub left_out: usize,
-    /// How the file was written: delimiter and decimal sign.
-    pub dialect: String,
 }
 
 /// Rows of a cut below which nothing can be told.
@@ -66,8 +61,6 @@ impl MillingForce {
             facts,
             records,
             left_out,
-            rows: table.rows,
-            dialect: dialect(&table),
             path: table.path,
             sha256: table.sha256,
         })

@@ -53,3 +53,24 @@ pub(super) fn variable<'a>(line: &'a str, name: &str) -> Option<(Vec<&'a str>, f
     let value = value.trim().strip_prefix('=')?.trim().parse().ok()?;
     Some((inside.split(',').collect(), value))
 }
+
+/// Whether a line holds no value: a remark, what every file begins and ends with, or one of `others`.
+pub(super) fn is_frame(line: &str, others: &[&str]) -> bool {
+    let every = [";", "%", "CHANDATA", "M17"];
+    let mut starts = every.iter().chain(others);
+    line.is_empty() || starts.any(|start| line.starts_with(start))
+}
+
+/// The table of values at equal distances, mm and µm.
+pub(super) fn evenly([first, step]: [f64; 2], forward: &[f64], backward: &[f64]) -> PitchTable {
+    let values = forward.iter().zip(backward).enumerate();
+    let row = |(i, (forward, backward)): (usize, (&f64, &f64))| Row {
+        target_mm: first + step * i as f64,
+        forward_um: *forward,
+        backward_um: *backward,
+    };
+    PitchTable {
+        rows: values.map(row).collect(),
+        ..PitchTable::default()
+    }
+}

@@ -4,8 +4,8 @@
 //! sign for the encoder's table only (p. 238; see `siemens_eec`), here that the setpoint is modified: so the
 //! file asks for a trial at one point.
 
-use super::resample::{Even, variable};
-use super::{Exporter, PitchTable, Row, strange};
+use super::resample::{Even, evenly, is_frame, variable};
+use super::{Exporter, PitchTable, strange};
 use crate::ground::problem::Outcome;
 use std::fmt::Write;
 
@@ -58,25 +58,20 @@ fn write(table: &PitchTable) -> Outcome<String> {
     Ok(text)
 }
 
+/// What stands beside the values.
+const OTHERS: &[&str] = &[
+    "$AN_CEC_INPUT",
+    "$AN_CEC_OUTPUT",
+    "$AN_CEC_MAX",
+    "$AN_CEC_DIR",
+    "$AN_CEC_IS",
+];
+
 fn read(text: &str) -> Outcome<PitchTable> {
     let (mut values, mut step, mut first) = ([Vec::new(), Vec::new()], 0.0, 0.0);
     for (i, line) in text.lines().enumerate() {
         let line = line.trim();
-        let frame = line.is_empty()
-            || [
-                ";",
-                "%",
-                "CHANDATA",
-                "M17",
-                "$AN_CEC_INPUT",
-                "$AN_CEC_OUTPUT",
-                "$AN_CEC_MAX",
-                "$AN_CEC_DIR",
-                "$AN_CEC_IS",
-            ]
-            .iter()
-            .any(|s| line.starts_with(s));
-        if frame {
+        if is_frame(line, OTHERS) {
             continue;
         }
         if let Some((_, value)) = variable(line, "$AN_CEC_STEP") {
@@ -90,21 +85,9 @@ fn read(text: &str) -> Outcome<PitchTable> {
             });
             let own = found.and_then(|(table, value)| Some((values.get_mut(table)?, value)));
             let (own, value) = own.ok_or_else(|| strange(i, "`$AN_CEC[0,0]=0.001`"))?;
-            own.push(value);
+            own.push(value * 1e3);
         }
     }
     let [forward, backward] = values;
-    let rows = forward
-        .iter()
-        .zip(&backward)
-        .enumerate()
-        .map(|(i, (f, b))| Row {
-            target_mm: first + step * i as f64,
-            forward_um: f * 1e3,
-            backward_um: b * 1e3,
-        });
-    Ok(PitchTable {
-        rows: rows.collect(),
-        ..PitchTable::default()
-    })
+    Ok(evenly([first, step], &forward, &backward))
 }

@@ -3,8 +3,8 @@
 //! machine axis to move in the negative direction" (SINUMERIK 808D function manual, 2017): the values are
 //! the error in mm, the mean of both directions; backlash goes into MD32450.
 
-use super::resample::{Even, variable};
-use super::{Exporter, PitchTable, Row, strange};
+use super::resample::{Even, evenly, is_frame, variable};
+use super::{Exporter, PitchTable, strange};
 use crate::ground::problem::Outcome;
 use std::fmt::Write;
 
@@ -52,22 +52,14 @@ fn write(table: &PitchTable) -> Outcome<String> {
     Ok(text)
 }
 
+/// What stands beside the values.
+const OTHERS: &[&str] = &["$AA_ENC_COMP_MAX", "$AA_ENC_COMP_IS"];
+
 fn read(text: &str) -> Outcome<PitchTable> {
     let (mut values, mut step, mut first) = (Vec::new(), 0.0, 0.0);
     for (i, line) in text.lines().enumerate() {
         let line = line.trim();
-        let frame = line.is_empty()
-            || [
-                ";",
-                "%",
-                "CHANDATA",
-                "M17",
-                "$AA_ENC_COMP_MAX",
-                "$AA_ENC_COMP_IS",
-            ]
-            .iter()
-            .any(|s| line.starts_with(s));
-        if frame {
+        if is_frame(line, OTHERS) {
             continue;
         }
         if let Some((_, value)) = variable(line, "$AA_ENC_COMP_STEP") {
@@ -79,13 +71,5 @@ fn read(text: &str) -> Outcome<PitchTable> {
             values.push(found.ok_or_else(|| strange(i, "`$AA_ENC_COMP[0,0,AX1]=0.001`"))?);
         }
     }
-    let rows = values.iter().enumerate().map(|(i, um)| Row {
-        target_mm: first + step * i as f64,
-        forward_um: *um,
-        backward_um: *um,
-    });
-    Ok(PitchTable {
-        rows: rows.collect(),
-        ..PitchTable::default()
-    })
+    Ok(evenly([first, step], &values, &values))
 }

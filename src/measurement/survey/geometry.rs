@@ -2,6 +2,7 @@
 
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::V3;
+use crate::ground::stats::largest;
 use crate::measurement::front::Front;
 use crate::measurement::uff::{Node, Trace, UniversalFile};
 use std::collections::BTreeMap;
@@ -91,13 +92,17 @@ impl Geometry {
             .ok()
     }
 
-    /// Greatest extent along an axis, m.
-    pub fn size(&self) -> f64 {
-        let extent = |k: usize| {
+    /// Extents along the axes, m.
+    pub fn extents(&self) -> V3 {
+        std::array::from_fn(|k| {
             let along = || self.points.iter().map(|point| point.at[k]);
             along().fold(f64::MIN, f64::max) - along().fold(f64::MAX, f64::min)
-        };
-        (0..3).map(extent).fold(0.0, f64::max)
+        })
+    }
+
+    /// Greatest extent along an axis, m.
+    pub fn size(&self) -> f64 {
+        self.extents().into_iter().fold(0.0, f64::max)
     }
 
     fn check_size(&mut self, known: bool) -> Outcome<()> {
@@ -146,7 +151,7 @@ fn distinct(nodes: &[Node]) -> Outcome<BTreeMap<i64, &Node>> {
         let Some(first) = found.insert(node.label, node) else {
             continue;
         };
-        let size = node.position.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let size = largest(&node.position);
         let apart = |k: usize| (node.position[k] - first.position[k]).abs() > SAME * size;
         if (0..3).any(apart) {
             let what = format!(

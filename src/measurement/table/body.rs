@@ -3,7 +3,7 @@
 use super::cell::decide_decimal;
 use super::column::{Cells, Column};
 use super::layout::Layout;
-use super::source::unreadable;
+use crate::ground::files::unreadable;
 use crate::ground::problem::{Outcome, Problem};
 use std::io::BufRead;
 

@@ -1,18 +1,10 @@
 //! The bytes of a file, hashed as they pass, and its head: front matter and header row.
 
+use crate::ground::files::unreadable;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::front::Front;
 use sha2::{Digest, Sha256};
 use std::io::{BufRead, Read};
-
-pub(super) fn unreadable(error: &std::io::Error) -> Problem {
-    let remedy = match error.kind() {
-        std::io::ErrorKind::NotFound => "check the path; no such file is there",
-        std::io::ErrorKind::PermissionDenied => "make the file readable for this user",
-        _ => "check that it is a regular, readable file",
-    };
-    Problem::new(format!("cannot be read ({error})"), remedy)
-}
 
 /// A reader that hashes what passes through it and refuses endless lines.
 pub(super) struct Hashing<R> {

@@ -1,7 +1,7 @@
 //! The text of a path file: decoded, line by line.
 
 use crate::ground::files::{read_bytes, sha256};
-use crate::ground::problem::{Outcome, Problem};
+use crate::ground::problem::{Outcome, Problem, line_of};
 use std::path::{Path, PathBuf};
 
 /// A path file as text.
@@ -47,12 +47,18 @@ impl Source {
         match bytes.iter().position(|byte| *byte == 0) {
             None => Ok(String::from_utf8_lossy(bytes).into_owned()),
             Some(at) => {
-                let line = 1 + bytes[..at].iter().filter(|b| **b == b'\n').count();
+                let line = line_of(bytes, at);
                 let remedy = "give the path as text: CSV, CLS/APT, G-code or KRL, in UTF-8";
                 Err(Problem::new("is a binary file", remedy).at_line(line))
             }
         }
     }
+}
+
+/// Whether any line starts with one of these words, in letters of either size.
+pub(super) fn any_line_starts(text: &str, words: &[&str]) -> bool {
+    let mut lines = text.lines().map(|line| line.trim_start().to_uppercase());
+    lines.any(|line| words.iter().any(|word| line.starts_with(word)))
 }
 
 /// The lines of a text with their 1-based numbers; line ends of all three kinds.

@@ -3,6 +3,7 @@
 //! about a fixed point, so that a direction holds however far one goes along it.
 
 use crate::ground::problem::Outcome;
+use crate::ground::stats::descending;
 use crate::motion::{Work, elastic, linearise};
 use crate::robot::{Body, Robot};
 use nalgebra::{DMatrix, DVector};
@@ -55,8 +56,7 @@ pub fn directions(robot: &Robot, angles: &[f64], spread: &Spread) -> Outcome<DMa
 /// slopes in the numbers.
 pub fn seen(information: DMatrix<f64>, least: f64, most: usize) -> DMatrix<f64> {
     let eigen = information.symmetric_eigen();
-    let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
-    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+    let mut order = descending(eigen.eigenvalues.as_slice());
     order.retain(|i| eigen.eigenvalues[*i] > least * least);
     order.truncate(most);
     eigen.eigenvectors.select_columns(&order).transpose()

@@ -20,6 +20,21 @@ pub(super) fn is_straight(from: V3, arc: &Arc) -> bool {
     arc.radius(from) * (1.0 - half.cos()) < 2e-9
 }
 
+/// The moves as a language can say them: helices become chords, and an arc what `cut` makes of it.
+pub(super) fn spelled(
+    moves: &[ProgramMove],
+    cut: impl Fn(&ProgramMove, &ProgramMove, &Arc) -> Option<Vec<ProgramMove>>,
+) -> Vec<ProgramMove> {
+    let said = |from: &ProgramMove, next: &ProgramMove| match &next.shape {
+        Shape::Arc(arc) if is_helix(from.to, next.to, arc) => Some(chords(from, next, arc)),
+        Shape::Arc(arc) => cut(from, next, arc),
+        Shape::Line => None,
+    };
+    let each = moves.windows(2);
+    each.flat_map(|pair| said(&pair[0], &pair[1]).unwrap_or_else(|| vec![pair[1]]))
+        .collect()
+}
+
 /// The arc as short lines; they blend into each other.
 pub(super) fn chords(from: &ProgramMove, next: &ProgramMove, arc: &Arc) -> Vec<ProgramMove> {
     let radius = arc.radius(from.to).max(1e-9);

@@ -1,7 +1,7 @@
 //! KRL for KUKA controllers: `.src` and `.dat`. A long path goes into modules of its own, which the
 //! main program calls, since a controller loads files of a limited size.
 
-use super::chords::{chords, is_helix, is_straight};
+use super::chords::{is_straight, spelled};
 use super::text::{comment, decimals, degrees, identifier, mm};
 use super::{Program, ProgramFile, ProgramMove};
 use crate::ground::problem::Outcome;
@@ -17,7 +17,7 @@ const NAME: usize = 19;
 
 pub(super) fn write(program: &Program) -> Outcome<Vec<ProgramFile>> {
     let name = identifier(&program.name, NAME);
-    let (start, moves) = (program.moves[0], spelled(&program.moves));
+    let (start, moves) = (program.moves[0], spelled(&program.moves, |_, _, _| None));
     let mut files = Vec::new();
     let mut main = head(&name);
     preamble(&mut main, program, &name);
@@ -53,20 +53,6 @@ fn file(name: &str, ending: &str, text: String) -> ProgramFile {
 
 fn head(name: &str) -> String {
     format!("&ACCESS RVP\n&REL 1\nDEF {name}( )\n")
-}
-
-/// Helices become chords: KRL has none.
-fn spelled(moves: &[ProgramMove]) -> Vec<ProgramMove> {
-    let mut all = Vec::with_capacity(moves.len());
-    for pair in moves.windows(2) {
-        match pair[1].shape {
-            Shape::Arc(arc) if is_helix(pair[0].to, pair[1].to, &arc) => {
-                all.extend(chords(&pair[0], &pair[1], &arc));
-            }
-            _ => all.push(pair[1]),
-        }
-    }
-    all
 }
 
 fn preamble(text: &mut String, program: &Program, name: &str) {

@@ -1,11 +1,11 @@
 //! RAPID for ABB controllers: one `.mod`.
 
-use super::chords::{arcs, chords, is_helix, is_straight};
+use super::chords::{arcs, is_straight, spelled};
 use super::text::{comment, decimals, degrees, identifier, mm};
 use super::{Program, ProgramFile, ProgramMove};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{M3, Pose, V3};
-use crate::measurement::toolpath::Shape;
+use crate::measurement::toolpath::{Arc, Shape};
 use crate::path::quaternion::Quaternion;
 use std::f64::consts::PI;
 
@@ -33,7 +33,7 @@ pub(super) fn write(program: &Program) -> Outcome<Vec<ProgramFile>> {
         "  PERS wobjdata {name}_w := [FALSE,TRUE,\"\",{},[[0,0,0],[1,0,0,0]]];\n",
         pose(&program.base)
     );
-    let moves = spelled(&program.moves);
+    let moves = spelled(&program.moves, shortened);
     let parts: Vec<&[ProgramMove]> = moves.chunks(PROCEDURE).collect();
     text += &format!("  PROC {name}_main()\n");
     text += &approach(program, &name)?;
@@ -58,27 +58,17 @@ pub(super) fn write(program: &Program) -> Outcome<Vec<ProgramFile>> {
     }])
 }
 
-/// Helices become chords, long arcs several.
-fn spelled(moves: &[ProgramMove]) -> Vec<ProgramMove> {
-    let mut all = Vec::with_capacity(moves.len());
-    for pair in moves.windows(2) {
-        match pair[1].shape {
-            Shape::Arc(arc) if is_helix(pair[0].to, pair[1].to, &arc) => {
-                all.extend(chords(&pair[0], &pair[1], &arc));
-            }
-            Shape::Arc(arc) if arc.angle > MOST_ANGLE => {
-                let count = (arc.angle / MOST_ANGLE).ceil() as usize;
-                let joint = pair[1].blend.max(1e-4);
-                let mut pieces = arcs(&pair[0], &pair[1], &arc, count);
-                pieces[..count - 1]
-                    .iter_mut()
-                    .for_each(|piece| piece.blend = joint);
-                all.extend(pieces);
-            }
-            _ => all.push(pair[1]),
-        }
-    }
-    all
+/// Long arcs become several.
+fn shortened(from: &ProgramMove, next: &ProgramMove, arc: &Arc) -> Option<Vec<ProgramMove>> {
+    let count = (arc.angle / MOST_ANGLE).ceil() as usize;
+    (arc.angle > MOST_ANGLE).then(|| {
+        let joint = next.blend.max(1e-4);
+        let mut pieces = arcs(from, next, arc, count);
+        pieces[..count - 1]
+            .iter_mut()
+            .for_each(|piece| piece.blend = joint);
+        pieces
+    })
 }
 
 fn approach(program: &Program, name: &str) -> Outcome<String> {

@@ -46,7 +46,6 @@ pub(super) fn ink(series: &Series, pen: &Pen) -> Outcome<String> {
         Mark::Line | Mark::Dashed | Mark::Dotted => {
             Ok(band(series, pen)? + &line(&series.points, pen)?)
         }
-        Mark::Steps => Ok(band(series, pen)? + &line(&stairs(&series.points), pen)?),
     }
 }
 

@@ -151,7 +151,7 @@ fn head(series: &Series) -> Series {
 fn family(mark: Mark) -> u8 {
     match mark {
         Mark::Points => 0,
-        Mark::Line | Mark::Dashed | Mark::Dotted | Mark::Steps => 1,
+        Mark::Line | Mark::Dashed | Mark::Dotted => 1,
         Mark::Band => 2,
         Mark::Bars => 3,
         Mark::Cells => 4,

@@ -7,10 +7,10 @@ use super::body::Body;
 use super::joint_effect;
 use super::model::{ElasticAxis, Joint, Robot, Tool};
 use super::spring::Spring;
-use crate::ground::problem::{Outcome, Problem};
+use crate::ground::problem::{Outcome, Problem, line_of};
 use crate::ground::spatial::{IDENTITY, M3, V3, scale, unit};
 use crate::ground::units::{DEGREE, FARTHEST_M};
-use syntax::{line_of, syntax};
+use syntax::syntax;
 use text::{BodyText, ElasticText, JointText, RobotText, SpringText, ToolText};
 
 /// How far from 1 the length of an axis may be before it counts as a mistake; then it is scaled.
@@ -23,8 +23,9 @@ const UNIT_TOLERANCE: f64 = 1e-3;
 /// be: each with line, key and remedy. Bodies are judged by [`super::check`], not here.
 pub fn read(text: &str) -> Outcome<Robot> {
     let raw: RobotText = toml::from_str(text).map_err(|error| syntax(text, &error))?;
-    let place =
-        |span: std::ops::Range<usize>, problem: Problem| problem.at_line(line_of(text, span.start));
+    let place = |span: std::ops::Range<usize>, problem: Problem| {
+        problem.at_line(line_of(text.as_bytes(), span.start))
+    };
     let joints = raw.joints.into_iter().map(|joint| {
         let span = joint.span();
         joint_of(joint.into_inner()).map_err(|problem| place(span, problem))

@@ -1,16 +1,6 @@
 //! Where in a robot file something stands, and what its syntax breaks.
 
-use crate::ground::problem::Problem;
-
-/// 1-based line of a byte offset.
-pub(super) fn line_of(text: &str, offset: usize) -> usize {
-    1 + text
-        .as_bytes()
-        .iter()
-        .take(offset)
-        .filter(|byte| **byte == b'\n')
-        .count()
-}
+use crate::ground::problem::{Problem, line_of};
 
 /// What the TOML reader refuses, with line and key.
 pub(super) fn syntax(text: &str, error: &toml::de::Error) -> Problem {
@@ -22,7 +12,7 @@ pub(super) fn syntax(text: &str, error: &toml::de::Error) -> Problem {
     let Some(span) = error.span() else {
         return problem;
     };
-    let problem = problem.at_line(line_of(text, span.start));
+    let problem = problem.at_line(line_of(text.as_bytes(), span.start));
     match key_before(text, span.start) {
         Some(key) => problem.in_column(key),
         None => problem,

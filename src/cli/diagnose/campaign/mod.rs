@@ -42,10 +42,7 @@ pub fn written(campaign: &Campaign) -> Vec<(PathBuf, String)> {
 
 /// How the verb ends.
 pub fn ending(campaign: &Campaign) -> Ending {
-    match campaign.is_fine() {
-        true => Ending::Done,
-        false => Ending::Attention,
-    }
+    Ending::done_if(campaign.is_fine())
 }
 
 /// Diagnoses a campaign, and writes what that found.

@@ -9,11 +9,11 @@ pub use page::{sentence, setups, spreads};
 
 use super::Arguments;
 use crate::cli::Ending;
-use crate::cli::output::{print, print_result, tell, warn};
+use crate::cli::output::{located, print, print_result, warn};
 use crate::cli::run::place;
 use crate::findings::campaign::{Proposal, Start};
 use crate::ground::problem::{Outcome, Problem};
-use crate::measurement::workspace::{Place, resolve};
+use crate::measurement::workspace::Place;
 use crate::report::{folder, text};
 use std::path::{Path, PathBuf};
 
@@ -45,8 +45,7 @@ fn typed(files: &[PathBuf]) -> Outcome<Start> {
         [] => required(place(None)?),
         [folder] if folder.is_dir() => required(place(Some(folder))?),
         [file] => {
-            let (path, said) = resolve(file)?;
-            said.iter().for_each(|s| tell(s));
+            let path = located(file)?;
             Start::points(Place::of(&path), &path)
         }
         several => Err(Problem::new(

@@ -147,12 +147,7 @@ impl Identified {
 
     fn stored(&self) -> StoredCubes {
         let input = |test: &CubeTest| Input {
-            file: test
-                .path
-                .file_name()
-                .unwrap_or_default()
-                .to_string_lossy()
-                .to_string(),
+            file: files::name(&test.path),
             sha256: test.sha256.clone(),
         };
         StoredCubes {
@@ -168,7 +163,7 @@ impl Identified {
     /// The robot with what the cubes found, outside of a campaign.
     fn robot_text(&self) -> String {
         let test = &self.tests[0];
-        let name = test.path.file_name().unwrap_or_default().to_string_lossy();
+        let name = files::name(&test.path);
         let short: String = test.sha256.chars().take(12).collect();
         let found = &self.account.parameters;
         let robot = with_cubes(&self.base.robot, found, &format!("{name} {short}"));
@@ -176,10 +171,7 @@ impl Identified {
     }
 
     fn ending(&self) -> Ending {
-        match self.contradiction() || is_odd(&self.doubts) {
-            true => Ending::Attention,
-            false => Ending::Done,
-        }
+        Ending::attention_if(self.contradiction() || is_odd(&self.doubts))
     }
 
     /// Whether the cubes contradict the model beyond the stated noise.
@@ -223,14 +215,13 @@ fn write(found: &Identified) -> Outcome<()> {
 /// # Errors
 /// A file that cannot be read, results that cannot be written.
 pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
-    let input = |test: &CubeTest| (test.path.clone(), test.sha256.clone());
     let (mut files, mut parts) = (Vec::new(), Vec::new());
     for file in place.files_of("cubes")? {
         let test = CubeTest::read(&file)?;
         let robot = load(&test.facts.robot, Some(&file)).map_err(|p| p.in_file(&file))?;
         match passed(&test, &robot.robot) {
             Ok(_) => files.push(file),
-            Err(why) => parts.push(Chapter::withheld(test.stem(), input(&test), &why)),
+            Err(why) => parts.push(Chapter::withheld(test.stem(), test.input(), &why)),
         }
     }
     if !files.is_empty() {
@@ -239,7 +230,7 @@ pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
         parts.push(Chapter {
             title: found.stem(),
             ending: found.ending(),
-            inputs: found.tests.iter().map(input).collect(),
+            inputs: found.tests.iter().map(CubeTest::input).collect(),
             page: page::page(&found),
         });
     }

@@ -3,6 +3,7 @@
 
 use super::shape::geometric;
 use super::{Family, Shapes, View};
+use crate::ground::stats::difference;
 
 /// Many contacts with a density of slip loads (Iwan 1966).
 pub const HYSTERESIS: Family = Family {
@@ -39,7 +40,7 @@ fn friction(view: &View) -> Shapes {
 /// What a contact that slips at this load holds back, as an addition.
 fn held_back(view: &View, width: f64) -> Vec<f64> {
     let played = view.played(width);
-    played.iter().zip(&view.u).map(|(p, u)| p - u).collect()
+    difference(&played, &view.u)
 }
 
 /// How contacts yield: the power at which, and the share that acts only on the way to the limit. At half of it loops are those of

@@ -2,6 +2,7 @@
 
 use super::jumps::{Jumps, jumps, left};
 use crate::fit::observation::Observation;
+use crate::ground::stats::difference;
 use crate::signal::play::play;
 
 /// Load and time of a record without units.
@@ -181,7 +182,7 @@ fn smoothed(u: &[f64]) -> Vec<f64> {
         each.map(|(w, v)| w * v).sum::<f64>() / 21.0
     };
     let smooth: Vec<f64> = (0..n).map(at).collect();
-    let off: Vec<f64> = smooth.iter().zip(u).map(|(s, v)| s - v).collect();
+    let off: Vec<f64> = difference(&smooth, u);
     let limit = 5.0 * crate::signal::outliers::robust_std(&off);
     let keep = smooth.iter().zip(u).zip(&off);
     keep.map(|((s, v), o)| if o.abs() > limit { *v } else { *s })

@@ -1,5 +1,6 @@
 //! Whether what is louder swings: a swing comes back after its period, noise of any colour does not.
 
+use crate::ground::stats::mean;
 use crate::signal::swing::swing;
 use std::ops::Range;
 
@@ -78,7 +79,7 @@ fn covariance(values: &[f64], runs: &[Range<usize>], lag: usize) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for run in runs {
         let own = &values[run.clone()];
-        let middle = own.iter().sum::<f64>() / own.len().max(1) as f64;
+        let middle = mean(own);
         let pairs = own.iter().zip(own.iter().skip(lag));
         sum += pairs.map(|(a, b)| (a - middle) * (b - middle)).sum::<f64>();
         count += own.len() as f64;

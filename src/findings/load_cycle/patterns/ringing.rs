@@ -5,6 +5,7 @@
 use super::{Kind, Seen, Sought};
 use crate::findings::load_cycle::families::View;
 use crate::findings::table::flexible;
+use crate::ground::stats::largest;
 use crate::signal::outliers::robust_std;
 use crate::signal::swing::{shapes, taken};
 use std::f64::consts::TAU;
@@ -150,7 +151,7 @@ fn pushes(view: &View) -> Vec<f64> {
         false => 0.0,
     };
     let mut own: Vec<f64> = (0..n).map(push).collect();
-    let most = own.iter().fold(0.0_f64, |m, p| m.max(p.abs()));
+    let most = largest(&own);
     let limit = (CORNER.0 * robust_std(&own)).max(CORNER.1 * most);
     own.iter_mut()
         .filter(|p| p.abs() <= limit)

@@ -4,10 +4,9 @@ use super::{Loaded, Rule};
 use crate::fit::suitability::{Said, Weight};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The rule.
+/// A file that was cut off holds a last test with fewer cubes than the others.
 pub const RULE: Rule = Rule {
     name: "few",
-    about: "A file that was cut off holds a last test with fewer cubes than the others.",
     remedy: "check that the whole file was copied; a cube that was not measured may stay away",
     look,
 };

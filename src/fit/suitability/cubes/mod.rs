@@ -1,16 +1,13 @@
 //! The gate for measuring cubes.
 
-mod clipped;
 mod copied;
-mod dead;
 mod few;
 mod reversed;
 mod scale;
 mod unloaded;
 mod unrelated;
-mod wild;
 
-use super::channel::Channel;
+use super::channel::{self, Channel};
 use super::{Doubt, Said};
 use crate::experiments::cubes::Setup;
 use crate::measurement::cubes::CubeTest;
@@ -33,9 +30,9 @@ pub type Rule = super::Rule<for<'a, 'b> fn(&'b Loaded<'a>) -> Said>;
 /// Every rule, in the order in which its findings are said.
 pub const RULES: &[Rule] = &[
     unloaded::RULE,
-    dead::RULE,
-    wild::RULE,
-    clipped::RULE,
+    channel::dead_rule(|on| channel::dead(&on.channels)),
+    channel::wild_rule(|on| channel::wild(&on.channels)),
+    channel::clipped_rule(|on| channel::clipped(&on.channels)),
     reversed::RULE,
     unrelated::RULE,
     scale::RULE,

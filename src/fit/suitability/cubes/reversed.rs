@@ -3,10 +3,9 @@
 use super::{Loaded, Rule};
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// A structure gives way along the load, never against it.
 pub const RULE: Rule = Rule {
     name: "reversed",
-    about: "A structure gives way along the load, never against it.",
     remedy: "turn the sign of that column or of the load (base frame, on the robot)",
     look,
 };

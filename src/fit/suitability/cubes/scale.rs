@@ -4,10 +4,9 @@ use super::{Loaded, Rule};
 use crate::fit::suitability::magnitude::{explanation, times};
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// Movement far from the simulated one at all cubes is a unit, not a joint.
 pub const RULE: Rule = Rule {
     name: "scale",
-    about: "Movement far from the simulated one at all cubes is a unit, not a joint.",
     remedy: "check the units at the ends of the column names, the load, and the robot that the file names",
     look,
 };

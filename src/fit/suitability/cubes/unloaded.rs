@@ -1,20 +1,20 @@
 //! There must be a load.
 
 use super::{Loaded, Rule};
-use crate::fit::suitability::{Said, Weight};
+use crate::fit::suitability::{Said, Weight, said_if};
 
-/// The rule.
+/// Without a load nothing moves, and noise passes for it.
 pub const RULE: Rule = Rule {
     name: "unchanging",
-    about: "Without a load nothing moves, and noise passes for it.",
     remedy: "write the load of every reading, loaded less unloaded",
     look,
 };
 
 fn look(on: &Loaded) -> Said {
     let none = |r: &crate::measurement::cubes::Reading| r.force == [0.0; 3] && r.moment == [0.0; 3];
-    match on.test.readings.iter().all(none) {
-        true => vec![(Weight::Fatal, "every load is zero".into())],
-        false => Vec::new(),
-    }
+    said_if(
+        on.test.readings.iter().all(none),
+        Weight::Fatal,
+        "every load is zero",
+    )
 }

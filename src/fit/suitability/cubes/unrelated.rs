@@ -3,10 +3,9 @@
 use super::{Loaded, Rule};
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// Movement that does not follow the load is noise, or another channel.
 pub const RULE: Rule = Rule {
     name: "unrelated",
-    about: "Movement that does not follow the load is noise, or another channel.",
     remedy: "check which cube and component was recorded in this column",
     look,
 };

@@ -3,10 +3,9 @@
 use super::{Rule, Turned};
 use crate::fit::suitability::{Said, Weight, channel};
 
-/// The rule.
+/// A channel that never changes passes for a load that is not there.
 pub const RULE: Rule = Rule {
     name: "dead",
-    about: "A channel that never changes passes for a load that is not there.",
     remedy: "check the cable of that channel, and measure again",
     look,
 };

@@ -1,17 +1,15 @@
 //! The gate for readings of a force-torque sensor that touches nothing.
 
-mod clipped;
 mod dead;
 mod reversed;
 mod robot;
 mod scale;
 mod unrelated;
-mod wild;
 
-use super::channel::{Channel, Sum, sum};
+use super::channel::{self, Channel, Sum, sum};
 use super::{Doubt, Said};
-use crate::ground::spatial::{V3, norm, rotate_back};
-use crate::measurement::force_sensor::{CHANNELS, SensorTest, matrix};
+use crate::ground::spatial::{V3, norm, of_quaternion, rotate_back};
+use crate::measurement::force_sensor::{CHANNELS, SensorTest};
 
 /// What the rules look at: six channels over the direction of the weight.
 pub struct Turned<'a> {
@@ -30,8 +28,8 @@ pub type Rule = super::Rule<for<'a, 'b> fn(&'b Turned<'a>) -> Said>;
 /// Every rule, in the order in which its findings are said.
 pub const RULES: &[Rule] = &[
     dead::RULE,
-    wild::RULE,
-    clipped::RULE,
+    channel::wild_rule(|on| channel::wild(&on.channels)),
+    channel::clipped_rule(|on| channel::clipped(&on.channels)),
     unrelated::RULE,
     reversed::RULE,
     scale::RULE,
@@ -43,7 +41,7 @@ pub fn doubts(test: &SensorTest) -> Vec<Doubt> {
     let down: Vec<V3> = test
         .readings
         .iter()
-        .map(|r| rotate_back(&matrix(r.quaternion), [0.0, 0.0, -1.0]))
+        .map(|r| rotate_back(&of_quaternion(r.quaternion), [0.0, 0.0, -1.0]))
         .collect();
     let along: Vec<Vec<f64>> = (0..3)
         .map(|k| down.iter().map(|d| d[k]).collect())

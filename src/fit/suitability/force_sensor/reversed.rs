@@ -1,13 +1,12 @@
 //! Signs and order of the axes: a weight turns with the sensor, it is not mirrored.
 
 use super::{Rule, Turned};
-use crate::fit::suitability::{Said, Weight};
+use crate::fit::suitability::{Said, Weight, said_if};
 use crate::ground::spatial::{cross, dot};
 
-/// The rule.
+/// The forces of a weight are a turned vector; a wrong sign or two swapped axes mirror it.
 pub const RULE: Rule = Rule {
     name: "reversed",
-    about: "The forces of a weight are a turned vector; a wrong sign or two swapped axes mirror it.",
     remedy: "turn the sign of that channel (load on the sensor), or correct the order of the axes",
     look,
 };
@@ -22,11 +21,9 @@ fn look(on: &Turned) -> Said {
         return Vec::new();
     };
     let volume = dot(x, cross(y, z)) / weights.iter().product::<f64>();
-    match volume < MIRRORED {
-        true => vec![(
-            Weight::Fatal,
-            "the forces are the mirror image of a weight: one sign or all three are wrong, or two axes are swapped".into(),
-        )],
-        false => Vec::new(),
-    }
+    said_if(
+        volume < MIRRORED,
+        Weight::Fatal,
+        "the forces are the mirror image of a weight: one sign or all three are wrong, or two axes are swapped",
+    )
 }

@@ -1,26 +1,15 @@
 //! The robot that the file names.
 
 use super::{Rule, Turned};
-use crate::fit::suitability::{Said, Weight};
-use crate::robot::load::load;
+use crate::fit::suitability::{Said, strange_robot};
 
-/// The rule.
+/// A file that names a robot is meant to belong to it.
 pub const RULE: Rule = Rule {
     name: "robot",
-    about: "A file that names a robot is meant to belong to it.",
     remedy: "correct `robot`, or put the robot file beside the measurement",
     look,
 };
 
 fn look(on: &Turned) -> Said {
-    let Some(name) = &on.test.facts.robot else {
-        return Vec::new();
-    };
-    match load(name, Some(&on.test.path)) {
-        Ok(_) => Vec::new(),
-        Err(_) => vec![(
-            Weight::Note,
-            format!("the robot `{name}` is not known here"),
-        )],
-    }
+    strange_robot(on.test.facts.robot.as_ref(), &on.test.path)
 }

@@ -5,10 +5,9 @@ use crate::fit::suitability::magnitude::{explanation, times};
 use crate::fit::suitability::{Said, Weight};
 use crate::ground::spatial::norm;
 
-/// The rule.
+/// A weight that differs from channel to channel, or from the stated one by a power of ten, is a unit.
 pub const RULE: Rule = Rule {
     name: "scale",
-    about: "A weight that differs from channel to channel, or from the stated one by a power of ten, is a unit.",
     remedy: "check the units at the ends of the column names and the nominal weight and centre",
     look,
 };

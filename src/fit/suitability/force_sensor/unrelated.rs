@@ -3,10 +3,9 @@
 use super::{Rule, Turned};
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// A force that does not follow the direction of the weight is noise, or another channel.
 pub const RULE: Rule = Rule {
     name: "unrelated",
-    about: "A force that does not follow the direction of the weight is noise, or another channel.",
     remedy: "check which channel was recorded in this column, and the order of the points",
     look,
 };

@@ -4,10 +4,9 @@ use super::Rule;
 use crate::fit::suitability::{Said, Weight, extent};
 use crate::measurement::hammer::{HammerRecord, HammerRun};
 
-/// The rule.
+/// A channel that never changes passes for a structure that does not move.
 pub const RULE: Rule = Rule {
     name: "dead",
-    about: "A channel that never changes passes for a structure that does not move.",
     remedy: "leave the cells of that column empty, or measure again",
     look,
 };

@@ -5,10 +5,9 @@ use crate::fit::suitability::{Said, Weight};
 use crate::measurement::hammer::HammerRecord;
 use crate::sheet::number::significant;
 
-/// The rule.
+/// A structure that a hammer moves answers as some grams to some thousand tonnes do.
 pub const RULE: Rule = Rule {
     name: "given",
-    about: "A structure that a hammer moves answers as some grams to some thousand tonnes do.",
     remedy: "state `response_unit` and `force_unit` beside the file, or export again",
     look,
 };

@@ -2,15 +2,15 @@
 
 use super::Rule;
 use crate::fit::suitability::{Said, Weight};
+use crate::ground::stats::largest;
 use crate::measurement::hammer::{HammerRecord, HammerRun};
 use crate::sheet::number::{engineering, significant};
 use crate::signal::judge::FORCE_N;
 use crate::signal::outliers::median;
 
-/// The rule.
+/// A hammer hits with some hundred newtons, and a robot answers as some kilograms to some tonnes do.
 pub const RULE: Rule = Rule {
     name: "scale",
-    about: "A hammer hits with some hundred newtons, and a robot answers as some kilograms to some tonnes do.",
     remedy: "check the units at the ends of the column names",
     look,
 };
@@ -21,9 +21,8 @@ const FORCES: std::ops::RangeInclusive<f64> = 0.3..=FORCE_N;
 const PER_FORCE: std::ops::RangeInclusive<f64> = 5e-5..=5.0;
 
 fn look(record: &HammerRecord) -> Said {
-    let peak = |values: &[f64]| values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    let answer = |run: &HammerRun| run.responses.iter().map(|r| peak(r)).fold(0.0, f64::max);
-    let forces: Vec<f64> = record.runs.iter().map(|run| peak(&run.force)).collect();
+    let answer = |run: &HammerRun| run.responses.iter().map(|r| largest(r)).fold(0.0, f64::max);
+    let forces: Vec<f64> = record.runs.iter().map(|run| largest(&run.force)).collect();
     let force = median(&forces);
     let ratios = record.runs.iter().zip(&forces).filter(|(_, f)| **f > 0.0);
     let ratio = median(&ratios.map(|(run, f)| answer(run) / f).collect::<Vec<_>>());

@@ -5,10 +5,10 @@ use crate::fit::suitability::{Said, Weight};
 use crate::measurement::hammer::HammerRecord;
 use crate::sheet::number::engineering;
 
-/// The rule.
+/// Modes of a robot lie between a few and some tens of hertz: the sampling must reach beyond them and the record
+/// hold several periods.
 pub const RULE: Rule = Rule {
     name: "time-base",
-    about: "Modes of a robot lie between a few and some tens of hertz: the sampling must reach beyond them and the record hold several periods.",
     remedy: "check the unit of the time column (`time_s`, `time_ms`)",
     look,
 };

@@ -4,10 +4,9 @@ use super::Rule;
 use crate::fit::suitability::{Said, Weight};
 use crate::measurement::hammer::{HammerRecord, HammerRun};
 
-/// The rule.
+/// A hit that is copied counts twice and makes every interval too narrow.
 pub const RULE: Rule = Rule {
     name: "twice",
-    about: "A hit that is copied counts twice and makes every interval too narrow.",
     remedy: "remove the copies",
     look,
 };

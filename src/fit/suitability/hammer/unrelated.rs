@@ -2,12 +2,12 @@
 
 use super::Rule;
 use crate::fit::suitability::{Said, Weight};
+use crate::ground::stats::largest;
 use crate::measurement::hammer::{HammerRecord, HammerRun};
 
-/// The rule.
+/// An acceleration that is the same before and after the hit does not answer it.
 pub const RULE: Rule = Rule {
     name: "unrelated",
-    about: "An acceleration that is the same before and after the hit does not answer it.",
     remedy: "check which sensor was recorded in this column, and its range",
     look,
 };
@@ -41,7 +41,7 @@ fn look(record: &HammerRecord) -> Said {
 
 /// Mean square just after the hit over that before it.
 fn answer(run: &HammerRun, output: usize) -> Option<f64> {
-    let peak = run.force.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+    let peak = largest(&run.force);
     let hit = run.force.iter().position(|f| f.abs() > BEGINS * peak)?;
     let begin = hit.saturating_sub(hit / 10 + 2);
     let (before, after) = (

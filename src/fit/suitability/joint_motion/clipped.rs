@@ -4,10 +4,9 @@ use super::{Moving, Rule};
 use crate::fit::suitability::load_cycle::clipped;
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// A channel at the end of its range repeats one number while the joint moves on.
 pub const RULE: Rule = Rule {
     name: "clipped",
-    about: "A channel at the end of its range repeats one number while the joint moves on.",
     remedy: "record with a wider range, or move less",
     look,
 };

@@ -1,12 +1,12 @@
 //! One encoder in both columns.
 
 use super::{Moving, Rule};
-use crate::fit::suitability::{Said, Weight, extent};
+use crate::fit::suitability::{Said, Weight, extent, said_if};
+use crate::ground::stats::difference;
 
-/// The rule.
+/// Two encoders never agree to the last digit: a gear twists, and both have noise.
 pub const RULE: Rule = Rule {
     name: "copied",
-    about: "Two encoders never agree to the last digit: a gear twists, and both have noise.",
     remedy: "check which channel of the controller each column was taken from",
     look,
 };
@@ -16,13 +16,11 @@ const SAME: f64 = 1e-12;
 
 fn look(on: &Moving) -> Said {
     let (motor, link) = (&on.joint.motor, &on.joint.link);
-    let twist: Vec<f64> = link.iter().zip(motor).map(|(l, m)| l - m).collect();
+    let twist: Vec<f64> = difference(link, motor);
     let (motion, twist) = (extent(motor), extent(&twist));
-    match motion > 0.0 && twist <= SAME * motion {
-        true => vec![(
-            Weight::Fatal,
-            "the link angle repeats the motor angle: one encoder in both columns".into(),
-        )],
-        false => Vec::new(),
-    }
+    said_if(
+        motion > 0.0 && twist <= SAME * motion,
+        Weight::Fatal,
+        "the link angle repeats the motor angle: one encoder in both columns",
+    )
 }

@@ -4,10 +4,9 @@ use super::{Moving, Rule};
 use crate::fit::suitability::Said;
 use crate::fit::suitability::channel;
 
-/// The rule.
+/// Without both angles and the torque there is no twist and nothing that makes it.
 pub const RULE: Rule = Rule {
     name: "dead",
-    about: "Without both angles and the torque there is no twist and nothing that makes it.",
     remedy: "check the channel, or take the columns of that joint out",
     look,
 };

@@ -5,10 +5,9 @@ use crate::fit::suitability::channel::sum;
 use crate::fit::suitability::magnitude::{explanation, times};
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// Both encoders see one joint, but for a twist of arc minutes.
 pub const RULE: Rule = Rule {
     name: "encoders",
-    about: "Both encoders see one joint, but for a twist of arc minutes.",
     remedy: "check unit and sign of both angles, the gear ratio that the motor angle is divided by, and the number of the joint",
     look,
 };

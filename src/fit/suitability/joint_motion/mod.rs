@@ -10,6 +10,7 @@ mod unrelated;
 
 use super::channel::{Channel, sum};
 use super::{Doubt, Said};
+use crate::ground::stats::difference;
 use crate::measurement::joint_motion::{JointMotion, JointRecord};
 
 /// What the rules look at: one joint.
@@ -102,7 +103,7 @@ impl JointRecord {
 fn spring(joint: &JointRecord, nominal: f64) -> Option<Spring> {
     joint.ratio?;
     let [motor, link, torque, speed] = joint.thinned();
-    let twist: Vec<f64> = link.iter().zip(&motor).map(|(l, m)| l - m).collect();
+    let twist: Vec<f64> = difference(&link, &motor);
     let without = sum(&twist, std::slice::from_ref(&speed))?;
     let with = sum(&twist, &[speed, torque])?;
     Some(Spring {

@@ -3,10 +3,9 @@
 use super::{Moving, Rule};
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// A gear gives way along its torque, never against it.
 pub const RULE: Rule = Rule {
     name: "reversed",
-    about: "A gear gives way along its torque, never against it.",
     remedy: "turn the sign of the motor torque, or of both angles",
     look,
 };

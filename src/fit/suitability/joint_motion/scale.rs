@@ -4,10 +4,9 @@ use super::{Moving, Rule};
 use crate::fit::suitability::magnitude::{explanation, times};
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// A stiffness far from the nominal one is a unit or a gear ratio, not the joint.
 pub const RULE: Rule = Rule {
     name: "scale",
-    about: "A stiffness far from the nominal one is a unit or a gear ratio, not the joint.",
     remedy: "check the units of torque and angles, the gear ratio and the nominal stiffness",
     look,
 };

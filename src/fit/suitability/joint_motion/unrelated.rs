@@ -3,11 +3,11 @@
 use super::{Moving, Rule};
 use crate::fit::suitability::channel::sum;
 use crate::fit::suitability::{Said, Weight};
+use crate::ground::stats::largest;
 
-/// The rule.
+/// Friction, inertia and weight tie a torque to the motion; noise and other channels are not.
 pub const RULE: Rule = Rule {
     name: "unrelated",
-    about: "Friction, inertia and weight tie a torque to the motion; noise and other channels are not.",
     remedy: "check which channel was recorded as torque, and that all are on one clock",
     look,
 };
@@ -19,7 +19,7 @@ fn look(on: &Moving) -> Said {
     let [motor, _, torque, speed] = on.joint.thinned();
     let n = speed.len();
     let slope = |i: usize| speed[(i + 1).min(n - 1)] - speed[i.saturating_sub(1)];
-    let top = speed.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let top = largest(&speed);
     let columns = [
         (0..n).map(slope).collect(),
         speed

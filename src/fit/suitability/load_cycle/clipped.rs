@@ -5,10 +5,9 @@ use crate::fit::suitability::{Said, Weight, extent, range};
 use crate::ground::stats::mean;
 use std::ops::Range;
 
-/// The rule.
+/// A channel at the end of its range repeats one number while the other channel goes on.
 pub const RULE: Rule = Rule {
     name: "clipped",
-    about: "A channel at the end of its range repeats one number while the other channel goes on.",
     remedy: "measure again with a wider range of that sensor, or load less",
     look,
 };

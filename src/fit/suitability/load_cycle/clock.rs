@@ -4,10 +4,9 @@ use super::{Course, Rule};
 use crate::fit::suitability::{Said, Weight};
 use crate::signal::outliers::{median, robust_std};
 
-/// The rule.
+/// Creep, drift and delay are told from each other by time.
 pub const RULE: Rule = Rule {
     name: "clock",
-    about: "Creep, drift and delay are told from each other by time.",
     remedy: "record the time of every row",
     look,
 };

@@ -1,12 +1,11 @@
 //! A coarse converter.
 
 use super::{Course, Rule};
-use crate::fit::suitability::{Said, Weight};
+use crate::fit::suitability::{Said, Weight, said_if};
 
-/// The rule.
+/// Readings that mostly repeat the one before hide noise and small effects.
 pub const RULE: Rule = Rule {
     name: "coarse",
-    about: "Readings that mostly repeat the one before hide noise and small effects.",
     remedy: "use a finer range of the converter",
     look,
 };
@@ -15,11 +14,9 @@ fn look(on: &Course) -> Said {
     let file = on.file;
     let pairs = file.deflection.windows(2);
     let equal = pairs.clone().filter(|w| w[0] == w[1]).count();
-    match 2 * equal > pairs.len() {
-        true => vec![(
-            Weight::Note,
-            "most readings repeat one before: the converter is coarse".into(),
-        )],
-        false => Vec::new(),
-    }
+    said_if(
+        2 * equal > pairs.len(),
+        Weight::Note,
+        "most readings repeat one before: the converter is coarse",
+    )
 }

@@ -1,14 +1,13 @@
 //! One column exported under two titles.
 
 use super::{Course, Rule};
-use crate::fit::suitability::{Said, Weight};
+use crate::fit::suitability::{Said, Weight, said_if};
 use crate::ground::stats::rms;
 use crate::ground::units::DEGREE;
 
-/// The rule.
+/// A deflection with the digits of the load is the load's own column, in another unit or not.
 pub const RULE: Rule = Rule {
     name: "copied",
-    about: "A deflection with the digits of the load is the load's own column, in another unit or not.",
     remedy: "export the sensor's own channel",
     look,
 };
@@ -31,14 +30,11 @@ fn look(on: &Course) -> Said {
     }
     let factor = proportion(&file.load, &file.deflection);
     let levers = [file.facts.load_lever, file.facts.sensor_lever];
-    match factor.is_some_and(|factor| is_of_units(factor, levers)) {
-        true => vec![(
-            Weight::Fatal,
-            "the deflection has the digits of the load, without any error: one column was exported twice"
-                .into(),
-        )],
-        false => Vec::new(),
-    }
+    said_if(
+        factor.is_some_and(|factor| is_of_units(factor, levers)),
+        Weight::Fatal,
+        "the deflection has the digits of the load, without any error: one column was exported twice",
+    )
 }
 
 /// Deflection over load, if that is one number for all rows.

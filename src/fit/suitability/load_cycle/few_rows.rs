@@ -1,12 +1,11 @@
 //! A cycle must be resolved.
 
 use super::{Course, Rule};
-use crate::fit::suitability::{Said, Weight};
+use crate::fit::suitability::{Said, Weight, said_if};
 
-/// The rule.
+/// Shape and noise of a ramp need readings on it.
 pub const RULE: Rule = Rule {
     name: "few-rows",
-    about: "Shape and noise of a ramp need readings on it.",
     remedy: "sample faster, or load more slowly",
     look,
 };
@@ -23,13 +22,11 @@ fn look(on: &Course) -> Said {
     if rows < FEWEST {
         return vec![(Weight::Fatal, format!("there are only {rows} usable rows"))];
     }
-    match ramps > 2 && rows / ramps < ON_A_RAMP {
-        true => vec![(
-            Weight::Fatal,
-            format!(
-                "{rows} rows hold {ramps} ramps of the load: fewer than {ON_A_RAMP} readings on each"
-            ),
-        )],
-        false => Vec::new(),
-    }
+    said_if(
+        ramps > 2 && rows / ramps < ON_A_RAMP,
+        Weight::Fatal,
+        format!(
+            "{rows} rows hold {ramps} ramps of the load: fewer than {ON_A_RAMP} readings on each"
+        ),
+    )
 }

@@ -3,10 +3,9 @@
 use super::{Course, Rule};
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// A row without time, load or deflection is left out, and counted.
 pub const RULE: Rule = Rule {
     name: "left-out",
-    about: "A row without time, load or deflection is left out, and counted.",
     remedy: "fill the empty cells",
     look,
 };

@@ -4,10 +4,9 @@ use super::{Course, Rule};
 use crate::fit::observation::Part;
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// A record of very many cycles is fitted by its first ones, as averaging would mix cycles.
 pub const RULE: Rule = Rule {
     name: "long",
-    about: "A record of very many cycles is fitted by its first ones, as averaging would mix cycles.",
     remedy: "cut the file into pieces to see the later cycles",
     look,
 };

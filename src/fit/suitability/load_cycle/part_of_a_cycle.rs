@@ -3,10 +3,10 @@
 use super::{Course, Rule};
 use crate::fit::suitability::{Said, Weight, extent};
 
-/// The rule.
+/// On a single ramp a gap, friction and drift pass for stiffness; once up and down, what time does and what the
+/// load does look alike.
 pub const RULE: Rule = Rule {
     name: "part-of-a-cycle",
-    about: "On a single ramp a gap, friction and drift pass for stiffness; once up and down, what time does and what the load does look alike.",
     remedy: "load to and fro, more than once",
     look,
 };

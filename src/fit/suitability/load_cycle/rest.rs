@@ -3,10 +3,9 @@
 use super::{Course, Rule};
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// The unloaded start fixes the zero of both channels.
 pub const RULE: Rule = Rule {
     name: "rest",
-    about: "The unloaded start fixes the zero of both channels.",
     remedy: "correct `rest_s`, or the column of the load",
     look,
 };

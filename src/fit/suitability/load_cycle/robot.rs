@@ -1,26 +1,15 @@
 //! The robot that the file names.
 
 use super::{Course, Rule};
-use crate::fit::suitability::{Said, Weight};
-use crate::robot::load::load;
+use crate::fit::suitability::{Said, strange_robot};
 
-/// The rule.
+/// A stiffness goes into the robot that the file names.
 pub const RULE: Rule = Rule {
     name: "robot",
-    about: "A stiffness goes into the robot that the file names.",
     remedy: "correct `robot`, or put the robot file beside the measurement",
     look,
 };
 
 fn look(on: &Course) -> Said {
-    let Some(name) = &on.file.facts.robot else {
-        return Vec::new();
-    };
-    match load(name, Some(&on.file.path)) {
-        Ok(_) => Vec::new(),
-        Err(_) => vec![(
-            Weight::Note,
-            format!("the robot `{name}` is not known here"),
-        )],
-    }
+    strange_robot(on.file.facts.robot.as_ref(), &on.file.path)
 }

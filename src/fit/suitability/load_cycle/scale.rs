@@ -6,10 +6,9 @@ use crate::fit::suitability::magnitude::{explanation, times};
 use crate::fit::suitability::{Said, Weight};
 use crate::measurement::load_cycle::{LEVER_REL_STD, LoadCycle};
 
-/// The rule.
+/// A stiffness far from the nominal one may be a unit or a lever, not the joint.
 pub const RULE: Rule = Rule {
     name: "scale",
-    about: "A stiffness far from the nominal one may be a unit or a lever, not the joint.",
     remedy: "check the units at the ends of the column names, the levers (metres) and the nominal stiffness",
     look,
 };

@@ -4,10 +4,9 @@ use super::{Course, Rule};
 use crate::fit::suitability::relation::Relation;
 use crate::fit::suitability::{Said, Weight, extent};
 
-/// The rule.
+/// Two sensors on one joint see one deflection.
 pub const RULE: Rule = Rule {
     name: "second-sensor",
-    about: "Two sensors on one joint see one deflection.",
     remedy: "turn the sign of the second sensor, or look at its cable and lever",
     look,
 };

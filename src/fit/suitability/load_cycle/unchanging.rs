@@ -2,11 +2,11 @@
 
 use super::{Course, Rule};
 use crate::fit::suitability::{Said, Weight, extent};
+use crate::ground::stats::largest;
 
-/// The rule.
+/// A load or a response that stays the same says nothing of a spring.
 pub const RULE: Rule = Rule {
     name: "unchanging",
-    about: "A load or a response that stays the same says nothing of a spring.",
     remedy: "check cable and channel, and measure again",
     look,
 };
@@ -17,7 +17,7 @@ const ROUNDING: f64 = 1e-12;
 fn look(on: &Course) -> Said {
     let file = on.file;
     let still = |values: &[f64]| {
-        let level = values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        let level = largest(values);
         extent(values) <= ROUNDING * level
     };
     let mut found = Vec::new();

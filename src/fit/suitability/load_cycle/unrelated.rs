@@ -3,10 +3,9 @@
 use super::{Course, Rule};
 use crate::fit::suitability::{Said, Weight, extent};
 
-/// The rule.
+/// Noise, a walk or an oscillation of its own is no response to the load.
 pub const RULE: Rule = Rule {
     name: "unrelated",
-    about: "Noise, a walk or an oscillation of its own is no response to the load.",
     remedy: "check that this sensor was recorded with this load, on one clock",
     look,
 };

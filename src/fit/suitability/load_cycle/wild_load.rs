@@ -4,10 +4,9 @@ use super::{Course, Rule};
 use crate::fit::suitability::{Said, Weight, extent};
 use crate::signal::outliers::isolated;
 
-/// The rule.
+/// One wild reading of the load sets its range, and with it every scale.
 pub const RULE: Rule = Rule {
     name: "wild-load",
-    about: "One wild reading of the load sets its range, and with it every scale.",
     remedy: "empty that cell, or correct it",
     look,
 };

@@ -4,10 +4,9 @@ use super::{Course, Rule};
 use crate::fit::observation::{MOST_ROWS, Observation};
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// Lone wild readings are replaced by their neighbours, and counted.
 pub const RULE: Rule = Rule {
     name: "wild-response",
-    about: "Lone wild readings are replaced by their neighbours, and counted.",
     remedy: "look at the sensor's cable",
     look,
 };

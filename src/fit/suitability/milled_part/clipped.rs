@@ -4,10 +4,9 @@ use super::{Probed, Rule};
 use crate::fit::suitability::channel::is_dead;
 use crate::fit::suitability::{Said, channel};
 
-/// The rule.
+/// A probe at the end of its range repeats one number while the test goes on.
 pub const RULE: Rule = Rule {
     name: "clipped",
-    about: "A probe at the end of its range repeats one number while the test goes on.",
     remedy: "measure again with a wider range of the probe",
     look,
 };

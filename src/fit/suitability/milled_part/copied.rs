@@ -4,10 +4,9 @@ use super::{Probed, Rule};
 use crate::fit::suitability::{Said, channel};
 use crate::measurement::milled_part::At;
 
-/// The rule.
+/// A reading that is copied counts twice and makes every interval too narrow.
 pub const RULE: Rule = Rule {
     name: "twice",
-    about: "A reading that is copied counts twice and makes every interval too narrow.",
     remedy: "remove the copies",
     look,
 };

@@ -2,23 +2,20 @@
 
 use super::{Probed, Rule};
 use crate::fit::suitability::channel;
-use crate::fit::suitability::{Said, Weight};
+use crate::fit::suitability::{Said, Weight, said_if};
 
-/// The rule.
+/// A part whose every component never changes was not probed.
 pub const RULE: Rule = Rule {
     name: "dead",
-    about: "A part whose every component never changes was not probed.",
     remedy: "check the cable of the probe, and measure again",
     look,
 };
 
 fn look(on: &Probed) -> Said {
     let dead = on.channels.iter().all(|c| channel::is_dead(&c.values));
-    match dead && !on.channels.is_empty() {
-        true => vec![(
-            Weight::Fatal,
-            "no component ever changes: a dead probe".into(),
-        )],
-        false => Vec::new(),
-    }
+    said_if(
+        dead && !on.channels.is_empty(),
+        Weight::Fatal,
+        "no component ever changes: a dead probe",
+    )
 }

@@ -3,10 +3,9 @@
 use super::{Probed, Rule};
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// As many unknowns as places fit anything.
 pub const RULE: Rule = Rule {
     name: "few",
-    about: "As many unknowns as places fit anything.",
     remedy: "probe at least twelve places, on feeds in two directions",
     look,
 };

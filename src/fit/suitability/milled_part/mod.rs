@@ -5,9 +5,8 @@ mod copied;
 mod dead;
 mod few;
 mod scale;
-mod wild;
 
-use super::channel::Channel;
+use super::channel::{self, Channel};
 use super::{Doubt, Said};
 use crate::measurement::milled_part::PartTest;
 
@@ -25,7 +24,7 @@ pub type Rule = super::Rule<for<'a, 'b> fn(&'b Probed<'a>) -> Said>;
 /// Every rule, in the order in which its findings are said.
 pub const RULES: &[Rule] = &[
     dead::RULE,
-    wild::RULE,
+    channel::wild_rule(|on| channel::wild(&on.channels)),
     clipped::RULE,
     scale::RULE,
     few::RULE,

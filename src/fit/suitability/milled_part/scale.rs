@@ -4,10 +4,9 @@ use super::{Probed, Rule};
 use crate::fit::suitability::{Said, Weight};
 use crate::ground::stats::median;
 
-/// The rule.
+/// A part that is off by centimetres, or by less than light waves, is a unit.
 pub const RULE: Rule = Rule {
     name: "scale",
-    about: "A part that is off by centimetres, or by less than light waves, is a unit.",
     remedy: "check the units at the ends of the column names; dx_mm is measured less nominal",
     look,
 };

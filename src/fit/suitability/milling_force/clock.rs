@@ -5,10 +5,9 @@ use crate::fit::suitability::{Said, Weight};
 use crate::measurement::milling_force::{CutFacts, Record};
 use std::f64::consts::TAU;
 
-/// The rule.
+/// A record shorter than the passage of a tooth, or with hardly a sample per turn, has another time base.
 pub const RULE: Rule = Rule {
     name: "clock",
-    about: "A record shorter than the passage of a tooth, or with hardly a sample per turn, has another time base.",
     remedy: "check the unit of the time column and `spindle_rpm`",
     look,
 };

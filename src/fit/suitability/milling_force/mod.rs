@@ -1,14 +1,11 @@
 //! The gate for records of a dynamometer.
 
-mod clipped;
 mod clock;
-mod dead;
 mod reversed;
 mod scale;
 mod unrelated;
-mod wild;
 
-use super::channel::Channel;
+use super::channel::{self, Channel};
 use super::{Doubt, Said};
 use crate::ground::spatial::V3;
 use crate::measurement::milling_force::{CutFacts, CutSide, MillingForce, Record};
@@ -27,10 +24,10 @@ pub type Rule = super::Rule<for<'a, 'b> fn(&'b Cutting<'a>) -> Said>;
 
 /// Every rule, in the order in which its findings are said.
 pub const RULES: &[Rule] = &[
-    dead::RULE,
+    channel::dead_rule(|on| channel::dead(&on.channels)),
     clock::RULE,
-    wild::RULE,
-    clipped::RULE,
+    channel::wild_rule(|on| channel::wild(&on.channels)),
+    channel::clipped_rule(|on| channel::clipped(&on.channels)),
     unrelated::RULE,
     reversed::RULE,
     scale::RULE,

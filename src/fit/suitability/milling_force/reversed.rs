@@ -1,12 +1,11 @@
 //! Signs: the tool is pushed back by what it cuts.
 
 use super::{Cutting, Rule, mean};
-use crate::fit::suitability::{Said, Weight, extent};
+use crate::fit::suitability::{Said, Weight, extent, said_if};
 
-/// The rule.
+/// A chip resists: the mean force on the tool points against its edges.
 pub const RULE: Rule = Rule {
     name: "reversed",
-    about: "A chip resists: the mean force on the tool points against its edges.",
     remedy: "correct `force_on` (workpiece or tool), the signs of the channels, or the side of the cut",
     look,
 };
@@ -28,11 +27,9 @@ fn look(on: &Cutting) -> Said {
         let [x, y, _] = mean(record);
         against(on.expected(cut), [x, y], range)
     });
-    match every {
-        true => vec![(
-            Weight::Fatal,
-            "the mean force drives the tool in every cut: its sign is wrong".into(),
-        )],
-        false => Vec::new(),
-    }
+    said_if(
+        every,
+        Weight::Fatal,
+        "the mean force drives the tool in every cut: its sign is wrong",
+    )
 }

@@ -5,10 +5,9 @@ use crate::fit::suitability::magnitude::{explanation, times};
 use crate::fit::suitability::{Said, Weight, extent};
 use crate::signal::outliers::median;
 
-/// The rule.
+/// A force per chip section that no material has is a unit.
 pub const RULE: Rule = Rule {
     name: "scale",
-    about: "A force per chip section that no material has is a unit.",
     remedy: "check the units at the ends of the column names, and feed, depth, width, teeth and speed in `cuts`",
     look,
 };

@@ -2,13 +2,13 @@
 
 use super::{Cutting, Rule};
 use crate::fit::suitability::{Said, Weight};
+use crate::ground::stats::rms;
 use crate::measurement::milling_force::Record;
 use std::f64::consts::TAU;
 
-/// The rule.
+/// A cutting force repeats with every turn of the spindle; noise and other channels do not.
 pub const RULE: Rule = Rule {
     name: "unrelated",
-    about: "A cutting force repeats with every turn of the spindle; noise and other channels do not.",
     remedy: "check which channel was recorded in this column, the time column and the spindle speed",
     look,
 };
@@ -51,7 +51,7 @@ impl Cutting<'_> {
     /// Whether a channel stands far out of the stated noise, if one is stated.
     fn loud(&self, k: usize) -> bool {
         let values = &self.channels[k].values;
-        let size = (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt();
+        let size = rms(values);
         self.file
             .facts
             .sensor_noise_n

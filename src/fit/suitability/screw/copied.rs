@@ -3,10 +3,9 @@
 use super::{Axis, Rule};
 use crate::fit::suitability::{Said, channel};
 
-/// The rule.
+/// A reading that is copied counts twice and makes every interval too narrow.
 pub const RULE: Rule = Rule {
     name: "twice",
-    about: "A reading that is copied counts twice and makes every interval too narrow.",
     remedy: "remove the copies",
     look,
 };

@@ -4,10 +4,9 @@ use super::{Axis, Rule};
 use crate::fit::suitability::{Said, Weight};
 use std::collections::BTreeMap;
 
-/// The rule.
+/// A file that was cut off holds runs with fewer readings than the others, and two places of an axis tell no shape.
 pub const RULE: Rule = Rule {
     name: "few",
-    about: "A file that was cut off holds runs with fewer readings than the others, and two places of an axis tell no shape.",
     remedy: "check that the whole file was copied, and measure at three targets or more along the axis",
     look,
 };

@@ -5,10 +5,9 @@ use crate::fit::suitability::channel::sum;
 use crate::fit::suitability::magnitude::{explanation, times};
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// An axis goes where it is told but for a small share of its travel.
 pub const RULE: Rule = Rule {
     name: "scale",
-    about: "An axis goes where it is told but for a small share of its travel.",
     remedy: "check units and sign of `target` and `actual`, and that both are of one axis",
     look,
 };

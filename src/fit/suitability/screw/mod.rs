@@ -1,14 +1,11 @@
 //! The gate for positions of a linear axis.
 
-mod clipped;
 mod copied;
-mod dead;
 mod few;
 mod follows;
 mod order;
-mod wild;
 
-use super::channel::Channel;
+use super::channel::{self, Channel};
 use super::{Doubt, Said};
 use crate::measurement::screw::ScrewTest;
 
@@ -25,9 +22,9 @@ pub type Rule = super::Rule<for<'a, 'b> fn(&'b Axis<'a>) -> Said>;
 
 /// Every rule, in the order in which its findings are said.
 pub const RULES: &[Rule] = &[
-    dead::RULE,
-    wild::RULE,
-    clipped::RULE,
+    channel::dead_rule(|on| channel::dead(&on.channels)),
+    channel::wild_rule(|on| channel::wild(&on.channels)),
+    channel::clipped_rule(|on| channel::clipped(&on.channels)),
     follows::RULE,
     order::RULE,
     copied::RULE,

@@ -1,12 +1,11 @@
 //! The stated direction must be that in which the targets follow each other.
 
 use super::{Axis, Rule};
-use crate::fit::suitability::{Said, Weight};
+use crate::fit::suitability::{Said, Weight, said_if};
 
-/// The rule.
+/// With the directions swapped the backlash is corrected the wrong way.
 pub const RULE: Rule = Rule {
     name: "direction",
-    about: "With the directions swapped the backlash is corrected the wrong way.",
     remedy: "correct the column `direction`: forward approaches towards larger targets",
     look,
 };
@@ -24,14 +23,12 @@ fn look(on: &Axis) -> Said {
         true => with += 1,
         false => against += 1,
     });
-    match against >= FEWEST && against > 3 * with {
-        true => vec![(
-            Weight::Odd,
-            format!(
-                "in {against} of {} steps the targets run against the stated direction",
-                with + against
-            ),
-        )],
-        false => Vec::new(),
-    }
+    said_if(
+        against >= FEWEST && against > 3 * with,
+        Weight::Odd,
+        format!(
+            "in {against} of {} steps the targets run against the stated direction",
+            with + against
+        ),
+    )
 }

@@ -5,10 +5,9 @@ use crate::fit::force_steps::Setup;
 use crate::fit::suitability::{Said, Weight, extent, range};
 use crate::measurement::workspace_test::{DIRECTIONS, Step};
 
-/// The rule.
+/// A sensor at the end of its range repeats one number at different forces.
 pub const RULE: Rule = Rule {
     name: "clipped",
-    about: "A sensor at the end of its range repeats one number at different forces.",
     remedy: "measure again with a wider range of that sensor, or with less force",
     look,
 };

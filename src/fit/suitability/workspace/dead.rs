@@ -2,12 +2,12 @@
 
 use super::{Loaded, Rule};
 use crate::fit::suitability::{Said, Weight, extent};
+use crate::ground::stats::largest;
 use crate::measurement::workspace_test::DIRECTIONS;
 
-/// The rule.
+/// A channel that never changes passes for a direction without compliance.
 pub const RULE: Rule = Rule {
     name: "dead",
-    about: "A channel that never changes passes for a direction without compliance.",
     remedy: "leave the cells of that column empty, or measure again",
     look,
 };
@@ -19,7 +19,7 @@ fn look(on: &Loaded) -> Said {
     };
     let dead = (0..3).filter(|k| {
         let own = values(*k);
-        own.len() > 2 && extent(&own) <= 1e-12 * own.iter().fold(0.0_f64, |m, v| m.max(v.abs()))
+        own.len() > 2 && extent(&own) <= 1e-12 * largest(&own)
     });
     dead.map(|k| {
         (

@@ -4,10 +4,9 @@ use super::{Loaded, Rule, names};
 use crate::fit::force_steps::Setup;
 use crate::fit::suitability::{Said, Weight};
 
-/// The rule.
+/// A file that was cut off holds fewer points than it states, or a set-up with fewer steps.
 pub const RULE: Rule = Rule {
     name: "few",
-    about: "A file that was cut off holds fewer points than it states, or a set-up with fewer steps.",
     remedy: "check that the whole file was copied; leave points that were not measured out of `joint_angles_deg`",
     look,
 };

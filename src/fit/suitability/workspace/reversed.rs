@@ -5,10 +5,9 @@ use crate::fit::force_steps::Setup;
 use crate::fit::suitability::{Said, Weight};
 use crate::measurement::workspace_test::DIRECTIONS;
 
-/// The rule.
+/// The tool gives way along the force, never against it.
 pub const RULE: Rule = Rule {
     name: "reversed",
-    about: "The tool gives way along the force, never against it.",
     remedy: "turn the sign of that channel or of the force (base frame)",
     look,
 };

@@ -6,10 +6,9 @@ use crate::fit::suitability::{Said, Weight};
 use crate::measurement::workspace_test::DIRECTIONS;
 use crate::signal::outliers::median;
 
-/// The rule.
+/// A compliance far from the simulated one at all points is a unit, not a joint.
 pub const RULE: Rule = Rule {
     name: "scale",
-    about: "A compliance far from the simulated one at all points is a unit, not a joint.",
     remedy: "check the units at the ends of the column names, and the robot that the file names",
     look,
 };

@@ -1,13 +1,12 @@
 //! Rows that stand in the file twice.
 
 use super::{Loaded, Rule};
-use crate::fit::suitability::{Said, Weight};
+use crate::fit::suitability::{Said, Weight, said_if};
 use crate::measurement::workspace_test::Step;
 
-/// The rule.
+/// A step that is copied counts twice and makes every interval too narrow.
 pub const RULE: Rule = Rule {
     name: "twice",
-    about: "A step that is copied counts twice and makes every interval too narrow.",
     remedy: "remove the copies",
     look,
 };
@@ -31,11 +30,9 @@ fn look(on: &Loaded) -> Said {
     let rows = all.len();
     all.dedup();
     let copies = rows - all.len();
-    match copies as f64 > MANY * rows as f64 {
-        true => vec![(
-            Weight::Odd,
-            format!("{copies} of {rows} steps are exact copies of others"),
-        )],
-        false => Vec::new(),
-    }
+    said_if(
+        copies as f64 > MANY * rows as f64,
+        Weight::Odd,
+        format!("{copies} of {rows} steps are exact copies of others"),
+    )
 }

@@ -5,10 +5,9 @@ use crate::fit::force_steps::Setup;
 use crate::fit::suitability::{Said, Weight};
 use crate::measurement::workspace_test::DIRECTIONS;
 
-/// The rule.
+/// Displacement that does not follow the force is noise, or another channel.
 pub const RULE: Rule = Rule {
     name: "unrelated",
-    about: "Displacement that does not follow the force is noise, or another channel.",
     remedy: "check which sensor was recorded in this column",
     look,
 };

@@ -4,10 +4,9 @@ use super::{Loaded, Rule};
 use crate::fit::suitability::{Said, Weight};
 use crate::signal::outliers::median;
 
-/// The rule.
+/// One wild reading of the force turns the line of its set-up.
 pub const RULE: Rule = Rule {
     name: "wild-force",
-    about: "One wild reading of the force turns the line of its set-up.",
     remedy: "empty that cell, or correct it",
     look,
 };

@@ -8,7 +8,7 @@ mod words;
 use super::draft::Draft;
 use super::points::axis;
 use super::shape::Arc;
-use super::source::Source;
+use super::source::{Source, any_line_starts};
 use super::{Move, Orientation, Shape};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::vector::{V3, add, scale};
@@ -18,12 +18,10 @@ use std::f64::consts::TAU;
 use words::{Kind, kind_of};
 
 pub(super) fn recognises(head: &str) -> bool {
-    let mut lines = head.lines().map(|line| line.trim_start().to_uppercase());
-    lines.any(|l| {
-        ["GOTO/", "GOTO /", "FEDRAT", "PARTNO", "TOOL PATH", "$$"]
-            .iter()
-            .any(|w| l.starts_with(w))
-    })
+    any_line_starts(
+        head,
+        &["GOTO/", "GOTO /", "FEDRAT", "PARTNO", "TOOL PATH", "$$"],
+    )
 }
 
 pub(super) fn read(source: &Source) -> Outcome<Draft> {

@@ -10,7 +10,7 @@ mod scan;
 mod value;
 
 use super::draft::Draft;
-use super::source::Source;
+use super::source::{Source, any_line_starts};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::vector::V3;
 use motion::Verb;
@@ -25,12 +25,10 @@ pub const RAPID_FOLD: &str = ";FOLD RAPID";
 pub const END_FOLD: &str = ";ENDFOLD";
 
 pub(super) fn recognises(head: &str) -> bool {
-    let mut lines = head.lines().map(|line| line.trim_start().to_uppercase());
-    lines.any(|l| {
-        ["DEF ", "&ACCESS", "LIN {", "PTP ", "$BASE", "GLOBAL DEF "]
-            .iter()
-            .any(|w| l.starts_with(w))
-    })
+    any_line_starts(
+        head,
+        &["DEF ", "&ACCESS", "LIN {", "PTP ", "$BASE", "GLOBAL DEF "],
+    )
 }
 
 pub(super) fn read(source: &Source) -> Outcome<Draft> {
