@@ -580,6 +580,39 @@ fn a_loose_cube_that_follows_its_neighbour_is_named() {
     only(&named(&|_| 1.0, &share), "loose_cube", "carousel");
 }
 
+/// Where a cube stands in the base frame, unloaded.
+fn centre(name: &str) -> V {
+    let hinges = hinges(&kr300(), &POSE, &|_| 1.0);
+    let rest = motions(&hinges, &vec![0.0; hinges.len()]);
+    let cubes = cubes();
+    let cube = cubes.iter().find(|c| c.0 == name).unwrap();
+    let behind = cube
+        .1
+        .map(|s| hinges.iter().rposition(|h| h.site == s).unwrap());
+    behind.map_or(cube.4, |h| rest[h].of(cube.4))
+}
+
+/// On a loose plate a cube swings with its neighbour, lever and all.
+#[test]
+fn a_loose_cube_that_swings_with_its_neighbour_is_named() {
+    let share = Hidden {
+        spoil: |_, name, own, all| {
+            if name == "fore-high" {
+                let other = all.iter().find(|a| a.0 == "fore-low").unwrap().1;
+                let (here, there) = (centre("fore-high"), centre("fore-low"));
+                let lever = [0, 1, 2].map(|k| here[k] - there[k]);
+                let swung = cross([other[3], other[4], other[5]], lever);
+                for k in 0..6 {
+                    let whole = other[k] + if k < 3 { swung[k] } else { 0.0 };
+                    own[k] += 0.4 * (whole - own[k]);
+                }
+            }
+        },
+        ..NOTHING
+    };
+    only(&named(&|_| 1.0, &share), "loose_cube", "fore-high");
+}
+
 #[test]
 fn a_frame_that_moved_is_named() {
     let moved = Hidden {

@@ -95,6 +95,7 @@ fn files_that_are_wrong_are_refused_with_their_line() {
         ("teeth = 3", "teth = 3", 4),
         ("depth_mm = 1.5", "depth_mm = -1.5", 6),
         ("cut = \"slot\"", "cut = \"round\"", 6),
+        ("diameter_mm = ", "diameter_mm = 1e30 # ", 3),
     ] {
         std::fs::write(&path, text.replacen(from, to, 1)).unwrap();
         let output = ident(folder.path(), &["force", "measurements/al/cuts.csv"]);
@@ -161,6 +162,7 @@ fn a_modal_file_that_is_wrong_is_refused_with_its_line() {
         ("damping_ratio = 0.011", "damping = 0.011", 5),
         ("direction = [1, 0, 0]", "direction = [0, 0, 0]", 3),
         ("cut = \"slot\"", "cut = \"down\"", 17),
+        ("diameter_mm = ", "diameter_mm = 1e30 # ", 8),
     ] {
         std::fs::write(&path, MODAL.replacen(from, to, 1)).unwrap();
         let output = ident(folder.path(), &["lobes", "m.toml", "--at", "5000,0.5"]);

@@ -77,6 +77,31 @@ fn a_wrong_stiffness_is_named_with_its_place_and_size() {
     );
 }
 
+/// Of one hit a direction none can be left out, and no scatter is known: lines are.
+#[test]
+fn a_wrong_stiffness_is_named_by_one_hit_a_direction() {
+    let mut robot = struck();
+    for (site, spring) in robot.springs_mut() {
+        spring.stiffness *= if site == "A2" { 1.6 } else { 1.0 };
+    }
+    let mut record = example();
+    let mut seen = Vec::new();
+    record.runs.retain(|run| {
+        let is_first = !seen.contains(&run.direction);
+        seen.push(run.direction.clone());
+        is_first
+    });
+    assert_eq!(record.runs.len(), 3);
+    let found = diagnose(&record, &robot).unwrap();
+    finds(&found, "drive_stiffness", "A2");
+    let sound = diagnose(&record, &struck()).unwrap();
+    assert!(
+        named(&sound.answer).is_empty(),
+        "{:?}",
+        named(&sound.answer)
+    );
+}
+
 #[test]
 fn a_missing_tilt_is_named() {
     let mut robot = struck();

@@ -218,6 +218,17 @@ fn teeth_that_do_not_run_alike_are_named() {
     is_named(&bench.found(|_| ()), "chipped_tooth");
 }
 
+/// Of two teeth one is shorter in an eccentric tool as in a broken one; a runout is among what is named all the same, wherever
+/// it points.
+#[test]
+fn a_runout_of_two_teeth_is_among_what_is_named() {
+    for angle in [0.3, 1.2] {
+        let mut bench = Bench::new(2);
+        (bench.cutter.runout, bench.cutter.runout_angle) = (27e-6, angle);
+        is_named(&bench.found(|_| ()), "runout");
+    }
+}
+
 #[test]
 fn a_sensor_that_rings_is_named_with_its_frequency() {
     let mut bench = Bench::new(3);
