@@ -1,5 +1,8 @@
 //! Diagnosis of workspace tests on the command line.
 
+use ident::experiments::workspace::Deflection;
+use ident::robot::Spring;
+use ident::robot::model::ElasticAxis;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -176,4 +179,81 @@ fn wrong_input_is_refused_with_a_remedy() {
         "path",
     );
     refused(|t| t.replace(", 21.0375],", "],"), "angles");
+}
+
+/// The example's readings with what an elastic axis adds to them.
+fn softened(text: &str, axis: ElasticAxis) -> String {
+    let robot = ident::robot::builtin::named("kr210").unwrap().unwrap();
+    let mut soft = robot.clone();
+    soft.elastic.push(axis);
+    let angles = text.lines().filter_map(|line| line.strip_prefix("#   ["));
+    let angles = angles.map(|line| {
+        let own = line.trim_end_matches("],").split(", ");
+        own.map(|q| q.parse::<f64>().unwrap().to_radians())
+            .collect()
+    });
+    let points: Vec<Vec<f64>> = angles.collect();
+    let [before, after] = [&robot, &soft].map(|robot| Deflection::of(robot, &points).slopes);
+    let line = |line: &str| -> String {
+        let cells: Vec<&str> = line.split(',').collect();
+        let Some(point) = cells[0].parse::<usize>().ok().filter(|_| cells.len() == 7) else {
+            return line.to_string();
+        };
+        let direction = ["x", "y", "z"].iter().position(|d| *d == cells[1]).unwrap();
+        let force: f64 = cells[3].parse().unwrap();
+        let [was, is] = [&before, &after].map(|slopes| slopes[point - 1][direction]);
+        let read = |k: usize| {
+            let own: f64 = cells[4 + k].parse().unwrap();
+            format!("{:.5}", own + 1e3 * force * (is[k] - was[k]))
+        };
+        let read = [0, 1, 2].map(read).join(",");
+        format!("{},{read}", cells[..4].join(","))
+    };
+    text.lines().map(line).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn what_gives_way_about_an_oblique_axis_is_one_cause() {
+    let robot = ident::robot::builtin::named("kr210").unwrap().unwrap();
+    let middle = |i: usize| {
+        let [a, b] = [robot.joints[i - 1].point, robot.joints[i].point];
+        [0, 1, 2].map(|k| 0.5 * (a[k] + b[k]))
+    };
+    for (effect, site, after, point, axis, stiffness) in [
+        ("base_compliance", "base", 0, [0.0; 3], [0.6, 0.8, 0.0], 4e6),
+        (
+            "link_compliance",
+            "link2",
+            2,
+            middle(2),
+            [0.48, 0.6, 0.64],
+            2e6,
+        ),
+        (
+            "tool_compliance",
+            "tool",
+            6,
+            robot.tool.flange,
+            [0.0, 0.6, 0.8],
+            1e5,
+        ),
+    ] {
+        let added = ElasticAxis {
+            name: "hidden".into(),
+            after,
+            axis,
+            point,
+            spring: Spring::new(stiffness, 0.0),
+        };
+        let (folder, file) = campaign(|text| softened(&text, added.clone()));
+        let typed = ["diagnose", file.to_str().unwrap(), "--json", "--dry-run"];
+        let answer = document(&ident(&typed, folder.path()));
+        let causes = answer["causes"].as_array().unwrap();
+        let named = |c: &Value| c["effect"] == effect && c["site"] == site;
+        assert!(
+            causes.len() == 1 && causes.iter().all(named),
+            "{effect}: {answer:#}"
+        );
+        assert_eq!(answer["verdict"], "explained", "{effect}: {answer:#}");
+    }
 }

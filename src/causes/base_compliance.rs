@@ -1,9 +1,10 @@
 //! The foundation gives way.
 
 use super::contract::{Amount, Blame, Card, Cause, Sight};
-use super::places::{Said, add_axes, added, drive_compliance, said_added, said_axes};
+use super::places::{Said, add_axes, added, added_spring, drive_compliance};
+use super::turns::{Axis, Names, SIX, TURNS, axes, said_matrix, shared, sizes};
 use crate::effects::Family;
-use crate::ground::spatial::V3;
+use crate::ground::spatial::{normals, scale};
 use crate::robot::Robot;
 use crate::robot::model::ElasticAxis;
 
@@ -14,7 +15,7 @@ const CARD: Card = Card {
     name: "base_compliance",
     family: Family::Physics,
     summary: "The foundation gives way, and the model holds it rigid.",
-    equation: "rotations about x, y, z of the base frame through its origin, and shifts along them, compliance added",
+    equation: "rotations about axes of the base frame through its origin, and shifts along them, compliance added: symmetric matrices",
     source: "source 004; knowledge of foot bolts: Worden and Tomlinson 2001",
     shows: &[
         (
@@ -30,9 +31,33 @@ const CARD: Card = Card {
         added("about_x", "compliance of the foundation about x"),
         added("about_y", "compliance of the foundation about y"),
         added("about_z", "compliance of the foundation about z"),
+        shared(
+            "about_yz",
+            "compliance of the foundation that y and z share",
+        ),
+        shared(
+            "about_zx",
+            "compliance of the foundation that z and x share",
+        ),
+        shared(
+            "about_xy",
+            "compliance of the foundation that x and y share",
+        ),
         shift("along_x", "compliance of the foundation along x"),
         shift("along_y", "compliance of the foundation along y"),
         shift("along_z", "compliance of the foundation along z"),
+        both(
+            "along_yz",
+            "compliance of the foundation along y and z that both share",
+        ),
+        both(
+            "along_zx",
+            "compliance of the foundation along z and x that both share",
+        ),
+        both(
+            "along_xy",
+            "compliance of the foundation along x and y that both share",
+        ),
     ],
 };
 
@@ -40,6 +65,29 @@ const CARD: Card = Card {
 const fn shift(name: &'static str, meaning: &'static str) -> Amount {
     Amount::new(name, "1e-7 m/N", meaning, [0.0, 100.0], &[1.0])
 }
+
+/// What two axes share of a compliance against shifting, in 1e-7 m/N.
+const fn both(name: &'static str, meaning: &'static str) -> Amount {
+    Amount {
+        unit: "1e-7 m/N",
+        ..shared(name, meaning)
+    }
+}
+
+/// Of shifts.
+const SHIFTS: Names = Names {
+    straight: [
+        "stiffness_along_x",
+        "stiffness_along_y",
+        "stiffness_along_z",
+    ],
+    principal: [
+        "stiffness_along_softest",
+        "stiffness_along_second",
+        "stiffness_along_third",
+    ],
+    softest: ["softest_along_x", "softest_along_y", "softest_along_z"],
+};
 
 /// A shift is a turn about an axis this far away, m: a robot file knows turns only, and over the
 /// reach of a robot the difference is below a tenth of a percent.
@@ -63,54 +111,60 @@ impl Cause for BaseCompliance {
     }
 
     fn scale(&self, robot: &Robot, _site: &str) -> Vec<f64> {
-        let turn = drive_compliance(robot, 1);
-        vec![turn, turn, turn, turn, turn, turn]
+        let own = sizes(drive_compliance(robot, 1));
+        [own, own].concat()
+    }
+
+    fn matrices(&self) -> Vec<usize> {
+        vec![0, SIX]
     }
 
     fn forms(&self) -> Vec<Vec<usize>> {
         let turns = [vec![0], vec![1], vec![2], vec![0, 1], vec![0, 1, 2]];
-        let all = (0..6).collect();
-        turns.into_iter().chain([vec![3, 4, 5], all]).collect()
+        let shifts = [6, 7, 8];
+        let straight = [shifts.to_vec(), [&[0, 1, 2][..], &shifts].concat()];
+        let level = vec![0, 1, 5];
+        let oblique = [level, (0..SIX).collect(), (0..2 * SIX).collect()];
+        turns.into_iter().chain(straight).chain(oblique).collect()
     }
 
     /// Foot bolts stretch: a foundation rocks or heaves rather than that it turns about the vertical.
     fn shares(&self) -> Vec<f64> {
-        vec![1.0, 1.0, 0.3, 1.0, 1.0, 0.5, 1.0]
+        vec![1.0, 1.0, 0.3, 1.0, 1.0, 0.5, 1.0, 1.0, 1.0, 1.0]
     }
 
     fn alter(&self, robot: &mut Robot, site: &str, amounts: &[f64]) {
-        add_axes(robot, site, 0, [0.0; 3], amounts);
-        for (k, amount) in amounts.iter().enumerate().skip(3).take(3) {
-            let before = robot.elastic.len();
-            let (axis, point) = far_axis(k - 3);
-            let mut turns = [0.0; 3];
-            turns[axis] = amount / (FAR * FAR);
-            add_axes(robot, site, 0, point, &turns);
-            robot.elastic[before..].iter_mut().for_each(|added| {
-                *added = ElasticAxis {
-                    name: format!("{site}-along-{}", ["x", "y", "z"][k - 3]),
-                    ..added.clone()
-                };
-            });
+        let (turns, shifts) = amounts.split_at(SIX.min(amounts.len()));
+        add_axes(robot, site, 0, [0.0; 3], turns);
+        for (k, own) in axes(shifts).into_iter().enumerate() {
+            let name = format!("{site}-along-{}", ["x", "y", "z"][k]);
+            add_shift(robot, &name, own);
         }
     }
 
     fn said(&self, _robot: &Robot, _site: &str, amounts: &[f64]) -> Said {
-        let names = [
-            "stiffness_along_x",
-            "stiffness_along_y",
-            "stiffness_along_z",
-        ];
-        let along = names.iter().zip(amounts.iter().skip(3));
-        let along = along.flat_map(|(name, amount)| said_added(name, *amount));
-        let along = along.map(|(name, value, _)| (name, value, "N/m"));
-        said_axes(amounts).into_iter().chain(along).collect()
+        let (turns, shifts) = amounts.split_at(SIX.min(amounts.len()));
+        let along = said_matrix(shifts, &SHIFTS).into_iter();
+        let unit = |unit: &'static str| if unit == "1" { unit } else { "N/m" };
+        let along = along.map(|(name, value, own)| (name, value, unit(own)));
+        said_matrix(turns, &TURNS)
+            .into_iter()
+            .chain(along)
+            .collect()
     }
 }
 
-/// Index of the axis about which to turn for a shift along `k`, and a point on it.
-fn far_axis(k: usize) -> (usize, V3) {
-    let mut point = [0.0; 3];
-    point[(k + 2) % 3] = FAR;
-    ((k + 1) % 3, point)
+/// Adds a shift along a direction: a turn about an axis across it, far away.
+fn add_shift(robot: &mut Robot, name: &str, (along, amount): Axis) {
+    let (axis, across) = normals(along);
+    let Some(spring) = added_spring(amount / (FAR * FAR)) else {
+        return;
+    };
+    robot.elastic.push(ElasticAxis {
+        name: name.to_string(),
+        after: 0,
+        axis,
+        point: scale(FAR, across),
+        spring,
+    });
 }

@@ -5,6 +5,7 @@
 //! would show: physics changes the robot, so one file serves the workspace test, the hammer test and
 //! the simulation alike; an instrument changes what one experiment reads.
 
+use super::turns::{SIX, not_negative};
 use crate::effects::Family;
 use crate::experiments::drive_law::{Law, STOP};
 use crate::ground::spatial::{M3, V3};
@@ -138,6 +139,33 @@ pub trait Cause: Sync {
     /// of patterns; the narrow forms are what most authors and most robots have.
     fn forms(&self) -> Vec<Vec<usize>> {
         vec![(0..self.card().amounts.len()).collect()]
+    }
+
+    /// First amounts of the symmetric matrices among them, six each ([`turns`](super::turns)).
+    fn matrices(&self) -> Vec<usize> {
+        Vec::new()
+    }
+
+    /// The matrix that an amount is of: its first amount, and which of the six it is.
+    fn matrix_of(&self, index: usize) -> Option<(usize, usize)> {
+        let mut all = self.matrices().into_iter();
+        let first = all.find(|first| (*first..first + SIX).contains(&index))?;
+        Some((first, index - first))
+    }
+
+    /// Whether an amount is what two axes share: none alone.
+    fn is_shared(&self, index: usize) -> bool {
+        matches!(self.matrix_of(index), Some((_, 3..)))
+    }
+
+    /// Brings amounts to what can be: none below its bound, no matrix negative anywhere.
+    fn possible(&self, amounts: &mut [f64]) {
+        for (amount, card) in amounts.iter_mut().zip(self.card().amounts) {
+            *amount = amount.max(card.bounds[0]);
+        }
+        for first in self.matrices() {
+            not_negative(&mut amounts[first..first + SIX]);
+        }
     }
 
     /// How many of its leading amounts a hammer test or a plan tells apart; the others stay zero there.

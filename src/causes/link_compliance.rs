@@ -1,7 +1,8 @@
 //! A link bends.
 
 use super::contract::{Amount, Blame, Card, Cause, Sight};
-use super::places::{Said, add_axes, added, drive_compliance, ends, number_in, said_axes};
+use super::places::{Said, add_axes, added, drive_compliance, ends, number_in};
+use super::turns::{SIX, TURNS, said_matrix, shared, sizes};
 use crate::effects::Family;
 use crate::ground::spatial::{norm, sub};
 use crate::robot::Robot;
@@ -13,7 +14,7 @@ const CARD: Card = Card {
     name: "link_compliance",
     family: Family::Physics,
     summary: "A link bends or twists, and the model holds it rigid.",
-    equation: "rotations about three axes at one place along the link, from its near to its far end, compliance added",
+    equation: "rotations about axes through one place along the link, from its near to its far end, compliance added: a symmetric matrix",
     source: "virtual axes as in sources 000 and 002, Table 1",
     shows: &[
         (
@@ -43,11 +44,23 @@ macro_rules! turns_at {
                 concat!("z_at_", $at),
                 concat!("compliance about z at ", $at, " of the length"),
             ),
+            shared(
+                concat!("yz_at_", $at),
+                concat!("compliance that y and z share at ", $at, " of the length"),
+            ),
+            shared(
+                concat!("zx_at_", $at),
+                concat!("compliance that z and x share at ", $at, " of the length"),
+            ),
+            shared(
+                concat!("xy_at_", $at),
+                concat!("compliance that x and y share at ", $at, " of the length"),
+            ),
         ]
     };
 }
 
-static AMOUNTS: [Amount; 3 * ALONG.len()] = flat([
+static AMOUNTS: [Amount; SIX * ALONG.len()] = flat([
     turns_at!("1/2"),
     turns_at!("0"),
     turns_at!("1"),
@@ -59,17 +72,17 @@ static AMOUNTS: [Amount; 3 * ALONG.len()] = flat([
     turns_at!("7/8"),
 ]);
 
-const fn flat(triples: [[Amount; 3]; ALONG.len()]) -> [Amount; 3 * ALONG.len()] {
-    let mut all = [triples[0][0]; 3 * ALONG.len()];
+const fn flat(places: [[Amount; SIX]; ALONG.len()]) -> [Amount; SIX * ALONG.len()] {
+    let mut all = [places[0][0]; SIX * ALONG.len()];
     let mut i = 0;
     while i < all.len() {
-        all[i] = triples[i / 3][i % 3];
+        all[i] = places[i / SIX][i % SIX];
         i += 1;
     }
     all
 }
 
-/// Where along the link the triples of amounts act, as a share of its length.
+/// Where along the link the matrices act, as a share of its length.
 const ALONG: [f64; 9] = [0.5, 0.0, 1.0, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875];
 
 /// How likely each is: a beam under end loads turns as if hinged between a third and the middle of its
@@ -104,15 +117,25 @@ impl Cause for LinkCompliance {
         let i = number_in(site, "link").unwrap_or(1);
         let near = drive_compliance(robot, i);
         let far = drive_compliance(robot, i + 1);
-        vec![(near * far).sqrt(); 3 * ALONG.len()]
+        sizes((near * far).sqrt()).repeat(ALONG.len())
+    }
+
+    fn matrices(&self) -> Vec<usize> {
+        (0..ALONG.len()).map(|at| SIX * at).collect()
     }
 
     fn forms(&self) -> Vec<Vec<usize>> {
-        let count = 3 * ALONG.len();
-        let one = (0..count).map(|k| vec![k]);
-        let two = (0..count).map(|k| vec![k, 3 * (k / 3) + (k + 1) % 3]);
-        let all = (0..ALONG.len()).map(|at| (3 * at..3 * at + 3).collect());
-        one.chain(two).chain(all).collect()
+        let one = [vec![0], vec![1], vec![2]];
+        let two = [vec![0, 1], vec![1, 2], vec![2, 0]];
+        let all = [vec![0, 1, 2], (0..SIX).collect()];
+        let own: Vec<Vec<usize>> = one.into_iter().chain(two).chain(all).collect();
+        let moved = |at: usize| {
+            let own = own
+                .iter()
+                .map(move |form| form.iter().map(move |k| SIX * at + k));
+            own.map(Iterator::collect)
+        };
+        (0..ALONG.len()).flat_map(moved).collect()
     }
 
     /// Bending grows with length (Euler and Bernoulli): a long link is blamed before a short one.
@@ -124,7 +147,7 @@ impl Cause for LinkCompliance {
     }
 
     fn shares(&self) -> Vec<f64> {
-        let of = |form: &Vec<usize>| LIKELY[form[0] / 3];
+        let of = |form: &Vec<usize>| LIKELY[form[0] / SIX];
         self.forms().iter().map(of).collect()
     }
 
@@ -133,13 +156,14 @@ impl Cause for LinkCompliance {
         let Some((i, [from, to])) = number.and_then(|i| Some((i, ends(robot, i)?))) else {
             return;
         };
-        for (own, along) in amounts.chunks(3).zip(ALONG) {
+        for (own, along) in amounts.chunks(SIX).zip(ALONG) {
             let at = [0, 1, 2].map(|k| from[k] + along * (to[k] - from[k]));
             add_axes(robot, site, i, at, own);
         }
     }
 
     fn said(&self, _robot: &Robot, _site: &str, amounts: &[f64]) -> Said {
-        amounts.chunks(3).flat_map(said_axes).collect()
+        let each = amounts.chunks(SIX);
+        each.flat_map(|own| said_matrix(own, &TURNS)).collect()
     }
 }

@@ -6,6 +6,7 @@
 
 pub mod contract;
 pub mod places;
+pub mod turns;
 
 mod accelerometer_gain;
 mod accelerometer_misalignment;

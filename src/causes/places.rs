@@ -1,6 +1,7 @@
 //! What causes do to the places of a robot.
 
 use super::contract::Amount;
+use super::turns::axes;
 use crate::ground::spatial::{IDENTITY, M3, V3, dot, norm, sub};
 use crate::robot::model::ElasticAxis;
 use crate::robot::{Robot, Spring};
@@ -103,8 +104,8 @@ pub fn number_in(site: &str, stem: &str) -> Option<usize> {
     site.strip_prefix(stem)?.parse().ok()
 }
 
-/// Adds elastic axes about x, y and z through `point` (base axes, every joint at zero), behind the
-/// body that joint `after` moves.
+/// Adds elastic axes through `point` (base axes, every joint at zero), behind the body that joint `after` moves, with
+/// compliances about x, y and z and, where six are given, those that two axes share ([`turns`](super::turns)).
 pub fn add_axes(robot: &mut Robot, site: &str, after: usize, point: V3, amounts: &[f64]) {
     add_axes_along(robot, site, (after, point), &IDENTITY, amounts);
 }
@@ -117,16 +118,15 @@ pub fn add_axes_along(
     frame: &M3,
     amounts: &[f64],
 ) {
-    for (k, amount) in amounts.iter().enumerate().take(3) {
-        let Some(spring) = added_spring(*amount) else {
+    for (k, (own, amount)) in axes(amounts).into_iter().enumerate() {
+        let Some(spring) = added_spring(amount) else {
             continue;
         };
-        let axis = [0, 1, 2].map(|row| frame[row][k]);
         let name = free_name(robot, &format!("{site}-{}", ["x", "y", "z"][k]));
         robot.elastic.push(ElasticAxis {
             name,
             after,
-            axis,
+            axis: frame.map(|row| dot(row, own)),
             point,
             spring,
         });
@@ -139,12 +139,4 @@ fn free_name(robot: &Robot, name: &str) -> String {
     let numbered = (2..).map(|n| format!("{name}{n}"));
     let mut names = std::iter::once(name.to_string()).chain(numbered);
     names.find(|n| !taken(n)).unwrap_or_else(|| name.into())
-}
-
-/// The stiffnesses of [`add_axes`].
-pub fn said_axes(amounts: &[f64]) -> Said {
-    let names = ["stiffness_x", "stiffness_y", "stiffness_z"];
-    let each = names.iter().zip(amounts);
-    each.flat_map(|(name, amount)| said_added(name, *amount))
-        .collect()
 }

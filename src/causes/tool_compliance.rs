@@ -1,7 +1,8 @@
 //! The tool or its mount bends.
 
 use super::contract::{Blame, Card, Cause, Sight};
-use super::places::{Said, add_axes_along, added, drive_compliance, said_added, said_axes};
+use super::places::{Said, add_axes_along, added, drive_compliance, said_added};
+use super::turns::{SIX, TURNS, said_matrix, shared, sizes};
 use crate::effects::Family;
 use crate::ground::spatial::{M3, V3, dot, normals, scale, sub};
 use crate::robot::Robot;
@@ -13,7 +14,7 @@ const CARD: Card = Card {
     name: "tool_compliance",
     family: Family::Physics,
     summary: "The tool, its holder or the spindle gives way, and the model holds it rigid.",
-    equation: "rotations about the axes of the tool frame through the flange, compliance added",
+    equation: "rotations about axes of the tool frame through the flange, compliance added: a symmetric matrix",
     source: "virtual axes as in source 002, Table 1",
     shows: &[(
         Sight::Workspace,
@@ -23,6 +24,9 @@ const CARD: Card = Card {
         added("about_x", "compliance about x of the tool"),
         added("about_y", "compliance about y of the tool"),
         added("about_z", "compliance about z of the tool"),
+        shared("about_yz", "compliance that y and z of the tool share"),
+        shared("about_zx", "compliance that z and x of the tool share"),
+        shared("about_xy", "compliance that x and y of the tool share"),
         added(
             "across",
             "compliance about both axes across the line from the flange to the tool centre point alike",
@@ -46,27 +50,34 @@ impl Cause for ToolCompliance {
 
     /// A tool is short: it takes more radians to be seen than an arm.
     fn scale(&self, robot: &Robot, _site: &str) -> Vec<f64> {
-        vec![5.0 * drive_compliance(robot, robot.dof()); 4]
+        let own = 5.0 * drive_compliance(robot, robot.dof());
+        [&sizes(own)[..], &[own]].concat()
     }
 
     fn forms(&self) -> Vec<Vec<usize>> {
         let pairs = [vec![0, 1], vec![0, 2], vec![1, 2]];
         let one = (0..3).map(|k| vec![k]);
-        one.chain(pairs).chain([vec![0, 1, 2], vec![3]]).collect()
+        let all = [vec![0, 1, 2], vec![SIX], (0..SIX).collect()];
+        one.chain(pairs).chain(all).collect()
+    }
+
+    fn matrices(&self) -> Vec<usize> {
+        vec![0]
     }
 
     fn alter(&self, robot: &mut Robot, site: &str, amounts: &[f64]) {
         let at = (robot.dof(), robot.tool.flange);
         let frame = robot.tool.rotation;
-        add_axes_along(robot, site, at, &frame, &amounts[..3]);
+        add_axes_along(robot, site, at, &frame, &amounts[..SIX]);
         let across = columns(normals(lever(robot)));
-        let both = [amounts[3], amounts[3], 0.0];
+        let both = [amounts[SIX], amounts[SIX], 0.0];
         add_axes_along(robot, &format!("{site}-across"), at, &across, &both);
     }
 
     fn said(&self, _robot: &Robot, _site: &str, amounts: &[f64]) -> Said {
-        let across = said_added("stiffness_across", amounts[3]);
-        said_axes(amounts).into_iter().chain(across).collect()
+        let across = said_added("stiffness_across", amounts[SIX]);
+        let turns = said_matrix(&amounts[..SIX], &TURNS);
+        turns.into_iter().chain(across).collect()
     }
 }
 

@@ -83,7 +83,8 @@ fn widened(robot: &Robot) -> Robot {
     let mut wide = robot.clone();
     let physics = seen_by(Sight::Workspace).filter(|c| c.card().family == Family::Physics);
     for cause in physics {
-        let amounts = vec![1.0; cause.heard()];
+        let own = |k: usize| f64::from(u8::from(!cause.is_shared(k)));
+        let amounts: Vec<f64> = (0..cause.heard()).map(own).collect();
         for site in cause.sites(robot) {
             let mut one = robot.clone();
             cause.alter(&mut one, &site, &amounts);

@@ -138,8 +138,8 @@ impl<'a> Case<'a> {
             spread,
         };
         let prior = seats.columns.iter().map(|c| c.prior).collect();
-        let low = seats.columns.iter().map(|c| c.low).collect();
-        let field = Field::new(&readings, &columns, &springs, (prior, low));
+        let bounds = seats.columns.iter().map(|c| c.bound).collect();
+        let field = Field::new(&readings, &columns, &springs, (prior, bounds));
         let judgement = judgement();
         let posterior = Posterior::of(search(&seats, &field), judgement.temper);
         Self {
@@ -167,12 +167,23 @@ impl<'a> Case<'a> {
         forms.flat_map(|form| form.columns.clone()).collect()
     }
 
-    /// Amounts without shrinkage, none below its bound.
+    /// Amounts without shrinkage, as they can be.
     pub(super) fn amounts(&self, set: &Set) -> Vec<f64> {
         let columns = self.columns_of(set);
-        let found = self.field.amounts(&columns, |_| FREE);
-        let bounded = columns.iter().zip(found.mean);
-        bounded.map(|(c, a)| a.max(self.field.low(*c))).collect()
+        let mut found = self.field.amounts(&columns, |_| FREE).mean.into_iter();
+        let forms = set.forms.iter().map(|f| &self.seats.forms[*f]);
+        forms
+            .flat_map(|form| {
+                let seat = &self.seats.seats[form.seat];
+                let mut all = vec![0.0; seat.cause.card().amounts.len()];
+                let own = form.columns.iter().map(|c| c - seat.first);
+                own.clone()
+                    .zip(found.by_ref())
+                    .for_each(|(k, a)| all[k] = a);
+                seat.cause.possible(&mut all);
+                own.map(|k| all[k]).collect::<Vec<f64>>()
+            })
+            .collect()
     }
 
     /// The amounts of one seat of a set, all of its card.

@@ -1,10 +1,10 @@
 //! The linear-Gaussian algebra: what the data say of every set of columns, with the springs free
 //! within their stated spread.
 
+use super::bound::{Bound, Bounded};
 use super::columns::Columns;
 use super::gram::Gram;
 use nalgebra::{DMatrix, DVector};
-use statrs::function::erf::erfc;
 
 /// All columns seen through the data.
 #[derive(Debug, Clone)]
@@ -14,7 +14,7 @@ pub struct Field {
     /// Misfit of no cause at all, in squared standard deviations.
     pub base: f64,
     prior: Vec<f64>,
-    low: Vec<f64>,
+    bounds: Vec<Bound>,
 }
 
 /// Amounts after the data.
@@ -22,8 +22,6 @@ pub struct Field {
 pub struct Amounts {
     /// Mean of every column asked for.
     pub mean: Vec<f64>,
-    /// Standard deviations.
-    pub std: Vec<f64>,
     /// Logarithm of the evidence over that of no cause.
     pub evidence: f64,
     /// Half the misfit that they take away.
@@ -60,7 +58,7 @@ impl Field {
         readings: &DVector<f64>,
         columns: &Columns,
         springs: &Springs,
-        (prior, low): (Vec<f64>, Vec<f64>),
+        (prior, bounds): (Vec<f64>, Vec<Bound>),
     ) -> Self {
         let mut base = readings.norm_squared();
         let b = &springs.columns;
@@ -84,7 +82,7 @@ impl Field {
             gradient,
             base,
             prior,
-            low,
+            bounds,
         }
     }
 
@@ -105,19 +103,27 @@ impl Field {
         let log_det = factor(&mut h, n);
         let mean = solve(&h, n, &g);
         let product: f64 = g.iter().zip(&mean).map(|(a, b)| a * b).sum();
-        let std = deviations(&h, n);
-        let mut evidence = 0.5 * product - 0.5 * log_det;
-        for i in 0..n {
-            let low = self.low[columns[i]] / spread(i);
-            let above = upper((low - mean[i]) / std[i]) / upper(low);
-            evidence += above.max(1e-300).ln();
-        }
-        let mean: Vec<f64> = (0..n).map(|i| mean[i] * spread(i)).collect();
+        let before: Vec<f64> = (0..n).map(spread).collect();
+        let mean: Vec<f64> = mean.iter().zip(&before).map(|(m, s)| m * s).collect();
+        let deviation = |weights: &[f64]| {
+            let own: Vec<f64> = weights.iter().zip(&before).map(|(w, s)| w * s).collect();
+            forward(&h, n, &own)
+                .iter()
+                .map(|x| x * x)
+                .sum::<f64>()
+                .sqrt()
+        };
+        let bounds: Vec<Bound> = columns.iter().map(|c| self.bounds[*c]).collect();
+        let bounded = Bounded {
+            bounds: &bounds,
+            mean: &mean,
+            before: &before,
+            after: &deviation,
+        };
         Amounts {
+            evidence: 0.5 * product - 0.5 * log_det + bounded.ln_kept(),
             nats: self.explained(columns, &mean),
-            std: (0..n).map(|i| std[i] * spread(i)).collect(),
             mean,
-            evidence,
         }
     }
 
@@ -151,18 +157,13 @@ impl Field {
 
     /// Lowest value of a column.
     pub fn low(&self, column: usize) -> f64 {
-        self.low[column]
+        self.bounds[column].low()
     }
 
     /// Prior standard deviation of a column.
     pub fn prior(&self, column: usize) -> f64 {
         self.prior[column]
     }
-}
-
-/// Probability above x standard deviations.
-fn upper(x: f64) -> f64 {
-    0.5 * erfc(x / std::f64::consts::SQRT_2)
 }
 
 /// Cholesky's factor in the lower triangle; logarithm of the determinant.
@@ -200,17 +201,4 @@ fn forward(l: &[f64], n: usize, g: &[f64]) -> Vec<f64> {
         x[i] = (g[i] - rest) / l[i * n + i];
     }
     x
-}
-
-/// Square roots of the diagonal of (LLᵀ)⁻¹.
-fn deviations(l: &[f64], n: usize) -> Vec<f64> {
-    let one = |i: usize| {
-        let unit: Vec<f64> = (0..n).map(|k| f64::from(u8::from(k == i))).collect();
-        forward(l, n, &unit)
-            .iter()
-            .map(|x| x * x)
-            .sum::<f64>()
-            .sqrt()
-    };
-    (0..n).map(one).collect()
 }

@@ -3,6 +3,7 @@
 
 mod adequacy;
 mod beyond;
+mod bound;
 mod case;
 mod choose;
 mod columns;

@@ -1,6 +1,7 @@
 //! The experiment that would tell: each proposal is simulated with one candidate and fitted with the
 //! others, on top of what was measured already; the one that leaves most is proposed.
 
+use super::bound::Bound;
 use super::columns::Columns;
 use super::field::{Field, Springs};
 use super::patterns::Scene;
@@ -246,7 +247,7 @@ fn separations(known: &Known, probe: &Probe, suspects: &[Suspect]) -> Vec<f64> {
 /// Nats of a signal that a rival, its amounts free, leaves.
 fn imitated(signal: &DVector<f64>, rival: &[DVector<f64>], springs: &Springs) -> f64 {
     let n = rival.len();
-    let wide = (vec![1e6; n], vec![f64::MIN; n]);
+    let wide = (vec![1e6; n], vec![Bound::Low(f64::MIN); n]);
     let field = Field::new(signal, &Columns::wide(rival.to_vec()), springs, wide);
     let all: Vec<usize> = (0..n).collect();
     (0.5 * field.base - field.amounts(&all, |_| 1.0).nats).max(0.0)

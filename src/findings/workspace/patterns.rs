@@ -2,6 +2,7 @@
 
 use crate::causes::contract::{Cause, StepSeen};
 use crate::causes::places::number_in;
+use crate::causes::turns::PLACES;
 use crate::effects::Family;
 use crate::experiments::drive_law::{Law, STOP};
 use crate::experiments::workspace::Deflection;
@@ -104,9 +105,19 @@ impl<'a> Scene<'a> {
         shapes: &Shapes,
     ) -> Pattern {
         let mut robot = self.robot.clone();
-        cause.alter(&mut robot, site, amounts);
+        let beside = beside(cause, amounts);
+        let sum = amounts.iter().zip(&beside).map(|(a, b)| a + b);
+        cause.alter(&mut robot, site, &sum.collect::<Vec<f64>>());
         let moved = deflection(&robot, self.points, self.sensor);
-        let pairs = moved.slopes.iter().zip(&self.base.slopes);
+        let from = beside.iter().any(|b| *b != 0.0).then(|| {
+            let mut robot = self.robot.clone();
+            cause.alter(&mut robot, site, &beside);
+            deflection(&robot, self.points, self.sensor).slopes
+        });
+        let pairs = moved
+            .slopes
+            .iter()
+            .zip(from.as_ref().unwrap_or(&self.base.slopes));
         let slopes: Vec<M3> = pairs.map(|(a, b)| difference(a, b, step)).collect();
         let left = Vec::new();
         match moved.is_linear() {
@@ -189,6 +200,18 @@ impl<'a> Scene<'a> {
         let left = Vec::new();
         Pattern { slopes, left }
     }
+}
+
+/// What must be there for amounts to be possible: no compliance shares more of two axes than they have.
+fn beside(cause: &dyn Cause, amounts: &[f64]) -> Vec<f64> {
+    let mut all = vec![0.0; amounts.len()];
+    for (index, amount) in amounts.iter().enumerate().filter(|(_, a)| **a != 0.0) {
+        if let Some((first, place @ 3..)) = cause.matrix_of(index) {
+            let (i, j) = PLACES[place];
+            [i, j].iter().for_each(|k| all[first + k] = amount.abs());
+        }
+    }
+    all
 }
 
 fn deflection(robot: &Robot, points: &[Vec<f64>], sensor: Option<(usize, V3)>) -> Deflection {

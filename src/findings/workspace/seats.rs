@@ -1,5 +1,6 @@
 //! Who may be blamed, where, and how readily.
 
+use super::bound::Bound;
 use super::patterns::{Pattern, Scene};
 use super::strangers::{STRANGERS, is_stranger, modes};
 use crate::causes::contract::{Blame, Cause, Sight};
@@ -49,8 +50,8 @@ pub struct Column {
     pub pattern: Pattern,
     /// Standard deviation before the data.
     pub prior: f64,
-    /// Lowest value.
-    pub low: f64,
+    /// What bounds it.
+    pub bound: Bound,
     /// Of an instrument.
     pub instrument: bool,
     /// Of no cause of the library.
@@ -123,7 +124,10 @@ impl Seats {
             self.columns.push(Column {
                 pattern,
                 prior: SPREAD * scale,
-                low: amount.bounds[0],
+                bound: match cause.matrix_of(index) {
+                    Some((own, place)) => Bound::Of(first + own, place),
+                    None => Bound::Low(amount.bounds[0]),
+                },
                 instrument: cause.blame() == Blame::Instrument,
                 stranger: is_stranger(cause),
             });
