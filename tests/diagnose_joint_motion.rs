@@ -7,6 +7,7 @@ use crate::judge;
 use ident::findings::joint_motion::{MotionDiagnosis, diagnose};
 use ident::fit::joint_motion_store::StoredMotion;
 use ident::fit::parameter::Status;
+use ident::ground::random::Random;
 use ident::measurement::joint_motion::JointMotion;
 use ident::measurement::table::Table;
 use rayon::prelude::*;
@@ -370,5 +371,129 @@ fn a_joint_that_stands_still_or_has_no_noise_is_no_trouble() {
         let found = diagnose(&read(&text), None);
         assert!(said(&found).is_empty(), "{:?}", said(&found));
         assert!(found.answer.discrepancy.rms.is_finite());
+    }
+}
+
+/// A joint of 1 MN·m/rad, read to 3 µrad, and what is not as a simulation has it.
+#[derive(Default)]
+struct Arm {
+    /// N·m of weight at right angles to it.
+    weight: f64,
+    /// Inertia of the motor, kg·m².
+    rotor: f64,
+    /// Stated stiffness over the true one, less one.
+    stated: f64,
+    /// N·m·s/rad.
+    oil: f64,
+    /// N·m.
+    dry: f64,
+    /// Zero of the link encoder, rad.
+    zero: f64,
+    /// Twist that contacts hold, rad, and the share of it that they hold at the begin.
+    held: (f64, f64),
+}
+
+impl Arm {
+    fn text(&self, seed: u64) -> String {
+        let mut random = Random::new(seed);
+        let mut text = format!(
+            "# kind = \"joint-motion\"\n# synthetic = true\n# gear_ratio = [120]\n\
+             # nominal_stiffness_Nm_rad = {}\n# nominal_stiffness_rel_std = 0.05\n\
+             # encoder_zero_std_deg = 0.0001\n\
+             time_s,motor_angle_deg_2,link_angle_deg_2,motor_torque_Nm_2\n",
+            1e6 * (1.0 + self.stated)
+        );
+        let (mut holds, mut before) = (self.held.1, None);
+        for i in 0..2400 {
+            let t = f64::from(i) * 0.01;
+            let wave = |w: f64, a: f64, p: f64| {
+                let (sin, cos) = (w * t + p).sin_cos();
+                [a * sin, a * w * cos, -a * w * w * sin]
+            };
+            let waves = [
+                wave(0.7, 0.6, 0.0),
+                wave(1.9, 0.3, 1.0),
+                wave(3.1, 0.1, 2.0),
+            ];
+            let [angle, speed, acceleration] =
+                [0, 1, 2].map(|k| waves.iter().map(|w| w[k]).sum::<f64>());
+            let geared = 300.0 * acceleration + self.weight * (angle + 0.4).cos();
+            let turn = geared - before.unwrap_or(geared);
+            before = Some(geared);
+            holds = turn.signum() - (turn.signum() - holds) * (-turn.abs() / 150.0_f64).exp();
+            let paid = geared
+                + self.rotor * acceleration
+                + self.oil * speed
+                + self.dry * (speed / 0.005).tanh();
+            let link = angle - geared / 1e6 + self.held.0 * holds + self.zero;
+            text += &format!(
+                "{t:.3},{:.7},{:.7},{:.6}\n",
+                angle.to_degrees(),
+                (link + 3e-6 * random.normal()).to_degrees(),
+                (paid + 0.5 * random.normal()) / 120.0
+            );
+        }
+        text
+    }
+
+    fn found(&self) -> (Vec<String>, &'static str) {
+        let found = diagnose(&read(&self.text(7)), None);
+        (said(&found), found.answer.verdict.name())
+    }
+}
+
+/// The torque of a joint that gravity does not load pays for inertia and friction: the inertia of the motor, which nobody
+/// states, must not take the place of a spring that gives more than the stated one, or of friction.
+#[test]
+fn a_joint_without_gravity_is_told() {
+    let named = |arm: Arm, name: &str| {
+        let (said, verdict) = arm.found();
+        assert_eq!((said, verdict), (vec![name.to_string()], "explained"));
+    };
+    let of = |stated: f64, oil: f64, dry: f64, rotor: f64| Arm {
+        stated,
+        oil,
+        dry,
+        rotor,
+        ..Arm::default()
+    };
+    assert_eq!(of(0.0, 0.0, 0.0, 0.0).found(), (Vec::new(), "sufficient"));
+    named(of(0.6, 0.0, 0.0, 0.0), "stiffness");
+    named(of(0.0, 60.0, 0.0, 0.0), "viscous_friction");
+    named(of(0.0, 0.0, 60.0, 0.0), "coulomb_friction");
+    // a stiffer spring twists as little as the stated one behind a heavy motor
+    let open = (vec!["{stiffness}".to_string()], "cannot-tell");
+    assert_eq!(of(-0.4, 0.0, 0.0, 0.0).found(), open);
+    assert_eq!(of(0.0, 0.0, 0.0, 150.0).found(), open);
+}
+
+/// A motion under gravity shows the spring, and with it what the mean torque makes of the mean twist.
+#[test]
+fn a_constant_zero_is_told_under_gravity() {
+    let arm = |zero: f64, stated: f64| Arm {
+        weight: 1500.0,
+        zero,
+        stated,
+        ..Arm::default()
+    };
+    assert_eq!(arm(0.0, 0.0).found(), (Vec::new(), "sufficient"));
+    let offset = |arm: Arm| holds(&arm.found().0, "sensor_offset");
+    assert!(offset(arm(1e-4, 0.0)));
+    assert!(offset(arm(-1e-4, 0.0)));
+    // a wrong spring is no zero
+    assert!(!offset(arm(0.0, 0.8)));
+    assert!(!offset(arm(0.0, -0.4)));
+}
+
+/// Contacts that hold something when the record begins follow a first branch, and no zero has jumped.
+#[test]
+fn the_first_branch_of_a_loop_is_no_jump() {
+    for begin in [-0.7, 0.0, 0.5] {
+        let arm = Arm {
+            weight: 1500.0,
+            held: (6e-5, begin),
+            ..Arm::default()
+        };
+        assert_eq!(arm.found().0, ["hysteresis"], "{begin}");
     }
 }

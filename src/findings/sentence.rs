@@ -153,8 +153,13 @@ fn of_cause(cause: &Cause, numbered: &str, unit: &str) -> String {
 }
 
 fn of_group(group: &Group, unit: &str) -> String {
+    // one alone: its rival is nothing that is wrong, but what nobody stated
+    let (asked, any) = match group.effects.len() {
+        1 => ("whether it is", "it"),
+        _ => ("which it is:", "any of them"),
+    };
     format!(
-        "These data cannot tell which it is: {}; any of them {}. What would tell: {}.",
+        "These data cannot tell {asked} {}; {any} {}. What would tell: {}.",
         candidates(group),
         of_gain(&group.gain, unit),
         group.would_tell

@@ -1,9 +1,11 @@
 //! Dry friction between motor and spring.
 
 use super::balanced;
+use super::channels::Channels;
+use super::friction::sign;
 use super::joint::Joint;
 use super::presliding::dahl;
-use crate::findings::engine::Member;
+use crate::findings::engine::{Blamed, Member};
 use crate::findings::table::{Effect, Place};
 
 /// Shares of the top speed over which friction changes sign.
@@ -46,9 +48,10 @@ pub(super) const EFFECT: Effect<Joint> = Effect {
         // the torque jumps with it, and is smoothed
         let smooth: Vec<Vec<f64>> = signs.iter().map(|c| joint.data.smoothed(c)).collect();
         signs.extend(smooth);
-        signs.extend(built_up(joint));
-        signs.retain(|c| balanced(c, 0.5, SELDOM));
-        let members = signs.into_iter().map(|c| Member::free(c).positive());
+        let mut members: Vec<Member> = signs.into_iter().map(Member::free).collect();
+        members.extend(built_up(joint));
+        members.retain(|m| balanced(&m.columns[0], 0.5, SELDOM));
+        let members = members.into_iter().map(Member::positive);
         vec![Place::new(&joint.site, members.collect())]
     },
     parameters: |_, blamed| vec![("twist", blamed.amounts[0], "rad")],
@@ -68,17 +71,50 @@ fn held_sign(speed: &[f64], still: f64, held: f64) -> Vec<f64> {
     speed.iter().map(of).collect()
 }
 
-/// Friction that builds up after a reversal and is greater in slow motion.
-fn built_up(joint: &Joint) -> Vec<Vec<f64>> {
-    let data = &joint.data;
+/// Friction that builds up after a reversal and is greater in slow motion; its shape is the reach.
+fn built_up(joint: &Joint) -> Vec<Member> {
+    let begun = REACHES.iter().flat_map(|r| BEGINS.map(|b| (*r, b)));
+    let of = |(reach, begin): (f64, f64)| {
+        let columns = STICTION.map(|stiction| column(&joint.data, (reach, begin), stiction));
+        columns.map(|column| Member::free(column).shaped(&[reach]))
+    };
+    begun.flat_map(of).collect()
+}
+
+fn column(data: &Channels, (reach, begin): (f64, f64), (more, slow): (f64, f64)) -> Vec<f64> {
     let top = data.top_speed().max(f64::MIN_POSITIVE);
-    let mut columns = Vec::new();
-    for (reach, begin) in REACHES.iter().flat_map(|r| BEGINS.map(|b| (*r, b))) {
-        let held = dahl(&data.motor, reach, begin);
-        columns.extend(STICTION.map(|(more, slow)| {
-            let stick = |i: usize| more * (-(data.speed[i] / (slow * top)).powi(2)).exp();
-            data.smoothed(&joint.column(|i| held[i] * (1.0 + stick(i))))
-        }));
+    let stick = |v: &f64| more * (-(v / (slow * top)).powi(2)).exp();
+    let held = dahl(&data.motor, reach, begin).into_iter();
+    let each: Vec<f64> = held
+        .zip(&data.speed)
+        .map(|(held, v)| held * (1.0 + stick(v)))
+        .collect();
+    data.smoothed(&each)
+}
+
+/// Columns that together make dry friction by any of these laws, nearly: its sign, built up over every reach, greater in slow
+/// motion by either measure.
+pub(super) fn dry(data: &Channels) -> Vec<Vec<f64>> {
+    let built = REACHES.map(|reach| column(data, (reach, 0.0), STICTION[0]));
+    let more = [STICTION[3], STICTION[4]].map(|stiction| column(data, (REACHES[0], 0.0), stiction));
+    let mut all = vec![sign(data)];
+    all.extend(built.into_iter().chain(more));
+    all
+}
+
+/// Half of what the friction that was found makes of all that it can hold before the record: until it has built up, or,
+/// where its sign alone is told, until the first motion.
+pub(super) fn begun(joint: &Joint, blamed: &Blamed) -> Vec<f64> {
+    let data = &joint.data;
+    match blamed.shape.first() {
+        Some(reach) => {
+            let [back, forth] = [-1.0, 1.0].map(|begin| dahl(&data.motor, *reach, begin));
+            data.smoothed(&joint.column(|i| 0.5 * (forth[i] - back[i])))
+        }
+        None => {
+            let still = AT_REST * data.top_speed();
+            let first = data.speed.iter().position(|v| v.abs() > still);
+            joint.column(|i| f64::from(u8::from(first.is_some_and(|f| i < f))))
+        }
     }
-    columns
 }

@@ -19,6 +19,9 @@ const LAG_S: f64 = 0.003;
 const FOLDS: usize = 10;
 const PIECES: [usize; 3] = [1, 5, 20];
 
+/// Parts of the record over which lasts what does not swing.
+const LASTS: usize = 40;
+
 /// The numbers that decide, where motion has a reason of its own. Set on seeds 511 to 514 of
 /// `tests/judge/joint_motion.rs`, and on the real run of a KR 300.
 pub fn judgement() -> Judgement {
@@ -49,7 +52,8 @@ impl Experiment for Joint {
     fn is_settled(&self, before: &Statement, after: &Statement) -> bool {
         let (old, new) = (before.suspects.iter(), after.suspects.iter());
         let is_same = old.map(|s| &s.members).eq(new.map(|s| &s.members));
-        is_same && before.span == after.span
+        let as_many = before.nuisances.len() == after.nuisances.len();
+        is_same && as_many && before.span == after.span
     }
 
     /// Friction and gears follow nobody's formula.
@@ -63,7 +67,8 @@ impl Experiment for Joint {
 
     fn state_beside(&self, about: &[Blamed], uncertain: &[f64]) -> Statement {
         // the torque is among the nuisances: its amount is the compliance, turned round
-        let compliance = uncertain.get(TORQUE).map_or(0.0, |a| -a);
+        let presumed = self.presumed.unwrap_or(0.0);
+        let compliance = uncertain.get(TORQUE).map_or(presumed, |a| presumed - a);
         let parts: Vec<Vec<f64>> = about.iter().map(|b| b.part.clone()).collect();
         match parts.is_empty() {
             true => self.stated(about, &parts, compliance),
@@ -95,13 +100,13 @@ impl Experiment for Joint {
 impl Joint {
     fn stated(&self, about: &[Blamed], parts: &[Vec<f64>], compliance: f64) -> Statement {
         Statement {
-            reading: self.data.twist.clone(),
+            reading: self.reading(),
             noise: Box::new(self.noise.clone()),
             nuisances: self.nuisances(about),
             suspects: self.suspects_about(about, compliance),
             span: self.span(parts),
             splits: self.splits(),
-            aspects: Aspects::default(),
+            aspects: self.aspects(),
         }
     }
 
@@ -164,21 +169,31 @@ impl Joint {
     }
 
     /// What every model has; the rest of a declared delay; damping of the gear and lag of the torque; what laws that are
-    /// nearly right miss; ripples too small to speak of.
+    /// nearly right miss; what friction holds before the record; ripples too small to speak of.
     fn nuisances(&self, about: &[Blamed]) -> Vec<Nuisance> {
         let data = &self.data;
         let known = |column: Vec<f64>, spread: f64| Nuisance { column, spread };
         let free = |column| known(column, f64::INFINITY);
         let mut all: Vec<Nuisance> = self.base().into_iter().map(free).collect();
+        all[TORQUE].spread = self.spring_spread();
         let declared = DECLARED * self.declared.map_or(0.0, f64::abs);
         all.push(known(data.speed.clone(), declared));
         let lag = LAG_S * partial(&self.beside_torque(), &data.torque, &data.twist).slope;
         all.push(known(data.torque_rate.clone(), lag.abs()));
         all.extend(self.missed(about));
+        all.extend(self.begun(about));
         let small = self.waves.iter().filter(|w| w.is_small);
         all.extend(small.flat_map(|w| w.columns.clone()).map(free));
         all.retain(|n| n.spread > 0.0);
         all
+    }
+
+    /// What lasts, and what swings within a fortieth of the record: what a loop misses is no ripple.
+    fn aspects(&self) -> Aspects {
+        let n = self.data.rows();
+        Aspects {
+            groups: vec![(0..n).map(|i| i * LASTS / n).collect()],
+        }
     }
 
     /// Pieces of time, long and short ones.

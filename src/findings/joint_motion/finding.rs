@@ -6,8 +6,9 @@ use super::experiment::judgement;
 use super::joint::{Joint, Nominal};
 use super::patterns::{BENT, MESHING};
 use super::projection;
+use super::remarks::FOR_STIFFNESS;
 use super::stiffness::{Compliance, compliance};
-use crate::findings::answer::{Answer, Cause, Verdict};
+use crate::findings::answer::{Answer, Cause, Group, Verdict};
 use crate::findings::engine::{Experiment, Found, diagnose};
 use crate::findings::gain::Gain;
 use crate::ground::stats::{mean, rms};
@@ -45,6 +46,9 @@ fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
+/// Why a motion shows no spring whose torque pays for inertia and friction alone.
+const ROTOR: &str = "the torque pays for inertia and friction alone, so that the inertia of the rotor would make the same twist";
+
 /// Diagnoses one joint.
 pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
     let joint = Joint::new(record, nominal);
@@ -60,23 +64,30 @@ pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
         others.map(|b| b.part.clone()).collect()
     };
     let has = |effect: &str| answer.causes.iter().any(|c| c.effect == effect);
-    let compliance = match answer.unexplained.description == BENT {
+    let spring = match answer.unexplained.description == BENT {
         true => Err("the twist bends with the torque, so that there is no one stiffness"),
         false => compliance(&joint, &others("")),
     };
+    let told = match joint.presumed {
+        Some(_) => Err(ROTOR),
+        None => spring,
+    };
     let delay = has("time_skew").then(|| delay(&joint, &others("time_skew")));
     let is_loop = blamed.iter().any(|b| b.effect == "hysteresis"); // it has no one stiffness
-    let found = compliance.ok();
-    answer.causes.iter_mut().for_each(|c| tell(c, found, delay));
-    let spring = found.filter(|_| !is_loop);
-    let scales = [
-        spring.and_then(|c| joint.other_stiffness(c, &others(""))),
-        joint.zero(answer.discrepancy.noise_rms),
-    ];
-    scales
-        .into_iter()
-        .flatten()
-        .for_each(|s| add(&mut answer, s));
+    answer
+        .causes
+        .iter_mut()
+        .for_each(|c| tell(c, told.ok(), delay));
+    let zero = joint.zero(spring.ok(), &others(""), sizes(&answer, &left));
+    zero.into_iter().for_each(|s| add(&mut answer, s));
+    if let Some(c) = spring.ok().filter(|_| !is_loop) {
+        let other = joint.other_stiffness(c, &others(""));
+        let is_rotor = joint.presumed.is_some_and(|presumed| c.value < presumed);
+        other.into_iter().for_each(|s| match is_rotor {
+            true => ask(&mut answer, s),
+            false => add(&mut answer, s),
+        });
+    }
     let simulated = joint.simulated();
     let missed = difference(&joint.data.twist, &simulated);
     answer.discrepancy.rms = rms(&missed);
@@ -88,7 +99,7 @@ pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
         simulated,
         answer,
         delay,
-        compliance,
+        compliance: told,
         data: joint.data,
     }
 }
@@ -111,6 +122,30 @@ fn add(answer: &mut Answer, cause: Cause) {
         Verdict::UnknownCause => Verdict::PartlyExplained,
         other => other,
     };
+}
+
+/// What may be a cause, or what nobody states.
+fn ask(answer: &mut Answer, cause: Cause) {
+    answer.groups.push(Group {
+        effects: vec![cause.effect],
+        sites: vec![cause.site],
+        would_tell: FOR_STIFFNESS.into(),
+        gain: cause.gain,
+    });
+    if answer.verdict == Verdict::Sufficient {
+        answer.verdict = Verdict::CannotTell;
+    }
+}
+
+/// The noise, and what is left beyond it where more is wrong than is named, rms, rad.
+fn sizes(answer: &Answer, left: &[f64]) -> (f64, f64) {
+    let noise = answer.discrepancy.noise_rms;
+    let is_open = matches!(
+        answer.verdict,
+        Verdict::UnknownCause | Verdict::PartlyExplained
+    );
+    let beyond = (rms(left).powi(2) - noise * noise).max(0.0).sqrt();
+    (noise, if is_open { beyond } else { 0.0 })
 }
 
 /// A delay as all accounts of the rest have it, and what is known as twist as the torque that it is.

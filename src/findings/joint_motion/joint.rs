@@ -7,6 +7,7 @@ use super::gear_torque::gear_torque;
 use super::jumps::jumps;
 use super::missed::SMOOTH;
 use super::noise::Coloured;
+use super::presumed::presumed;
 use super::projection::{self, partial};
 use super::ripple::{Wave, waves};
 use crate::findings::engine::Suspect;
@@ -36,6 +37,8 @@ pub struct Joint {
     pub zero_std: Option<f64>,
     /// The present simulation.
     pub nominal: Nominal,
+    /// Its compliance where the motion shows none, rad/(N·m).
+    pub presumed: Option<f64>,
     /// Its channels.
     pub data: Channels,
     /// Torque in the gear, N·m.
@@ -60,13 +63,15 @@ impl Joint {
     pub fn new(record: &JointRecord, nominal: Nominal) -> Self {
         let data = Channels::of(record);
         let rough = rough(&data, &data.twist);
+        let presumed = presumed(&data, record.ratio, nominal);
         let mut joint = Self {
             site: record.site(),
             ratio: record.ratio,
             declared: record.delay,
             zero_std: record.zero_std,
             nominal,
-            geared: gear_torque(&data, &data.twist),
+            presumed,
+            geared: gear_torque(&data, &data.twist, presumed),
             friction: Friction::of(&data),
             jumps: jumps(&rough),
             waves: waves(&data, &rough, record.ratio),
@@ -94,7 +99,7 @@ impl Joint {
         let part = |i: usize| parts.iter().map(|p| p[i]).sum::<f64>();
         let twist: Vec<f64> = self.column(|i| self.data.twist[i] - part(i));
         let rough = rough(&self.data, &twist);
-        joint.geared = gear_torque(&self.data, &twist);
+        joint.geared = gear_torque(&self.data, &twist, self.presumed);
         let new = jumps(&rough).into_iter();
         joint
             .jumps
@@ -150,7 +155,7 @@ impl Joint {
 /// Place of the torque among the columns that every model has.
 pub const TORQUE: usize = 1;
 
-fn base(data: &Channels) -> Vec<Vec<f64>> {
+pub(super) fn base(data: &Channels) -> Vec<Vec<f64>> {
     let mut columns = vec![
         vec![1.0; data.rows()],
         data.torque.clone(),

@@ -48,7 +48,7 @@ fn may_miss(effect: &str) -> &'static [Over] {
 impl Joint {
     /// Over every channel, in proportion to all that may be missed there.
     pub(super) fn missed(&self, about: &[Blamed]) -> Vec<Nuisance> {
-        let base = orthonormal(&self.base());
+        let base = orthonormal(&self.open());
         let each = ALL.iter().flat_map(|over| {
             let left = without(&base, DVector::from_vec(self.inexact(*over, about)));
             let spread = MISSED * rms(left.as_slice());
@@ -61,7 +61,7 @@ impl Joint {
     /// The twist less what is told and misses nothing over a channel.
     fn inexact(&self, over: Over, about: &[Blamed]) -> Vec<f64> {
         let exact = about.iter().filter(|b| !may_miss(b.effect).contains(&over));
-        let mut twist = self.data.twist.clone();
+        let mut twist = self.reading();
         for blamed in exact {
             let each = twist.iter_mut().zip(&blamed.part);
             each.for_each(|(t, part)| *t -= part);

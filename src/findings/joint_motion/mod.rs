@@ -7,6 +7,7 @@
 //! piece of the record and every account agree on it, and the constant zero.
 
 mod backlash;
+mod begun;
 mod channels;
 mod coulomb_friction;
 mod delay;
@@ -23,6 +24,7 @@ mod missed;
 mod noise;
 mod patterns;
 mod presliding;
+mod presumed;
 mod projection;
 mod remarks;
 mod ripple;

@@ -64,7 +64,7 @@ impl Joint {
         let statement = Statement {
             reading: self.column(read),
             noise: Box::new(self.noise.clone()),
-            nuisances: [&self.beside_torque(), parts]
+            nuisances: [&self.beside_spring(), parts]
                 .concat()
                 .iter()
                 .map(free)
@@ -79,13 +79,25 @@ impl Joint {
         gains(&statement, &bank, &fit).first().copied()
     }
 
-    /// A constant difference of the encoders, where the file says how well their zeros agree.
-    pub(super) fn zero(&self, noise: f64) -> Option<Cause> {
+    /// A constant difference of the encoders, where the file says how well their zeros agree: beyond what the spring, as the
+    /// motion shows it, makes of the mean torque, and what causes have for a mean. What is `left` has a mean as well.
+    pub(super) fn zero(
+        &self,
+        spring: Option<Compliance>,
+        parts: &[Vec<f64>],
+        (noise, left): (f64, f64),
+    ) -> Option<Cause> {
         let std = self.zero_std?;
         let torque = mean(&self.data.torque);
-        let sag = self.nominal.stiffness.map_or(0.0, |k| -torque / k);
-        let offset = self.data.zero - sag;
-        if offset.abs() < 3.0 * std.hypot(0.3 * sag) {
+        let (compliance, known) = match (spring, self.nominal.stiffness) {
+            (Some(c), _) => (c.value, c.std),
+            (None, Some(stiffness)) => (1.0 / stiffness, SLACK / stiffness),
+            (None, None) => (0.0, 0.0),
+        };
+        let made: f64 = parts.iter().map(|part| mean(part)).sum();
+        let offset = self.data.zero + compliance * torque - made;
+        let others = [known * torque, MADE * made, left];
+        if offset.abs() < 3.0 * others.into_iter().fold(std, f64::hypot) {
             return None;
         }
         let gain = Gain::of(offset.hypot(noise), std.hypot(noise), std / offset.abs());
@@ -96,3 +108,8 @@ impl Joint {
         )
     }
 }
+
+/// Share of its compliance to which a spring is known that the motion does not show.
+const SLACK: f64 = 0.3;
+/// Share to which the mean of a cause is known: its shape is nearly right, and what a friction held first nobody knows.
+const MADE: f64 = 0.3;

@@ -65,7 +65,7 @@ pub fn compliance(joint: &Joint, parts: &[Vec<f64>]) -> Result<Compliance, &'sta
 /// with more of it and a drift.
 fn accounts(joint: &Joint, parts: &[Vec<f64>]) -> Vec<Vec<Vec<f64>>> {
     let data = &joint.data;
-    let few = [&joint.beside_torque(), parts].concat();
+    let few = [&joint.beside_spring(), parts].concat();
     let rubbed = with(&with(&few, &sign(data)), &data.speed);
     let slow = waves(&unit_range(&data.motor), 2);
     let full = [rubbed.clone(), slow].concat();
