@@ -4,6 +4,8 @@
 //! One rule is one file and one line in the table of its kind (`RULES` of each module here): what it looks at, what it finds odd, how grave that is, and
 //! what to do about it. What a rule finds is a [`Doubt`].
 
+pub mod agreement;
+pub mod bent;
 pub mod channel;
 pub mod cubes;
 pub mod force_sensor;
