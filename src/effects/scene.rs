@@ -17,8 +17,6 @@ pub struct Scene {
     pub period: f64,
     /// Whole duration, s.
     pub duration: f64,
-    /// Whether the load's own noise, through the spring, is negligible beside the reading's.
-    pub quiet_load: bool,
 }
 
 impl Scene {
@@ -32,7 +30,6 @@ impl Scene {
             deflection_scale: (load_scale / stiffness).abs(),
             period: duration / cycles.max(1) as f64,
             duration,
-            quiet_load: true,
             load_scale,
             time,
             load,

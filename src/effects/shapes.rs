@@ -122,24 +122,3 @@ fn sample<S: Scalar>(
     let share = (-delay + (now - time[i])) / width;
     v[i] + (v[i + 1] - v[i]) * share
 }
-
-/// Weights of the centre of a least-squares parabola over five rows (Savitzky and Golay 1964).
-const PARABOLA: [f64; 5] = [
-    -3.0 / 35.0,
-    12.0 / 35.0,
-    17.0 / 35.0,
-    12.0 / 35.0,
-    -3.0 / 35.0,
-];
-
-/// A history smoothed by parabolas over five rows; its ends stay as they are.
-pub fn smoothed<S: Scalar>(values: &[S]) -> Vec<S> {
-    let mut out = values.to_vec();
-    for (slot, window) in out.iter_mut().skip(2).zip(values.windows(5)) {
-        *slot = window
-            .iter()
-            .zip(PARABOLA)
-            .fold(S::constant(0.0), |sum, (v, w)| sum + *v * w);
-    }
-    out
-}

@@ -1,6 +1,6 @@
 use super::contract::{Card, Family, Law, Parameter, Scale};
 use super::scene::Scene;
-use super::shapes::{delayed, smoothed};
+use super::shapes::delayed;
 use crate::ground::dual::Scalar;
 
 /// The channels are not read at the same instant.
@@ -25,17 +25,7 @@ impl Law for TimeSkew {
     };
 
     fn respond<S: Scalar>(p: &[S], scene: &Scene, _elastic: &[S], out: &mut [S]) {
-        // Only the change by the delay is taken from a smoothed history: a plain interpolation would
-        // average the load cell's noise away and be rewarded for that.
-        let smooth = if scene.quiet_load {
-            out.to_vec()
-        } else {
-            smoothed(out)
-        };
-        let mut shifted = smooth.clone();
-        delayed(&scene.time, &smooth, p[0], &mut shifted);
-        for ((y, late), now) in out.iter_mut().zip(shifted).zip(smooth) {
-            *y += late - now;
-        }
+        let read = out.to_vec();
+        delayed(&scene.time, &read, p[0], out);
     }
 }

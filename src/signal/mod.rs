@@ -6,6 +6,7 @@ pub mod coherence;
 pub mod colour;
 pub mod cosine;
 pub mod decay;
+pub mod denoised;
 pub mod double_hit;
 pub mod fault;
 pub mod frf;

@@ -38,9 +38,23 @@ fn square_of_means(of: &[usize], column: &[f64]) -> f64 {
     own.map(|(sum, count)| sum * sum / count).sum()
 }
 
+/// Size of another part as far as its error can be of the aspects of which the own one is; sizes: rms in every aspect. What is
+/// wrong of a level may be so over the turn as well; a wave has no level, and neither is a change.
+pub(super) fn alike(own: &[f64], other: &[f64]) -> f64 {
+    let last = other.len().saturating_sub(1);
+    let square = |x: &f64| x * x;
+    let seen = |aspect: usize| match aspect == last {
+        true => square(&other[aspect]),
+        false => other[..=aspect].iter().map(square).sum(),
+    };
+    let all: f64 = own.iter().map(square).sum();
+    let each = own.iter().enumerate().map(|(a, own)| square(own) * seen(a));
+    (each.sum::<f64>() / all.max(f64::MIN_POSITIVE)).sqrt()
+}
+
 #[cfg(test)]
 mod tests {
-    use super::Aspects;
+    use super::{Aspects, alike};
 
     #[test]
     fn a_constant_a_pattern_and_a_change_are_aspects_of_their_own() {
@@ -51,5 +65,15 @@ mod tests {
         assert_eq!(aspects.sizes(&whole), [5.0, 2.0, 2.0]);
         assert_eq!(Aspects::default().sizes(&[3.0, -3.0]), [3.0]);
         assert!(Aspects::default().sizes(&[]).iter().all(|s| *s == 0.0));
+    }
+
+    #[test]
+    fn what_a_law_misses_counts_in_the_aspects_that_both_have() {
+        assert_eq!(alike(&[3.0, 0.0], &[0.0, 50.0]), 0.0);
+        assert_eq!(alike(&[0.0, 3.0], &[7.0, 50.0]), 50.0);
+        let mixed = alike(&[3.0, 4.0], &[10.0, 50.0]);
+        assert!((mixed - (0.36_f64 * 100.0 + 0.64 * 2500.0).sqrt()).abs() < 1e-12);
+        assert_eq!(alike(&[0.0, 3.0, 0.0], &[40.0, 30.0, 9.0]), 50.0);
+        assert_eq!(alike(&[3.0], &[8.0]), 8.0);
     }
 }

@@ -87,7 +87,8 @@ impl<'a> Weighing<'a> {
         let (seen, pattern) = self.pattern(&set.fit);
         let (beside, uncertain) = self.beside(&set.fit);
         let rest = self.span.map_or(Rest::default(), |s| {
-            s.rest(self.bank, &set.fit, self.whole, self.judgement)
+            let whole = (self.whole, self.beside_levels(&set.fit));
+            s.rest(self.bank, &set.fit, whole, self.judgement)
         });
         let share = self.share(rms(&in_noise(self.statement, &pattern)));
         let noise = set.fit.posterior.noise_variance.sqrt();
@@ -104,6 +105,17 @@ impl<'a> Weighing<'a> {
                 None => rest,
             },
         }
+    }
+
+    /// Rms of what is missed beside what a fit holds to be the same in every reading, noise deviations.
+    fn beside_levels(&self, fit: &Fit) -> f64 {
+        let mut missed = self.missed.clone();
+        for (member, part) in fit.members.iter().zip(raw_parts(self.bank, fit)) {
+            if self.bank.suspect(*member).is_level() {
+                missed.iter_mut().zip(part).for_each(|(m, p)| *m -= p);
+            }
+        }
+        rms(&in_noise(self.statement, &missed))
     }
 
     /// Of the whole misfit.

@@ -1,6 +1,7 @@
 //! Whether every cause of a set is of a size that matters: beside the noise of one reading, and beside
 //! all that is named. What the others can take over does not count as its own.
 
+use super::aspect::alike;
 use super::bank::{Bank, Fit};
 use super::judgement::Judgement;
 use super::statement::Statement;
@@ -35,8 +36,22 @@ impl<'a> Materiality<'a> {
     /// Whether all causes of a set matter.
     pub fn holds(&mut self, fit: &Fit) -> bool {
         self.learn(&fit.members);
-        let total = self.rms_of(fit, &all_of(fit), &amounts(self.bank, fit));
+        let total = self.total(fit);
         (0..fit.members.len()).all(|at| self.matters(fit, at, total))
+    }
+
+    /// What a cause must be a share of: rms of all that is named, or of the largest part where parts cancel, for a law misses a share
+    /// of its own size whatever is taken off it. Less what is the same in every reading.
+    fn total(&self, fit: &Fit) -> f64 {
+        let own = amounts(self.bank, fit);
+        let mut bent = all_of(fit);
+        bent.retain(|at| !self.bank.suspect(fit.members[*at]).is_level());
+        let rms_of = |some: &[usize]| {
+            let amounts: Vec<DVector<f64>> = some.iter().map(|at| own[*at].clone()).collect();
+            self.rms_of(fit, some, &amounts)
+        };
+        let parts = bent.iter().map(|at| rms_of(&[*at]));
+        parts.fold(rms_of(&bent), f64::max)
     }
 
     fn matters(&self, fit: &Fit, at: usize, total: f64) -> bool {
@@ -158,20 +173,6 @@ impl<'a> Materiality<'a> {
     }
 }
 
-/// Size of another part as far as its error can be of the aspects of which the own one is; sizes: rms in every aspect. What is
-/// wrong of a level may be so over the turn as well; a wave has no level, and neither is a change.
-fn alike(own: &[f64], other: &[f64]) -> f64 {
-    let last = other.len().saturating_sub(1);
-    let square = |x: &f64| x * x;
-    let seen = |aspect: usize| match aspect == last {
-        true => square(&other[aspect]),
-        false => other[..=aspect].iter().map(square).sum(),
-    };
-    let all: f64 = own.iter().map(square).sum();
-    let each = own.iter().enumerate().map(|(a, own)| square(own) * seen(a));
-    (each.sum::<f64>() / all.max(f64::MIN_POSITIVE)).sqrt()
-}
-
 fn all_of(fit: &Fit) -> Vec<usize> {
     (0..fit.members.len()).collect()
 }
@@ -285,19 +286,4 @@ pub(super) fn in_noise(statement: &Statement, raw: &[f64]) -> Vec<f64> {
         .zip(statement.noise.spread())
         .map(|(v, s)| v / s)
         .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::alike;
-
-    #[test]
-    fn what_a_law_misses_counts_in_the_aspects_that_both_have() {
-        assert_eq!(alike(&[3.0, 0.0], &[0.0, 50.0]), 0.0);
-        assert_eq!(alike(&[0.0, 3.0], &[7.0, 50.0]), 50.0);
-        let mixed = alike(&[3.0, 4.0], &[10.0, 50.0]);
-        assert!((mixed - (0.36_f64 * 100.0 + 0.64 * 2500.0).sqrt()).abs() < 1e-12);
-        assert_eq!(alike(&[0.0, 3.0, 0.0], &[40.0, 30.0, 9.0]), 50.0);
-        assert_eq!(alike(&[3.0], &[8.0]), 8.0);
-    }
 }

@@ -124,8 +124,14 @@ impl<'a> Span<'a> {
         in_noise(self.statement, &sum)
     }
 
-    /// What is left beside a set.
-    pub fn rest(&self, bank: &Bank, fit: &Fit, whole: f64, judgement: &Judgement) -> Rest {
+    /// What is left beside a set; `whole`: rms of the misfit, and of that beside levels, noise deviations.
+    pub fn rest(
+        &self,
+        bank: &Bank,
+        fit: &Fit,
+        (whole, bent): (f64, f64),
+        judgement: &Judgement,
+    ) -> Rest {
         let beside = self.beside(bank, fit);
         // beside structure of any size: without it, what is left would pass for noise and be small beside it
         let noise = beside.noise();
@@ -140,14 +146,14 @@ impl<'a> Span<'a> {
             return Rest::default();
         };
         let peaks: Vec<f64> = left.iter().map(|v| v.abs() / noise).collect();
-        let share = rms(&left) / whole.max(f64::MIN_POSITIVE);
+        let share = |whole: f64| rms(&left) / whole.max(f64::MIN_POSITIVE);
         let nats = (evidence - base).max(0.0);
         let is_left = nats > judgement.left_nats
             && quantile(&peaks, 0.98) > judgement.left_peak
-            && share > judgement.left_share;
+            && share(bent) > judgement.left_share;
         Rest {
             nats,
-            share,
+            share: share(whole),
             is_left,
             scatter: None,
         }
@@ -182,15 +188,17 @@ impl Beside<'_> {
     }
 }
 
-/// Rms of what a set explains, whitened.
+/// Rms of what a set explains whose law may be wrong, whitened.
 pub(super) fn explained(bank: &Bank, fit: &Fit) -> f64 {
     let mut at = 0;
     let mut sum = DVector::zeros(bank.whitened().len());
     for member in &fit.members {
         let count = bank.entries[*member].columns.len();
         let own: Vec<f64> = fit.posterior.mean.rows(at, count).iter().copied().collect();
-        sum += bank.part(*member, &own);
         at += count;
+        if !bank.suspect(*member).is_level() {
+            sum += bank.part(*member, &own);
+        }
     }
     rms(sum.as_slice())
 }

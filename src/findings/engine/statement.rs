@@ -141,6 +141,17 @@ pub struct Suspect {
     pub can_be: CanBe,
 }
 
+/// Mechanism of what is the same in every reading. Its law is exact, and its size, any zero, says nothing of the others': beside it
+/// nothing is small, and it has no misfit that could be taken for another cause.
+pub const LEVEL: &str = "constant";
+
+impl Suspect {
+    /// Whether it is the same in every reading.
+    pub fn is_level(&self) -> bool {
+        self.mechanism == LEVEL
+    }
+}
+
 /// The linear statement of a diagnosis: reading = nuisances + causes + noise.
 pub struct Statement {
     /// Measured less simulated. About amounts other than zero: measured less simulated there, plus the

@@ -24,8 +24,6 @@ pub struct Record<'a> {
     data: &'a Observation,
     unit: &'static str,
     view: View,
-    /// What nobody is to blame for: the spring, and the noise of the load cell.
-    beside: Vec<Vec<f64>>,
     suspects: Vec<Suspect>,
     /// Its noise.
     pub noise: Coloured,
@@ -64,9 +62,6 @@ impl<'a> Record<'a> {
             span: span(&view),
             coarse: coarse_span(&view),
             noise: Coloured::white(cosine, first.max(digits)),
-            beside: std::iter::once(view.spring.clone())
-                .chain(view.cell())
-                .collect(),
             data,
             unit,
             view,
@@ -154,7 +149,7 @@ impl<'a> Record<'a> {
     fn residual(&self, set: &(Vec<Member>, f64)) -> Vec<f64> {
         let columns = set.0.iter().flat_map(|m| m.columns.iter());
         let unit = |c: &Vec<f64>| DVector::from_column_slice(c) / rms(c).max(f64::MIN_POSITIVE);
-        let all: Vec<DVector<f64>> = columns.chain(&self.beside).map(unit).collect();
+        let all: Vec<DVector<f64>> = columns.chain([&self.view.u]).map(unit).collect();
         let matrix = DMatrix::from_columns(&all);
         let y = DVector::from_column_slice(&self.data.reading);
         let mut inner = matrix.tr_mul(&matrix);
@@ -171,7 +166,7 @@ impl<'a> Record<'a> {
         Statement {
             reading: self.data.reading.clone(),
             noise: Box::new(noise.clone()),
-            nuisances: self.beside.iter().map(|c| free(c)).collect(),
+            nuisances: vec![free(&self.view.u)],
             suspects,
             span: Vec::new(),
             splits: Vec::new(),

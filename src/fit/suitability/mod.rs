@@ -5,6 +5,8 @@
 //! grave that is, and what to do about it. Rules about single channels stand in [`channel`]. What a rule finds is a
 //! [`Doubt`].
 
+pub mod agreement;
+pub mod bent;
 pub mod channel;
 pub mod cubes;
 pub mod force_sensor;

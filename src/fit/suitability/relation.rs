@@ -5,14 +5,16 @@
 //! often of one sign as of the other relative to the drive; those of a response agree. Student's test on
 //! the slopes of the ramps therefore needs no model of the noise. A second demand, that drive and time
 //! together describe a good share of the response, tells what oscillates faster or slower than the drive.
-//! A single cycle has too few ramps for Student; there every ramp must be nearly straight, and all of one
+//! Where the response bends, ramps of unlike range have unlike slopes: there a law that is learnt on the other ramps must
+//! foretell each (`bent`). A single cycle has too few ramps for Student; there every ramp must be nearly straight, and all of one
 //! slope, which a walk hardly ever is.
 
+use super::agreement::{of_slopes, slope};
+use super::bent;
 use crate::fit::observation::reduce;
 use crate::measurement::cycles::Cycles;
 use crate::signal::play::play;
 use nalgebra::{DMatrix, DVector};
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// How a response depends on a drive.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,14 +70,21 @@ impl Relation {
             false => Vec::new(),
         };
         let halves: Vec<(usize, usize)> = ramps.iter().flat_map(|r| halved(*r, &drive)).collect();
-        let (slope, whole) = agreement(&ramps, &drive, &response);
+        let agreement = |pieces: &[(usize, usize)]| {
+            let slopes = pieces.iter().map(|p| slope(*p, &drive, &response));
+            of_slopes(&slopes.collect::<Vec<_>>())
+        };
+        let (slope, whole) = agreement(&ramps);
         let (_, half) = match loadings.len() < LOADINGS {
-            true => agreement(&halves, &drive, &response),
-            false => agreement(&loadings, &drive, &response),
+            true => agreement(&halves),
+            false => agreement(&loadings),
         };
         Self {
             slope,
-            p_value: 2.0 * whole.min(half),
+            p_value: 2.0
+                * whole
+                    .min(half)
+                    .min(bent::p_value(&ramps, &drive, &response)),
             share: share(&ramps, &drive, &response),
             ramps: ramps.len(),
             follows: follows(&ramps, &drive, &response),
@@ -141,42 +150,6 @@ fn follows(ramps: &[(usize, usize)], drive: &[f64], response: &[f64]) -> bool {
         && ramps.iter().all(straight)
 }
 
-/// Slope of the response over the drive in one piece, and the squares of the drive about its mean.
-pub fn slope((a, b): (usize, usize), drive: &[f64], response: &[f64]) -> (f64, f64) {
-    let n = (b - a + 1) as f64;
-    let (x, y) = (&drive[a..=b], &response[a..=b]);
-    let (mx, my) = (x.iter().sum::<f64>() / n, y.iter().sum::<f64>() / n);
-    let (mut xx, mut xy) = (0.0, 0.0);
-    for (x, y) in x.iter().zip(y) {
-        xx += (x - mx) * (x - mx);
-        xy += (x - mx) * (y - my);
-    }
-    (if xx > 0.0 { xy / xx } else { 0.0 }, xx)
-}
-
-/// Mean slope of the pieces and the probability that chance makes it differ so from zero.
-fn agreement(pieces: &[(usize, usize)], drive: &[f64], response: &[f64]) -> (f64, f64) {
-    let slopes: Vec<(f64, f64)> = pieces.iter().map(|p| slope(*p, drive, response)).collect();
-    let total: f64 = slopes.iter().map(|s| s.1).sum();
-    if total <= 0.0 || !total.is_finite() {
-        return (0.0, 1.0);
-    }
-    let mean = slopes.iter().map(|(b, w)| b * w).sum::<f64>() / total;
-    let squares: f64 = slopes.iter().map(|(_, w)| (w / total).powi(2)).sum();
-    let count = 1.0 / squares;
-    let scatter = slopes.iter().map(|(b, w)| (w / total * (b - mean)).powi(2));
-    let error = (scatter.sum::<f64>() * count / (count - 1.0)).sqrt();
-    if count < 1.5 || !mean.is_finite() {
-        return (mean, 1.0);
-    }
-    let p = match StudentsT::new(0.0, 1.0, count - 1.0) {
-        Ok(student) if error > 0.0 => 2.0 * student.sf((mean / error).abs()),
-        _ if mean != 0.0 => 0.0,
-        _ => 1.0,
-    };
-    (mean, p)
-}
-
 /// Share of the response beyond a slow drift that the drive, its cube and its play operators describe.
 fn share(ramps: &[(usize, usize)], drive: &[f64], response: &[f64]) -> f64 {
     let cells = cells(ramps, drive.len());
@@ -213,7 +186,7 @@ fn share(ramps: &[(usize, usize)], drive: &[f64], response: &[f64]) -> f64 {
 }
 
 /// Rows to be averaged: some per ramp.
-fn cells(ramps: &[(usize, usize)], rows: usize) -> Vec<(usize, usize)> {
+pub fn cells(ramps: &[(usize, usize)], rows: usize) -> Vec<(usize, usize)> {
     let mut found = Vec::new();
     for (a, b) in ramps {
         let n = (b - a).clamp(1, BINS);

@@ -2,15 +2,12 @@
 
 use super::jumps::{Jumps, jumps, left};
 use crate::fit::observation::Observation;
-use crate::ground::stats::difference;
 use crate::signal::play::play;
 
 /// Load and time of a record without units.
 pub struct View {
-    /// Load over the largest, its own noise smoothed away.
+    /// Load over the largest.
     pub u: Vec<f64>,
-    /// The load as it was read, over the largest: what the spring answers to.
-    pub spring: Vec<f64>,
     /// Time over the duration, 0 to 1.
     pub t: Vec<f64>,
     /// Duration of a cycle over that of the record.
@@ -47,11 +44,7 @@ impl View {
     /// Of reduced data.
     pub fn of(data: &Observation) -> Self {
         let scale = data.scene.load_scale;
-        let spring: Vec<f64> = data.scene.load.iter().map(|m| m / scale).collect();
-        let u = match data.scene.quiet_load {
-            true => spring.clone(),
-            false => smoothed(&spring),
-        };
+        let u: Vec<f64> = data.scene.load.iter().map(|m| m / scale).collect();
         let first = data.scene.time.first().copied().unwrap_or(0.0);
         let t = data.scene.time.iter();
         let t: Vec<f64> = t.map(|t| (t - first) / data.scene.duration).collect();
@@ -67,17 +60,8 @@ impl View {
             stepped: is_stepped(&u),
             slow: (SLOW * data.block as f64).min(1.0),
             loaded_start: u.first().is_some_and(|v| v.abs() > LOADED),
-            spring,
             u,
         }
-    }
-
-    /// The load cell's own noise, where it is not negligible: what a cause that holds the smoothed load would
-    /// otherwise take off the readings.
-    pub fn cell(&self) -> Option<Vec<f64>> {
-        let each = self.spring.iter().zip(&self.u);
-        let cell: Vec<f64> = each.map(|(read, smooth)| read - smooth).collect();
-        cell.iter().any(|c| *c != 0.0).then_some(cell)
     }
 
     /// Number of rows.
@@ -87,10 +71,10 @@ impl View {
 
     /// A column less what the spring takes of it. `None` where nothing is left.
     pub fn beyond_spring(&self, column: &[f64]) -> Option<Vec<f64>> {
-        let own: f64 = self.spring.iter().map(|u| u * u).sum();
-        let cross: f64 = self.spring.iter().zip(column).map(|(u, c)| u * c).sum();
+        let own: f64 = self.u.iter().map(|u| u * u).sum();
+        let cross: f64 = self.u.iter().zip(column).map(|(u, c)| u * c).sum();
         let slope = cross / own.max(f64::MIN_POSITIVE);
-        let rows = column.iter().zip(&self.spring);
+        let rows = column.iter().zip(&self.u);
         let left: Vec<f64> = rows.map(|(c, u)| c - slope * u).collect();
         let square = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>();
         let kept = square(&left) > BESIDE * BESIDE * square(column);
@@ -168,23 +152,4 @@ fn is_stepped(u: &[f64]) -> bool {
     let jumps: f64 = steps.iter().filter(|s| **s > JUMP).sum();
     let busy = still as f64 > STANDS * steps.len() as f64;
     busy && jumps > STANDS * way
-}
-
-/// Local parabolas through seven rows (Savitzky and Golay 1964); a jump of the load stays one.
-fn smoothed(u: &[f64]) -> Vec<f64> {
-    const WEIGHTS: [f64; 7] = [-2.0, 3.0, 6.0, 7.0, 6.0, 3.0, -2.0];
-    let n = u.len();
-    let at = |i: usize| {
-        if i < 3 || i + 3 >= n {
-            return u[i];
-        }
-        let each = WEIGHTS.iter().zip(&u[i - 3..i + 4]);
-        each.map(|(w, v)| w * v).sum::<f64>() / 21.0
-    };
-    let smooth: Vec<f64> = (0..n).map(at).collect();
-    let off: Vec<f64> = difference(&smooth, u);
-    let limit = 5.0 * crate::signal::outliers::robust_std(&off);
-    let keep = smooth.iter().zip(u).zip(&off);
-    keep.map(|((s, v), o)| if o.abs() > limit { *v } else { *s })
-        .collect()
 }
