@@ -149,3 +149,27 @@ fn weights_put_on_and_taken_off_once_tell_a_spring() {
         .collect();
     assert!(is_fatal(&judged(&file(&load, &walk, 5.0, 13)).doubts));
 }
+
+/// Three times the noise of the reading, 900 rows: a filter of the readings of the load would explain it.
+#[test]
+fn noise_of_the_load_cell_is_no_cause() {
+    let truth = triangles(900);
+    for seed in 1..4 {
+        let mut random = Random::new(100 + seed);
+        let noisy = |u: &f64| u + 3.0 * NOISE * random.normal();
+        let load: Vec<f64> = truth.iter().map(noisy).collect();
+        let found = judged(&file(&load, &truth, 0.05, seed));
+        assert_eq!(found.verdict, Verdict::Sufficient, "seed {seed}");
+    }
+}
+
+#[test]
+fn a_zero_of_any_size_hides_no_gap() {
+    let load = triangles(900);
+    for zero in [0.1, 1.0, 10.0] {
+        let read = with(&load, |_, u| zero + 0.03 * (u / 0.015).tanh());
+        let found = judged(&file(&load, &read, 0.05, 7));
+        let named = |effect: &str| found.causes.iter().any(|c| c.effect == effect);
+        assert!(named("backlash") && named("sensor_offset"), "zero {zero}");
+    }
+}

@@ -40,18 +40,13 @@ impl<'a> Materiality<'a> {
         (0..fit.members.len()).all(|at| self.matters(fit, at, total))
     }
 
-    /// What a cause must be a share of: rms of all that is named, or of the largest part where parts cancel, for a law misses a share
-    /// of its own size whatever is taken off it. Less what is the same in every reading.
+    /// Rms of all that is named, less what is the same in every reading.
     fn total(&self, fit: &Fit) -> f64 {
         let own = amounts(self.bank, fit);
         let mut bent = all_of(fit);
         bent.retain(|at| !self.bank.suspect(fit.members[*at]).is_level());
-        let rms_of = |some: &[usize]| {
-            let amounts: Vec<DVector<f64>> = some.iter().map(|at| own[*at].clone()).collect();
-            self.rms_of(fit, some, &amounts)
-        };
-        let parts = bent.iter().map(|at| rms_of(&[*at]));
-        parts.fold(rms_of(&bent), f64::max)
+        let amounts: Vec<DVector<f64>> = bent.iter().map(|at| own[*at].clone()).collect();
+        self.rms_of(fit, &bent, &amounts)
     }
 
     fn matters(&self, fit: &Fit, at: usize, total: f64) -> bool {
