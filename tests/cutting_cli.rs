@@ -96,6 +96,7 @@ fn files_that_are_wrong_are_refused_with_their_line() {
         ("depth_mm = 1.5", "depth_mm = -1.5", 6),
         ("cut = \"slot\"", "cut = \"round\"", 6),
         ("diameter_mm = ", "diameter_mm = 1e30 # ", 3),
+        ("depth_mm = 1.5", "depth_mm = 1e6", 6),
     ] {
         std::fs::write(&path, text.replacen(from, to, 1)).unwrap();
         let output = ident(folder.path(), &["force", "measurements/al/cuts.csv"]);

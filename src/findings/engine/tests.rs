@@ -204,11 +204,11 @@ fn a_cause_stays_where_all_that_is_uncertain_would_have_to_stand_in_for_it() {
         spread,
     };
     for seed in 0..5 {
-        let mut toy = Toy::new(seed, 6000, base, |_| 1.6);
-        toy.nuisances.extend((0..6).map(|k| piece(k, 0.48)));
+        let mut toy = Toy::new(seed, 6000, base, |_| 2.4);
+        toy.nuisances.extend((0..6).map(|k| piece(k, 0.72)));
         assert_eq!(toy.names(), (vec!["base"], Verdict::Explained));
-        let mut sound = Toy::new(seed, 6000, base, |_| 0.6);
-        sound.nuisances.extend((0..6).map(|k| piece(k, 0.48)));
+        let mut sound = Toy::new(seed, 6000, base, |_| 0.9);
+        sound.nuisances.extend((0..6).map(|k| piece(k, 0.72)));
         assert_eq!(sound.names(), (vec![], Verdict::Sufficient));
     }
 }

@@ -110,7 +110,7 @@ impl Facts {
     }
 }
 
-/// No tool is wider, mm: heads that face engine blocks have 500.
+/// No tool is wider, mm, nor longer: heads that face engine blocks have 500.
 const WIDEST_MM: f64 = 2000.0;
 
 fn diameter(front: &Front) -> Outcome<f64> {
@@ -209,10 +209,15 @@ fn cut(table: &Table, diameter_mm: f64) -> Outcome<CutFacts> {
             Problem::new(what, "give the width of cut, at most the diameter").in_column("width_mm"),
         );
     }
+    let depth_mm = number(table, "depth_mm")?;
+    if depth_mm > WIDEST_MM {
+        let what = format!("is {depth_mm}, deeper than any edge is long");
+        return Err(Problem::new(what, "give the depth in millimetres").in_column("depth_mm"));
+    }
     Ok(CutFacts {
         spindle_rad_s: number(table, "spindle_rpm")? * TAU / 60.0,
         feed_m_s: number(table, "feed_mm_min")? * 1e-3 / 60.0,
-        depth_m: number(table, "depth_mm")? * 1e-3,
+        depth_m: depth_mm * 1e-3,
         width_m: width_mm * 1e-3,
         side: side(table)?,
     })
@@ -274,6 +279,11 @@ fn nominal(front: &Front) -> Outcome<Option<Nominal>> {
     coefficients.retain(|(key, _)| key != "rel_std");
     if rel_std < 0.0 {
         return Err(refuse("`rel_std` is below zero".into()));
+    }
+    // a force along the cut that pulls would drive the spindle
+    let pulls = |(key, value): &&(String, f64)| key.starts_with("Kt") && *value < 0.0;
+    if let Some((key, value)) = coefficients.iter().find(pulls) {
+        return Err(refuse(format!("`{key}` is {value}, below zero")));
     }
     Ok(Some(Nominal {
         coefficients,
