@@ -104,11 +104,9 @@ impl Aim {
     /// The same with how each column pulls.
     fn together(&self, columns: &[Vec<f64>]) -> (Vec<f64>, DVector<f64>) {
         let own: Vec<DVector<f64>> = columns.iter().map(|c| white(c, &self.spread)).collect();
-        let (matrix, free) = (
-            DMatrix::from_columns(&own),
-            DMatrix::from_columns(&own.iter().map(|c| self.free(c)).collect::<Vec<_>>()),
-        );
-        let mut inner = matrix.tr_mul(&free);
+        let free: Vec<DVector<f64>> = own.iter().map(|c| self.free(c)).collect();
+        let free = DMatrix::from_columns(&free);
+        let mut inner = DMatrix::from_columns(&own).tr_mul(&free);
         (0..own.len()).for_each(|i| inner[(i, i)] *= 1.0 + 1e-9);
         let pull = free.tr_mul(&self.reading);
         let solved = inner.cholesky().map(|root| root.solve(&pull));
