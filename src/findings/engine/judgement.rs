@@ -48,9 +48,9 @@ pub struct Judgement {
     /// is not named however probable it is (`picked`, `needed`); and the last cause stands from so much on, though it makes the simulation
     /// as it is used worse (`picked`, `carrying`: a drift of `tests/judge`, 50300018, was silenced without that).
     pub companion_gain: f64,
-    /// A companion that lowers the error of unseen rows by so much, percent, and without which something is left, stands though it
-    /// makes the simulation as it is used worse: constants that are off in the other direction hide it. A choice: without it the
-    /// error doubles; no other number was tried.
+    /// A companion that lowers the error of unseen rows by so much, percent, stands though it makes the simulation as it is used
+    /// worse: constants that are off in the other direction hide it. A choice: without it the error doubles; no other number
+    /// was tried.
     pub stands_percent: f64,
     /// Rms of unseen readings, in their unit, that a cause must explain: less may as well be what the present simulation misses
     /// anyway. 0 where a kind says nothing of it.

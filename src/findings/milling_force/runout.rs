@@ -127,7 +127,7 @@ impl Way {
         let way = reached(self.angle, known);
         let across = match size > STRAIGHT * feed_per_tooth(case) / UNIT {
             true => {
-                let turned = reached(self.angle + TURNED, known);
+                let turned = reached(self.angle + TURNED, &way);
                 let each = turned.iter().zip(&way);
                 each.map(|(there, here)| (there - here) / TURNED).collect()
             }
