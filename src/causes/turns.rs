@@ -5,6 +5,7 @@
 use super::contract::Amount;
 use super::places::{Said, added, said_added};
 use crate::ground::spatial::V3;
+use crate::ground::stats::descending;
 use nalgebra::{Matrix3, SymmetricEigen};
 
 /// How many amounts one matrix takes.
@@ -110,10 +111,9 @@ pub fn said_matrix(amounts: &[f64], names: &Names) -> Said {
         return names.straight.iter().zip(own).flat_map(said).collect();
     }
     let own = SymmetricEigen::new(matrix(amounts));
-    let mut order = [0, 1, 2];
-    order.sort_by(|a, b| own.eigenvalues[*b].total_cmp(&own.eigenvalues[*a]));
+    let order = descending(own.eigenvalues.as_slice());
     let softest = own.eigenvalues[order[0]];
-    let kept = order.map(|k| own.eigenvalues[k]).into_iter();
+    let kept = order.iter().map(|k| own.eigenvalues[*k]);
     let kept = kept.filter(|amount| *amount > LEAST * softest);
     let stiffness = names.principal.iter().zip(kept).flat_map(said);
     let axis = own.eigenvectors.column(order[0]);

@@ -43,8 +43,9 @@ pub struct Disc {
     pub lag_width_rad: f64,
 }
 
-/// Largest angle of the surface normal and of the lag within a disc, rad: forces are those of its middle, to 3e-4.
-const FINE: f64 = 0.06;
+/// Largest angle of the surface normal and of the lag within a disc, rad: forces are those of its middle, to 8e-5. With twice as
+/// much, coefficients are off by 3e-4, which shows in long records.
+const FINE: f64 = 0.03;
 
 impl Tool {
     /// A square end without runout.

@@ -1,7 +1,7 @@
 //! What naming a cause gains on data that were not fitted.
 
 use crate::fit::parameter::Z95;
-use crate::ground::stats::quantile;
+use crate::ground::stats::{above, quantile};
 use serde::Serialize;
 
 /// Rms error on held-out data before and after, with the interval of its reduction.
@@ -23,7 +23,7 @@ impl Gain {
     /// Probability that there is a gain at all, from the interval of ln(before/after).
     pub fn probability(&self) -> f64 {
         let z = nats(self.reduction_percent) / self.ln_std().max(f64::MIN_POSITIVE);
-        0.5 * statrs::function::erf::erfc(-z / std::f64::consts::SQRT_2)
+        above(-z)
     }
 
     /// Standard error of ln(before/after), from the interval.

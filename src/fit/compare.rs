@@ -7,8 +7,8 @@
 use super::parameter::{Identified, Z95};
 use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
+use crate::ground::stats::above;
 use sha2::{Digest, Sha256};
-use statrs::distribution::{ContinuousCDF, Normal};
 use std::path::{Path, PathBuf};
 
 /// Probability of a false change, over all parameters.
@@ -168,7 +168,7 @@ impl Pair {
     /// Of a change at least this large if nothing changed.
     fn probability(&self) -> Option<f64> {
         let size = self.in_errors()?.abs();
-        Some(2.0 * Normal::standard().sf(size))
+        Some(2.0 * above(size))
     }
 }
 

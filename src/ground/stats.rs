@@ -1,5 +1,7 @@
 //! Means, sizes, quantiles and sums of exponentials: written once.
 
+use statrs::function::erf::erfc;
+
 /// 97.5 % point of the normal distribution: half width of a 95 % interval in standard deviations.
 pub const Z95: f64 = 1.959_963_984_540_054;
 
@@ -11,6 +13,11 @@ pub fn mean(values: &[f64]) -> f64 {
 /// Root of the mean square, not less the mean; 0 of nothing.
 pub fn rms(values: &[f64]) -> f64 {
     (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
+}
+
+/// Probability that a normal number lies above so many deviations.
+pub fn above(deviations: f64) -> f64 {
+    0.5 * erfc(deviations / std::f64::consts::SQRT_2)
 }
 
 /// What `a` has more than `b`, value by value.

@@ -155,6 +155,7 @@ fn fitted((time, values): (&[f64], &[f64]), now: f64, degree: usize) -> Option<(
 mod tests {
     use super::*;
     use crate::ground::random::Random;
+    use crate::ground::stats::difference;
 
     /// Triangles with a jump, a row every second.
     fn history(i: usize) -> f64 {
@@ -169,12 +170,7 @@ mod tests {
         let truth: Vec<f64> = (0..600).map(history).collect();
         let read: Vec<f64> = truth.iter().map(|v| v + 0.05 * random.normal()).collect();
         let found = Denoised::of(&time, &read);
-        let off: Vec<f64> = found
-            .values
-            .iter()
-            .zip(&truth)
-            .map(|(a, b)| a - b)
-            .collect();
+        let off = difference(&found.values, &truth);
         assert!((found.noise / 0.05 - 1.0).abs() < 0.2, "{}", found.noise);
         assert!(rms(&off) < 0.5 * 0.05, "{} of the noise", rms(&off) / 0.05);
         assert!(found.left < 0.4, "{}", found.left);
@@ -185,12 +181,7 @@ mod tests {
         let time: Vec<f64> = (0..600).map(f64::from).collect();
         let truth: Vec<f64> = (0..600).map(history).collect();
         let found = Denoised::of(&time, &truth);
-        let off: Vec<f64> = found
-            .values
-            .iter()
-            .zip(&truth)
-            .map(|(a, b)| a - b)
-            .collect();
+        let off = difference(&found.values, &truth);
         assert!(rms(&off) < 1e-3, "{}", rms(&off));
     }
 }

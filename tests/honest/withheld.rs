@@ -1,6 +1,7 @@
 //! Rule 1: no number and no cause without data that can carry it.
 
 use crate::bench_of_files::{Bench, document};
+use crate::honest::benches;
 use crate::honest::file::{File, noise};
 use serde_json::Value;
 
@@ -94,6 +95,19 @@ fn what_never_changes_is_no_response() {
         "few-rows",
         &axis().rows(|i| i % 200 == 0 && i < 1000),
     );
+}
+
+#[test]
+fn a_handful_of_readings_is_no_measurement() {
+    for (case, file) in [
+        ("screw", benches::screw().rows(|i| i < 2)),
+        ("cubes", benches::cubes().rows(|i| i < 1)),
+    ] {
+        let (status, found) = ran("diagnose", &file);
+        let verdict = found["verdict"].as_str();
+        assert_eq!((status, verdict), (1, Some("cannot-tell")), "{case}");
+        assert!(rules(&found).iter().any(|r| r == "few"), "{case}");
+    }
 }
 
 #[test]

@@ -48,10 +48,6 @@ pub struct Judgement {
     /// is not named however probable it is (`picked`, `needed`); and the last cause stands from so much on, though it makes the simulation
     /// as it is used worse (`picked`, `carrying`: a drift of `tests/judge`, 50300018, was silenced without that).
     pub companion_gain: f64,
-    /// A companion that lowers the error of unseen rows by so much, percent, stands though it makes the simulation as it is used
-    /// worse: constants that are off in the other direction hide it. A choice: without it the error doubles; no other number
-    /// was tried.
-    pub stands_percent: f64,
     /// Rms of unseen readings, in their unit, that a cause must explain: less may as well be what the present simulation misses
     /// anyway. 0 where a kind says nothing of it.
     pub negligible: f64,
@@ -114,7 +110,6 @@ impl Default for Judgement {
             group_carries: 1.0,
             companion_needed: 0.7,
             companion_gain: 1.5,
-            stands_percent: 50.0,
             negligible: 0.0,
             certain: 0.985,
             formula_error: 0.05,

@@ -53,7 +53,7 @@ pub(super) fn picked(
 
 /// With the gains as they are told, and without companions that surely make the simulation worse as it is used: they fit only where
 /// all that is uncertain moves against them, and stand for what it cannot do. The last cause stands where unseen rows plainly tell that
-/// something is wrong: what is uncertain may hide it; and so does a companion without which they are missed by far.
+/// something is wrong: what is uncertain may hide it.
 pub(super) fn carrying(
     weighing: &Weighing,
     posterior: &Posterior,
@@ -74,11 +74,7 @@ pub(super) fn carrying(
         let named = set.suspects.iter().filter(|s| bank.suspects[**s].named);
         let is_last = named.count() == 1;
         let decided = |at: usize| unseen::gains(statement, bank, &set.fit)[at].reduction_percent;
-        let least = match is_last {
-            true => judgement.companion_gain,
-            false => judgement.stands_percent,
-        };
-        let stands = |at: &usize| decided(*at) >= least;
+        let stands = |at: &usize| is_last && decided(*at) >= judgement.companion_gain;
         let worse = (0..gains.len()).filter(|at| surely_worse(at) && !stands(at));
         let Some(at) = worse.min_by(|a, b| gained(a).total_cmp(&gained(b))) else {
             return Picked { set, gains, leaves };

@@ -11,7 +11,7 @@ use super::stiffness::{Compliance, compliance};
 use crate::findings::answer::{Answer, Cause, Group, Verdict};
 use crate::findings::engine::{Experiment, Found, diagnose};
 use crate::findings::gain::Gain;
-use crate::ground::stats::{mean, rms};
+use crate::ground::stats::{difference, mean, rms};
 use crate::measurement::joint_motion::JointRecord;
 use crate::sheet::number::significant;
 
@@ -40,10 +40,6 @@ impl JointFinding {
     pub fn residual(&self) -> Vec<f64> {
         difference(&self.data.twist, &self.explained)
     }
-}
-
-fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
-    a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
 /// Why a motion shows no spring whose torque pays for inertia and friction alone.

@@ -8,8 +8,9 @@ use crate::findings::table::{unit_range, waves};
 /// Waves over the angle beside which the inertia of the rotor is fitted.
 const SLOW: usize = 2;
 
-/// N·m on the link's side, its friction in it, unless the torque pays for nothing but that and inertia. The twist, less what is blamed already, follows it alone, so that the
-/// twist over torque and acceleration tells the inertia of the rotor; beside a presumed compliance, over acceleration alone.
+/// N·m on the link's side, its friction in it, unless the torque pays for nothing but that and inertia. The twist, less what is
+/// blamed already, follows it alone, so that the twist over torque and acceleration tells the inertia of the rotor; beside a
+/// presumed compliance, over acceleration alone.
 pub(super) fn gear_torque(data: &Channels, twist: &[f64], presumed: Option<f64>) -> Vec<f64> {
     let mut others = vec![
         vec![1.0; data.rows()],

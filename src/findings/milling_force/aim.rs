@@ -96,13 +96,8 @@ impl Aim {
         column - &self.nuisances * self.seen(column)
     }
 
-    /// Amounts of some columns together; zeros where they show nothing.
-    pub fn amounts(&self, columns: &[Vec<f64>]) -> Vec<f64> {
-        self.together(columns).0
-    }
-
-    /// The same with how each column pulls.
-    fn together(&self, columns: &[Vec<f64>]) -> (Vec<f64>, DVector<f64>) {
+    /// Amounts of some columns together, zeros where they show nothing, and by how much they lower the misfit, nats.
+    pub fn fitted(&self, columns: &[Vec<f64>]) -> (Vec<f64>, f64) {
         let own: Vec<DVector<f64>> = columns.iter().map(|c| white(c, &self.spread)).collect();
         let free: Vec<DVector<f64>> = own.iter().map(|c| self.free(c)).collect();
         let free = DMatrix::from_columns(&free);
@@ -110,8 +105,13 @@ impl Aim {
         (0..own.len()).for_each(|i| inner[(i, i)] *= 1.0 + 1e-9);
         let pull = free.tr_mul(&self.reading);
         let solved = inner.cholesky().map(|root| root.solve(&pull));
-        let amounts = solved.map_or(vec![0.0; own.len()], |s| s.as_slice().to_vec());
-        (amounts, pull)
+        let amounts = solved.unwrap_or_else(|| DVector::zeros(own.len()));
+        (amounts.as_slice().to_vec(), 0.5 * amounts.dot(&pull))
+    }
+
+    /// Their amounts alone.
+    pub fn amounts(&self, columns: &[Vec<f64>]) -> Vec<f64> {
+        self.fitted(columns).0
     }
 
     /// By how much one column lowers the misfit, nats.
@@ -123,16 +123,6 @@ impl Aim {
             true => 0.5 * pull * pull / square,
             false => 0.0,
         }
-    }
-
-    /// By how much some columns together lower the misfit, nats.
-    pub fn gain_of(&self, columns: &[Vec<f64>]) -> f64 {
-        let (amounts, pull) = self.together(columns);
-        0.5 * amounts
-            .iter()
-            .zip(pull.iter())
-            .map(|(a, p)| a * p)
-            .sum::<f64>()
     }
 
     /// The column of a direction of the vector as the way to where it fits best, at most `most` far. It begins
@@ -169,7 +159,7 @@ impl Aim {
     }
 
     /// By how much an amount of a column lowers the misfit, nats.
-    pub fn worth(&self, column: &[f64], amount: f64) -> f64 {
+    fn worth(&self, column: &[f64], amount: f64) -> f64 {
         let own = white(column, &self.spread);
         let free = self.free(&own);
         amount * free.dot(&self.reading) - 0.5 * amount * amount * free.dot(&own)

@@ -67,7 +67,7 @@ fn stirred(case: &Case, line: &Line) -> Option<Member> {
     let each = BESIDE.iter().map(|m| line.frequency_hz + m * passing);
     let at = |hz: f64| {
         let columns = tremor.columns(case, hz);
-        (case.aim().gain_of(&columns), hz, columns)
+        (case.aim().fitted(&columns).1, hz, columns)
     };
     let tried = each.filter(|hz| *hz > 0.0).map(at);
     let better = |a: Tried, b: Tried| if b.0 > a.0 { b } else { a };

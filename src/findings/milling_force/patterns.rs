@@ -98,7 +98,7 @@ fn apart(case: &Case, line: &Line) -> impl Iterator<Item = f64> {
 
 /// The columns that suit the readings best, where they are worth a comparison.
 fn best(case: &Case, most: usize, tried: impl Iterator<Item = Vec<Vec<f64>>>) -> Vec<Member> {
-    let gains = tried.map(|w| (case.aim().gain_of(&w), w));
+    let gains = tried.map(|w| (case.aim().fitted(&w).1, w));
     let mut worth: Vec<(f64, Vec<Vec<f64>>)> = gains.filter(|(gain, _)| *gain > SEEN).collect();
     worth.sort_by(|a, b| b.0.total_cmp(&a.0));
     worth.dedup_by(|a, b| a.0 == b.0);

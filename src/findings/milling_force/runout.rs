@@ -9,7 +9,7 @@ use crate::experiments::milling_force::RUNOUT;
 use crate::findings::engine::Member;
 use crate::findings::table::{Effect, Place};
 use crate::inference::gaussian::Size;
-use std::f64::consts::{FRAC_PI_2 as QUARTER, TAU};
+use std::f64::consts::FRAC_PI_2 as QUARTER;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "runout",
@@ -39,18 +39,17 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 const UNIT: f64 = 1e-6;
 /// No runout is larger, in that unit.
 const MOST: f64 = 200.0;
+/// A smaller one is none, in that unit.
+const NOTHING: f64 = 1e-3;
 /// Rounds in which its direction and its size are improved.
 const ROUNDS: usize = 8;
 /// Change of either, as a share, at which it has arrived.
 const ARRIVED: f64 = 3e-3;
 
-/// Directions and sizes from which it is sought, as shares of the feed per tooth, where the slopes tell of more than a
-/// twentieth of that: with larger ones a tooth cuts air for a part of its way, and slopes lead astray, across as well. No
-/// other values were tried.
-const DIRECTIONS: usize = 6;
-const SIZES: [f64; 2] = [0.1, 0.3];
+/// Share of the feed per tooth from which it is sought along tooth 1, too, and its slope across taken where it stands: with larger
+/// ones a tooth cuts air for a part of its way, and slopes lead astray. No other value was tried.
 const STRAIGHT: f64 = 0.05;
-/// Turn over which the slope across is taken there, rad.
+/// Turn over which the slope across is taken there, rad. No other value was tried.
 const TURNED: f64 = 0.05;
 
 /// A runout on its way: its angle, and the columns of the way there and of the slope across.
@@ -64,10 +63,9 @@ struct Way {
 fn whole(case: &Case) -> Member {
     let slopes = Way::slopes(case, 0.0);
     let amounts = case.aim().amounts(&slopes.columns);
-    let feed = feed_per_tooth(case) / UNIT;
     let mut ways = vec![slopes];
-    if amounts[0].hypot(amounts[1]) > STRAIGHT * feed {
-        ways.extend(started(case, feed));
+    if amounts[0].hypot(amounts[1]) > STRAIGHT * feed_per_tooth(case) / UNIT {
+        ways.extend([0.0, amounts[1].atan2(amounts[0])].map(|angle| Way::along(case, angle)));
     }
     let better = |a: (f64, Way), b: (f64, Way)| if b.0 > a.0 { b } else { a };
     let arrived = ways.into_iter().map(|way| way.arrived(case));
@@ -97,25 +95,26 @@ fn feed_per_tooth(case: &Case) -> f64 {
     case.cuts().iter().map(own).fold(0.0, f64::max)
 }
 
-/// The best way from afar.
-fn started(case: &Case, feed: f64) -> Option<Way> {
-    let angles = (0..DIRECTIONS).map(|k| TAU * k as f64 / DIRECTIONS as f64);
-    let all = angles.flat_map(|angle| SIZES.map(|share| (angle, share * feed)));
-    let tried = all.map(|(angle, size)| {
-        let slopes = Way::slopes(case, angle);
-        let way = slopes.reaching(case, size, &slopes.columns[0]);
-        (case.aim().worth(&way.columns[0], size), way)
-    });
-    let better = |a: (f64, Way), b: (f64, Way)| if b.0 > a.0 { b } else { a };
-    tried.reduce(better).map(|best| best.1)
-}
-
 impl Way {
     fn slopes(case: &Case, angle: f64) -> Self {
         let columns = [0.0, QUARTER].map(|by| case.along(&towards(case, angle + by)));
         Self {
             angle,
             columns: columns.into(),
+        }
+    }
+
+    /// The way to where it fits best along an angle, to either side.
+    fn along(case: &Case, angle: f64) -> Self {
+        let way = case.aim().secant(case, &towards(case, angle), MOST, &[]);
+        let size = case.aim().amounts(std::slice::from_ref(&way))[0].clamp(-MOST, MOST);
+        let (angle, known) = match size < 0.0 {
+            true => (angle + 2.0 * QUARTER, way.iter().map(|x| -x).collect()),
+            false => (angle, way),
+        };
+        match size.abs() < NOTHING {
+            true => Self::slopes(case, angle),
+            false => Self::slopes(case, angle).reaching(case, size.abs(), &known),
         }
     }
 
@@ -127,7 +126,7 @@ impl Way {
         let way = reached(self.angle, known);
         let across = match size > STRAIGHT * feed_per_tooth(case) / UNIT {
             true => {
-                let turned = reached(self.angle + TURNED, &way);
+                let turned = reached(self.angle + TURNED, known);
                 let each = turned.iter().zip(&way);
                 each.map(|(there, here)| (there - here) / TURNED).collect()
             }
@@ -144,14 +143,13 @@ impl Way {
         let mut best = None;
         let mut before = 0.0;
         for _ in 0..ROUNDS {
-            let gain = case.aim().gain_of(&self.columns);
-            if best.as_ref().is_none_or(|(least, _)| gain > *least) {
+            let (amounts, gain) = case.aim().fitted(&self.columns);
+            if best.as_ref().is_none_or(|(most, _)| gain > *most) {
                 best = Some((gain, self.clone()));
             }
-            let amounts = case.aim().amounts(&self.columns);
             let size = amounts[0].hypot(amounts[1]).min(MOST);
             let turn = amounts[1].atan2(amounts[0]);
-            if size < 1e-3 || (size / before - 1.0_f64).abs().max(turn.abs()) < ARRIVED {
+            if size < NOTHING || (size / before - 1.0_f64).abs().max(turn.abs()) < ARRIVED {
                 break;
             }
             before = size;

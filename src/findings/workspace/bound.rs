@@ -1,8 +1,8 @@
 //! What amounts can be: none below its lowest value, and no compliance negative about any axis.
 
 use crate::causes::turns::{PLACES, SIX, matrix};
+use crate::ground::stats::above;
 use nalgebra::SymmetricEigen;
-use statrs::function::erf::erfc;
 
 /// What bounds an amount.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,8 +59,8 @@ impl Bounded<'_> {
         let mut unit = vec![0.0; self.mean.len()];
         unit[i] = 1.0;
         let low = self.bounds[i].low();
-        let after = upper((low - self.mean[i]) / (self.after)(&unit));
-        ln(after / upper(low / self.before[i]))
+        let after = above((low - self.mean[i]) / (self.after)(&unit));
+        ln(after / above(low / self.before[i]))
     }
 
     /// Along the principal axes of the mean: what is not negative there is so everywhere.
@@ -82,7 +82,7 @@ impl Bounded<'_> {
             let before = weights.iter().zip(self.before);
             let before: f64 = before.map(|(w, s)| (w * s).powi(2)).sum();
             match before > 0.0 {
-                true => ln(2.0 * upper(-principal.eigenvalues[k] / (self.after)(&weights))),
+                true => ln(2.0 * above(-principal.eigenvalues[k] / (self.after)(&weights))),
                 false => 0.0,
             }
         };
@@ -92,11 +92,6 @@ impl Bounded<'_> {
 
 fn ln(x: f64) -> f64 {
     x.max(1e-300).ln()
-}
-
-/// Probability above x standard deviations.
-fn upper(x: f64) -> f64 {
-    0.5 * erfc(x / std::f64::consts::SQRT_2)
 }
 
 #[cfg(test)]

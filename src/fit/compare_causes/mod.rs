@@ -12,6 +12,7 @@ pub use suspects::Suspect;
 
 use super::compare::Comparison;
 use super::parameter::Z95;
+use crate::ground::stats::above;
 use std::cmp::Ordering;
 use suspects::{Row, is_wide, row, suspects};
 
@@ -203,11 +204,9 @@ impl Explanation {
     }
 
     fn unexplained(&self, rows: &[Row]) -> Vec<String> {
-        use statrs::distribution::{ContinuousCDF, Normal};
-        let normal = Normal::standard();
         let beyond = |(i, row): &(usize, &Row)| {
             let z = (row.change[0] - self.fitted(*i)).abs() / row.change[1];
-            2.0 * normal.sf(z) < LEVEL / rows.len() as f64
+            2.0 * above(z) < LEVEL / rows.len() as f64
         };
         let left = rows.iter().enumerate().filter(beyond);
         left.map(|(_, row)| format!("{} of {}", row.name, row.site))
