@@ -53,7 +53,8 @@ pub(super) fn picked(
 
 /// With the gains as they are told, and without companions that surely make the simulation worse as it is used: they fit only where
 /// all that is uncertain moves against them, and stand for what it cannot do. The last cause stands where unseen rows plainly tell that
-/// something is wrong: what is uncertain may hide it.
+/// something is wrong: what is uncertain may hide it. Where structure is left that nobody makes, any cause may stand for it: one whose
+/// gain is not plain takes no name.
 pub(super) fn carrying(
     weighing: &Weighing,
     posterior: &Posterior,
@@ -68,14 +69,15 @@ pub(super) fn carrying(
     } = kept;
     loop {
         let gains = carried::told(statement, present, bank, &set.fit);
-        let surely_worse =
-            |at: &usize| bank.suspects[set.suspects[*at]].named && gains[*at].ci95_percent[1] < 0.0;
+        let is_named = |at: &usize| bank.suspects[set.suspects[*at]].named;
+        let surely_worse = |at: &usize| gains[*at].ci95_percent[1] < 0.0;
+        let stands_in = |at: &usize| leaves.rest.is_left && gains[*at].ci95_percent[0] <= 0.0;
         let gained = |at: &usize| gains[*at].reduction_percent;
-        let named = set.suspects.iter().filter(|s| bank.suspects[**s].named);
-        let is_last = named.count() == 1;
+        let named = (0..gains.len()).filter(is_named);
+        let is_last = named.clone().count() == 1;
         let decided = |at: usize| unseen::gains(statement, bank, &set.fit)[at].reduction_percent;
         let stands = |at: &usize| is_last && decided(*at) >= judgement.companion_gain;
-        let worse = (0..gains.len()).filter(|at| surely_worse(at) && !stands(at));
+        let worse = named.filter(|at| stands_in(at) || surely_worse(at) && !stands(at));
         let Some(at) = worse.min_by(|a, b| gained(a).total_cmp(&gained(b))) else {
             return Picked { set, gains, leaves };
         };

@@ -10,6 +10,7 @@ use crate::findings::engine::{
     Aspects, Blamed, Experiment, Noise, Nuisance, Remaining, Statement, White,
 };
 use crate::findings::table;
+use crate::fit::cut_force::BANDWIDTH_STD;
 use crate::ground::stats::rms;
 use crate::sheet::number::fixed;
 use std::f64::consts::TAU;
@@ -168,6 +169,7 @@ impl Case {
                 all.push(loose(places.width(c), WIDTH_SPREAD));
             }
         }
+        all.push(loose(places.bandwidth(), BANDWIDTH_STD));
         if let Some(stated) = self.file().facts.runout_m.filter(|_| places.teeth > 1) {
             all.extend(self.loose_runout(stated));
         }

@@ -1,10 +1,10 @@
 //! What of the process may differ from what is stated, as one vector: coefficients (SI), runout along
 //! tooth 1 and a quarter turn on (m), how much each tooth is shorter (m), along its whole edge and then near its
-//! tip alone, then of every cut its width (m),
+//! tip alone, the logarithm of the sensor's bandwidth, then of every cut its width (m),
 //! its depth (m), its relative spindle speed and the angle of tooth 1 at its first sample (rad).
 
 use crate::cutting::wave::Side;
-use crate::experiments::milling_force::{CutScene, PHASE, RUNOUT, SPEED, UNKNOWNS, WIDTH};
+use crate::experiments::milling_force::{BANDWIDTH, CutScene, PHASE, RUNOUT, SPEED, UNKNOWNS, WIDTH};
 use crate::experiments::resonance::Resonant;
 use crate::ground::spatial::{V3, add, scale};
 
@@ -36,7 +36,7 @@ impl Places {
 
     /// Places that act on all cuts.
     fn common(&self) -> usize {
-        8 + 2 * self.teeth
+        9 + 2 * self.teeth
     }
 
     /// How much a tooth is shorter along its whole edge.
@@ -47,6 +47,11 @@ impl Places {
     /// How much it is shorter near its tip alone.
     pub fn chipped(&self, tooth: usize) -> usize {
         8 + self.teeth + tooth
+    }
+
+    /// Logarithm of the sensor's bandwidth.
+    pub fn bandwidth(&self) -> usize {
+        8 + 2 * self.teeth
     }
 
     /// Width of a cut.
@@ -137,6 +142,7 @@ impl Present {
         let (mut scene, mut p) = (self.scene.clone(), self.p);
         scene.resonant = resonant;
         (0..RUNOUT + 2).for_each(|i| p[i] += offset[i]);
+        p[BANDWIDTH] += offset[places.bandwidth()];
         p[PHASE] += offset[places.phase(cut)];
         p[SPEED] += (offset[places.speed(cut)] - self.speed) / (1.0 + self.speed);
         scene.shorter = (0..places.teeth)
@@ -177,6 +183,7 @@ impl Present {
         };
         slopes.extend((0..places.teeth).map(|j| of_teeth(places.shorter(j))));
         slopes.extend((0..places.teeth).map(|j| of_teeth(places.chipped(j))));
+        slopes.push(at.slopes[BANDWIDTH].clone());
         slopes.push(match scene.cut.side {
             Side::Slot => nothing(),
             // no sample is asked on which side of a jump it stands

@@ -5,7 +5,7 @@ use crate::cutting::wave::Side;
 use crate::experiments::milling_force::{BANDWIDTH, BORDER, PHASE, RUNOUT, SPEED, UNKNOWNS, WIDTH};
 
 /// Spread of the logarithm of a stated bandwidth.
-const BANDWIDTH_STD: f64 = 0.2;
+pub const BANDWIDTH_STD: f64 = 0.2;
 /// Spread of a stated spindle speed.
 const SPEED_STD: f64 = 1e-3;
 /// Spread of either part of the runout, m: no clamped tool runs worse. It closes what two teeth leave open.

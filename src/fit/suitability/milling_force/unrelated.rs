@@ -2,7 +2,7 @@
 
 use super::{Cutting, Rule};
 use crate::fit::suitability::{Said, Weight};
-use crate::ground::stats::rms;
+use crate::ground::stats::{mean, rms};
 use crate::measurement::milling_force::Record;
 use std::f64::consts::TAU;
 
@@ -24,8 +24,9 @@ const SAMPLES: usize = 20_000;
 /// A force whose mean is above so many times its scatter is steady: three teeth and more in a full slot add up to one, and
 /// nothing is there to repeat. A ramp, which is no cutting force, has 1.7; no other value was tried.
 const STEADY: f64 = 3.0;
-/// Times the stated noise that a channel along the axis must have to be judged.
-const SEEN: f64 = 5.0;
+/// Times the stated noise that a channel along the axis must scatter about its mean in some cut to be judged: a helix evens out
+/// its ripple in a full slot. Were the noise twice the stated one, what repeats would still be correlated by more than [`ALIKE`].
+const SEEN: f64 = 2.5;
 
 fn look(on: &Cutting) -> Said {
     let mut found = Vec::new();
@@ -35,7 +36,7 @@ fn look(on: &Cutting) -> Said {
             .filter_map(|(cut, record)| repeats(record, k, TAU / cut.spindle_rad_s))
             .collect();
         let best = cuts.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let seen = k < 2 || on.loud(k);
+        let seen = k < 2 || on.changes(k);
         if !cuts.is_empty() && best < ALIKE && seen {
             let what = format!(
                 "{} does not repeat with the stated spindle speed in any cut",
@@ -48,14 +49,17 @@ fn look(on: &Cutting) -> Said {
 }
 
 impl Cutting<'_> {
-    /// Whether a channel stands far out of the stated noise, if one is stated.
-    fn loud(&self, k: usize) -> bool {
-        let values = &self.channels[k].values;
-        let size = rms(values);
-        self.file
-            .facts
-            .sensor_noise_n
-            .is_some_and(|noise| size > SEEN * noise)
+    /// Whether a channel changes by more than the stated noise in some cut, if one is stated.
+    fn changes(&self, k: usize) -> bool {
+        let scatter = |record: &Record| {
+            let own: Vec<f64> = record.force.iter().map(|f| f[k]).collect();
+            let middle = mean(&own);
+            rms(&own.iter().map(|x| x - middle).collect::<Vec<_>>())
+        };
+        let most = self.cuts().map(|(_, record)| scatter(record));
+        let most = most.fold(0.0, f64::max);
+        let noise = self.file.facts.sensor_noise_n;
+        noise.is_some_and(|noise| most > SEEN * noise)
     }
 }
 
