@@ -162,9 +162,9 @@ fn needed(
     let leaves = weighing.leaves(&chosen, None);
     let is_strained = kept.leaves.strain > leaves.strain + judgement.further();
     let changes_nothing = |gain: &Gain| {
-        let at_all =
-            gain.is_real() && !(is_strained && gain.reduction_percent < judgement.companion_gain);
-        !at_all && gain.reduction_percent > -judgement.companion_gain
+        // beside all others it may be plain what is not plain without them
+        let is_little = gain.is_real() && gain.reduction_percent < judgement.companion_gain;
+        (is_strained || !is_little) && gain.reduction_percent > -judgement.companion_gain
     };
     let mut each = chosen.suspects.iter().zip(&gains);
     let all = each

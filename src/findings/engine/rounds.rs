@@ -181,17 +181,34 @@ fn simpler(course: &Course, best: &Found) -> Option<Found> {
     }
 }
 
-/// What is found from causes that were fitted alone, if that takes fewer causes and leaves no more, nor moves what is uncertain
-/// so far from what is known of it that a cause is cheaper.
+/// What is found from causes that were fitted alone, if that takes fewer causes and leaves no more, nor moves what is uncertain,
+/// or its own amounts, so far from what is likely that a cause is cheaper.
 fn instead(course: &Course, alone: Found, best: &Found) -> Option<Found> {
     let most = WORSE * rms(&best.left);
     let strained = best.strain + course.judgement.further();
-    let is_as_good = |found: &Found| rms(&found.left) <= most && found.strain <= strained;
+    let rows = best.left.len() as f64;
+    let less = |found: &Found| rows * (rms(&found.left) / rms(&best.left)).max(1.0).ln();
+    let owed = |found: &Found| match (weight(best), weight(found)) {
+        (Some(before), Some(after)) => before - after - less(found),
+        _ => 0.0,
+    };
+    let is_as_good = |found: &Found| {
+        rms(&found.left) <= most
+            && found.strain <= strained
+            && owed(found) <= course.judgement.further()
+    };
     if !is_as_good(&alone) {
         return None;
     }
     let found = again(course, &alone);
     (found.blamed.len() < best.blamed.len() && is_as_good(&found)).then_some(found)
+}
+
+/// Evidence for what was found, nats; beside what it leaves, that holds how likely amounts are of this size.
+fn weight(found: &Found) -> Option<f64> {
+    let own = names(&found.blamed);
+    let of_own = found.evidence.iter().find(|e| e.0 == own);
+    of_own.map(|e| e.1)
 }
 
 /// What is found where everybody competes beside causes that were fitted alone.

@@ -4,8 +4,8 @@
 //! in slow as in fast motion. Meshing teeth make orders of their own, whose size changes with speed.
 
 use super::channels::{Channels, largest, range};
-use super::projection::left;
-use crate::ground::stats::rms;
+use super::projection::{left, partial};
+use crate::ground::stats::{length, rms};
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::TAU;
@@ -25,8 +25,12 @@ const FEW_PER_TURN: f64 = 64.0;
 const FEW_PER_MOTOR_TURN: f64 = 8.0;
 /// Ratio of the sizes in slow and in fast motion within which a ripple is steady.
 const STEADY: f64 = 1.2;
-/// Ratio of fast to slow speeds that allows the comparison.
+/// Ratio of fast to slow speeds that allows the comparison, and the largest standard error of either size as a share of the
+/// larger one.
 const CONTRAST: f64 = 2.5;
+const KNOWN: f64 = 0.15;
+/// Standard errors within which sizes are one, where the order is an encoder's own.
+const ALIKE: f64 = 2.0;
 
 /// Share of the twist's rms beside torque below which a ripple is none to speak of, and below which one of teeth is that
 /// all gears have.
@@ -68,13 +72,12 @@ pub fn waves(data: &Channels, residual: &[f64], ratio: Option<f64>) -> Vec<Wave>
     let (twist, rest) = (rms(&left(&base, &data.twist)), rms(residual));
     let mut found: Vec<Wave> = Vec::new();
     for angle in [&data.link, &data.motor] {
-        for order in peaks(angle, residual, &rows) {
+        for order in orders(angle, residual, &rows) {
             let near = |w: &Wave| (w.order - order).abs() < resolution(angle);
             if found.iter().any(near) {
                 continue;
             }
-            let order = refined(angle, residual, &rows, order);
-            let whose = whose(data, residual, angle, order, &rows, ratio);
+            let whose = whose(data, angle, order, &rows, ratio);
             found.push(Wave {
                 of_encoder: whose != Whose::Teeth,
                 is_small: size(&wave(angle, order), residual) < whose.least(twist, rest),
@@ -116,12 +119,23 @@ fn highest(angle: &[f64]) -> f64 {
     TAU / largest(&steps).max(f64::MIN_POSITIVE)
 }
 
-/// Orders (rad per rad) of the largest peaks of the spectrum over the angle.
-fn peaks(angle: &[f64], residual: &[f64], rows: &[usize]) -> Vec<f64> {
+/// Orders (rad per rad) of the largest peaks of the spectrum over the angle, each beside those before: side lobes are none.
+fn orders(angle: &[f64], residual: &[f64], rows: &[usize]) -> Vec<f64> {
+    let mut rest = residual.to_vec();
+    let one = |_| {
+        let order = refined(angle, &rest, rows, peak(angle, &rest, rows)?);
+        rest = left(&wave(angle, order), &rest);
+        Some(order)
+    };
+    (0..PEAKS).map_while(one).collect()
+}
+
+/// Order of the largest peak.
+fn peak(angle: &[f64], residual: &[f64], rows: &[usize]) -> Option<f64> {
     let (low, high) = range(angle);
     let width = (high - low) / BINS as f64;
     if width <= 0.0 || rows.len() < 64 {
-        return Vec::new();
+        return None;
     }
     let power = spectrum(angle, residual, rows, low, width);
     let order = |k: usize| TAU * k as f64 / (PADDED as f64 * width);
@@ -130,18 +144,9 @@ fn peaks(angle: &[f64], residual: &[f64], rows: &[usize]) -> Vec<f64> {
         .take_while(|k| order(*k) < highest(angle))
         .last()
         .unwrap_or(0);
-    let mut tops: Vec<usize> = (first..last)
-        .filter(|k| power[*k] > power[k - 1] && power[*k] >= power[k + 1])
-        .collect();
-    tops.sort_by(|a, b| power[*b].total_cmp(&power[*a]));
-    let mut kept: Vec<usize> = Vec::new();
-    for k in tops {
-        let apart = |other: &usize| k.abs_diff(*other) > PADDED / BINS;
-        if kept.len() < PEAKS && kept.iter().all(apart) {
-            kept.push(k);
-        }
-    }
-    kept.into_iter().map(order).collect()
+    let tops = (first..last).filter(|k| power[*k] > power[k - 1] && power[*k] >= power[k + 1]);
+    tops.max_by(|a, b| power[*a].total_cmp(&power[*b]))
+        .map(order)
 }
 
 /// The order near a peak that fits the rows best: rows dwell unevenly over the angle, and shift peaks.
@@ -195,46 +200,57 @@ impl Whose {
 }
 
 /// Whether an order is an encoder's own, or only in step with the joint.
-fn whose(
-    data: &Channels,
-    residual: &[f64],
-    angle: &[f64],
-    order: f64,
-    rows: &[usize],
-    ratio: Option<f64>,
-) -> Whose {
+fn whose(data: &Channels, angle: &[f64], order: f64, rows: &[usize], ratio: Option<f64>) -> Whose {
     let near = 0.5 * resolution(angle);
     let of_motor = ratio.is_some_and(|r| {
         let turns = (order / r).round();
         (1.0..=FEW_PER_MOTOR_TURN).contains(&turns) && (order - turns * r).abs() < near
     });
     let few = order <= FEW_PER_TURN + near;
-    let [slow, fast, contrast] = sizes(data, residual, angle, order, rows);
+    let ([slow, fast], errors, contrast) = sizes(data, angle, order, rows);
     let even = slow < STEADY * fast && fast < STEADY * slow;
+    let alike = even || (slow - fast).abs() < ALIKE * length(&errors);
     // slow and fast motion must both have been seen, unless the order speaks for itself
-    let seen = contrast > CONTRAST;
+    let is_known = |error: &f64| *error < KNOWN * slow.max(fast);
+    let seen = contrast > CONTRAST && errors.iter().all(is_known);
     match (few, of_motor, seen) {
         (true, ..) | (_, true, false) => Whose::Encoder,
-        (_, true, true) if even => Whose::Encoder,
+        (_, true, true) if alike => Whose::Encoder,
         (_, false, true) if even => Whose::Steady,
         _ => Whose::Teeth,
     }
 }
 
-/// Sizes in the slow and in the fast third of the moving rows, and the ratio of their speeds.
-fn sizes(data: &Channels, residual: &[f64], angle: &[f64], order: f64, rows: &[usize]) -> [f64; 3] {
+/// Sizes in the slow and in the fast third of the moving rows with their standard errors, and the ratio of their speeds.
+fn sizes(data: &Channels, angle: &[f64], order: f64, rows: &[usize]) -> ([f64; 2], [f64; 2], f64) {
     let mut by_speed = rows.to_vec();
     by_speed.sort_by(|a, b| data.speed[*a].abs().total_cmp(&data.speed[*b].abs()));
     let third = by_speed.len() / 3;
-    let (slow, fast) = (&by_speed[..third], &by_speed[by_speed.len() - third..]);
-    let size = |of: &[usize]| {
-        let sum: Complex64 = of
-            .iter()
-            .map(|i| residual[*i] * Complex64::from_polar(1.0, -order * angle[*i]))
-            .sum();
-        2.0 * sum.norm() / of.len().max(1) as f64
-    };
+    let thirds = [&by_speed[..third], &by_speed[by_speed.len() - third..]];
+    let [slow, fast] = thirds.map(|of| size_in(of, data, angle, order));
     let speed =
         |of: &[usize]| of.iter().map(|i| data.speed[*i].abs()).sum::<f64>() / of.len() as f64;
-    [size(slow), size(fast), speed(fast) / speed(slow)]
+    let contrast = speed(thirds[1]) / speed(thirds[0]);
+    ([slow[0], fast[0]], [slow[1], fast[1]], contrast)
+}
+
+/// Size of a wave of the twist in some rows beside a level, slopes over angle and speed, and the torque's part there; and its
+/// standard error.
+fn size_in(rows: &[usize], data: &Channels, angle: &[f64], order: f64) -> [f64; 2] {
+    let taken = |values: &[f64]| rows.iter().map(|i| values[*i]).collect::<Vec<f64>>();
+    let reading = taken(&data.twist);
+    let mut base = [angle, &data.torque, &data.speed].map(taken).to_vec();
+    base.push(vec![1.0; rows.len()]);
+    let [sine, cosine] = [0, 1].map(|k| taken(&wave(angle, order)[k]));
+    let beside = |other: &Vec<f64>| [base.as_slice(), std::slice::from_ref(other)].concat();
+    let parts = [
+        partial(&beside(&cosine), &sine, &reading),
+        partial(&beside(&sine), &cosine, &reading),
+    ];
+    let noise = rms(&left(&[beside(&cosine), vec![sine]].concat(), &reading));
+    let variance = parts.map(|p| 0.5 * noise * noise / p.square);
+    [
+        length(&parts.map(|p| p.slope)),
+        variance.iter().sum::<f64>().sqrt(),
+    ]
 }

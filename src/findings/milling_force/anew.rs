@@ -143,7 +143,9 @@ fn follow(case: &Case, uncertain: &[f64], followed: &mut [f64], turned: &mut [f6
     let is_width = |at: usize| (0..places.cuts).any(|c| at == places.width(c));
     let loose = case.loose();
     let single = loose.iter().filter_map(|l| match l.along[..] {
-        [(at, 1.0)] if at < RUNOUT || is_width(at) || at == places.bandwidth() => Some((at, l.spread)),
+        [(at, 1.0)] if at < RUNOUT || is_width(at) || at == places.bandwidth() => {
+            Some((at, l.spread))
+        }
         _ => None,
     });
     for (at, spread) in single {

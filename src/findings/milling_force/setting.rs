@@ -4,7 +4,9 @@
 //! its depth (m), its relative spindle speed and the angle of tooth 1 at its first sample (rad).
 
 use crate::cutting::wave::Side;
-use crate::experiments::milling_force::{BANDWIDTH, CutScene, PHASE, RUNOUT, SPEED, UNKNOWNS, WIDTH};
+use crate::experiments::milling_force::{
+    BANDWIDTH, CutScene, PHASE, RUNOUT, SPEED, UNKNOWNS, WIDTH,
+};
 use crate::experiments::resonance::Resonant;
 use crate::ground::spatial::{V3, add, scale};
 
