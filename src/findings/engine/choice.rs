@@ -117,12 +117,9 @@ pub(super) fn drop_unreal(
             1 => 0.0,
             _ => judgement.companion_gain,
         };
-        let largest = gains.iter().map(Gain::explained).fold(0.0, f64::max);
-        let missed = judgement.formula_error.powi(2) * largest;
-        let is_small = |g: &Gain| g.reduction_percent < least && g.explained() < missed;
-        let unreal = gains.iter().enumerate();
-        let unreal =
-            unreal.filter(|(_, g)| !g.is_real() || is_small(g) || judgement.is_negligible(g));
+        let unreal = gains.iter().enumerate().filter(|(_, g)| {
+            !g.is_real() || g.reduction_percent < least || judgement.is_negligible(g)
+        });
         let worst = unreal.min_by(|a, b| a.1.reduction_percent.total_cmp(&b.1.reduction_percent));
         let Some((at, _)) = worst else {
             return (set, gains);

@@ -34,6 +34,8 @@ pub struct Found {
     pub(super) strain: f64,
     /// The best set of causes whether or not they are named: what a kind that is not linear is stated about.
     pub(super) lead: Vec<Blamed>,
+    /// The best set of causes with what is uncertain beside them, where a pattern beat a part of them.
+    pub(super) wider: Option<(Vec<Blamed>, Vec<f64>)>,
     /// Evidence of every set that was compared, over that of no cause, no prior in it: (effect and site of
     /// each cause, ln E).
     pub evidence: Vec<(Vec<(&'static str, String)>, f64)>,
@@ -128,13 +130,15 @@ pub(super) fn about(
     blamed.retain(|_| own.next().unwrap_or(true));
     let competed = bank.suspects.iter().any(|s| !s.named);
     let open = competed && answer.verdict != Verdict::Sufficient;
-    let lead = match (blamed.is_empty(), leading(&bank, &posterior)) {
-        (true, Some(fit)) if open => {
-            uncertain = weighing.beside(&fit).1;
-            self::blamed(&bank, &fit)
-        }
-        _ => blamed.clone(),
-    };
+    let leading = leading(&bank, &posterior).filter(|_| open);
+    let in_front = leading.map(|fit| (self::blamed(&bank, &fit), weighing.beside(&fit).1));
+    let has_pattern = set.suspects.iter().any(|s| !bank.suspects[*s].named);
+    let (mut lead, mut wider) = (blamed.clone(), None);
+    match in_front {
+        Some(first) if blamed.is_empty() => (lead, uncertain) = first,
+        Some(more) if has_pattern && more.0.len() > blamed.len() => wider = Some(more),
+        _ => {}
+    }
     let missed = weighing.missed;
     let explained = missed.iter().zip(&left).map(|(m, l)| m - l).collect();
     Found {
@@ -146,6 +150,7 @@ pub(super) fn about(
         uncertain,
         strain,
         lead,
+        wider,
         evidence,
     }
 }

@@ -161,10 +161,13 @@ fn needed(
     let gains = unseen::gains(weighing.statement, bank, &chosen.fit);
     let leaves = weighing.leaves(&chosen, None);
     let is_strained = kept.leaves.strain > leaves.strain + judgement.further();
+    let largest = gains.iter().map(Gain::explained).fold(0.0, f64::max);
+    let missed = judgement.formula_error.powi(2) * largest;
     let changes_nothing = |gain: &Gain| {
-        // beside all others it may be plain what is not plain without them
-        let is_little = gain.is_real() && gain.reduction_percent < judgement.companion_gain;
-        (is_strained || !is_little) && gain.reduction_percent > -judgement.companion_gain
+        // beside all others it may be plain what is not plain without them; little is what laws miss of the largest, too
+        let is_little = gain.reduction_percent < judgement.companion_gain;
+        let is_missed = gain.is_real() && is_little && gain.explained() < missed;
+        (is_strained || !is_missed) && gain.reduction_percent > -judgement.companion_gain
     };
     let mut each = chosen.suspects.iter().zip(&gains);
     let all = each
@@ -175,7 +178,12 @@ fn needed(
     if loses_to_structure(bank, posterior, &chosen, weighing.span, judgement) {
         return None;
     }
-    let is_better = is_strained && kept.leaves.rest.is_left;
+    // what is plain here was not where it was dropped: then nothing may be left
+    let is_plain =
+        |gain: &Gain| gain.is_real() && gain.reduction_percent >= judgement.companion_gain;
+    let mut each = chosen.suspects.iter().zip(&gains);
+    let was_plain = each.any(|(s, gain)| is_dropped(s) && is_plain(gain));
+    let is_better = is_strained && kept.leaves.rest.is_left && !was_plain;
     (!leaves.rest.is_left || is_better).then_some(Picked {
         set: chosen,
         gains,

@@ -4,7 +4,7 @@ use super::diagnosis::{Found, about, shown, stated};
 use super::judgement::Judgement;
 use super::materiality::in_noise;
 use super::statement::{Blamed, Experiment, Statement, Suspect};
-use crate::findings::answer::Discrepancy;
+use crate::findings::answer::{Discrepancy, Verdict};
 use crate::ground::stats::rms;
 
 /// Rounds in which a kind that is not linear is stated anew about what was found.
@@ -21,6 +21,9 @@ const WORSE: f64 = 1.02;
 /// Sets of every size that are fitted alone where the first statement was far from straight: the best of it. A choice for
 /// time, no measurement; no other number was tried.
 const OTHERS: usize = 4;
+
+/// Rounds in which causes have to arrive in the place of a pattern: a choice for time, no measurement; no other number was tried.
+const WIDER: usize = 3;
 
 /// What every round is asked of.
 struct Course<'a> {
@@ -64,6 +67,7 @@ pub(super) fn settled(
     while let Some(simpler) = simpler(&course, &best) {
         best = simpler;
     }
+    best = whole(&course, &best).unwrap_or(best);
     // what is missed is that of the simulation as it was; the noise is what stays beside what was found
     let noise_rms = best.answer.discrepancy.noise_rms;
     best.missed = told.missed;
@@ -104,6 +108,23 @@ fn followed(course: &Course, (first, mut found): (&Statement, Found)) -> Found {
         last = Some(statement);
     }
     best
+}
+
+/// Causes in the place of what a pattern takes: one whose place is sought by and by may be worth more once it has arrived. Only
+/// where that leaves nothing.
+fn whole(course: &Course, best: &Found) -> Option<Found> {
+    let mut wider = best.wider.clone();
+    for _ in 0..WIDER {
+        let (lead, uncertain) = wider?;
+        let statement = course.stated(&lead, &uncertain);
+        let found = course.about(&statement);
+        if found.answer.verdict == Verdict::Explained {
+            let found = followed(course, (&statement, found));
+            return (found.answer.verdict == Verdict::Explained).then_some(found);
+        }
+        wider = found.wider;
+    }
+    None
 }
 
 /// Effects with their sites.
@@ -181,34 +202,17 @@ fn simpler(course: &Course, best: &Found) -> Option<Found> {
     }
 }
 
-/// What is found from causes that were fitted alone, if that takes fewer causes and leaves no more, nor moves what is uncertain,
-/// or its own amounts, so far from what is likely that a cause is cheaper.
+/// What is found from causes that were fitted alone, if that takes fewer causes and leaves no more, nor moves what is uncertain
+/// so far from what is known of it that a cause is cheaper.
 fn instead(course: &Course, alone: Found, best: &Found) -> Option<Found> {
     let most = WORSE * rms(&best.left);
     let strained = best.strain + course.judgement.further();
-    let rows = best.left.len() as f64;
-    let less = |found: &Found| rows * (rms(&found.left) / rms(&best.left)).max(1.0).ln();
-    let owed = |found: &Found| match (weight(best), weight(found)) {
-        (Some(before), Some(after)) => before - after - less(found),
-        _ => 0.0,
-    };
-    let is_as_good = |found: &Found| {
-        rms(&found.left) <= most
-            && found.strain <= strained
-            && owed(found) <= course.judgement.further()
-    };
+    let is_as_good = |found: &Found| rms(&found.left) <= most && found.strain <= strained;
     if !is_as_good(&alone) {
         return None;
     }
     let found = again(course, &alone);
     (found.blamed.len() < best.blamed.len() && is_as_good(&found)).then_some(found)
-}
-
-/// Evidence for what was found, nats; beside what it leaves, that holds how likely amounts are of this size.
-fn weight(found: &Found) -> Option<f64> {
-    let own = names(&found.blamed);
-    let of_own = found.evidence.iter().find(|e| e.0 == own);
-    of_own.map(|e| e.1)
 }
 
 /// What is found where everybody competes beside causes that were fitted alone.

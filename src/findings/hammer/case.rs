@@ -9,6 +9,7 @@ use super::next::would_tell;
 use super::posterior::{Posterior, holds};
 use super::prediction::{Machine, Point};
 use super::search::Found;
+use super::strayed::strayed;
 use super::suspect::Suspect;
 use super::unseen::{folds, gain, without};
 use super::{discrepancy, doubled, extended};
@@ -204,13 +205,19 @@ impl Case<'_> {
         let noise = discrepancy::noise(&self.sharp);
         let share = ((left_rms.powi(2) - noise.powi(2)) / rms.powi(2)).clamp(0.0, 1.0);
         let bent = level.as_ref().filter(|level| level.broken());
-        let left = adequacy.left() || bent.is_some();
-        let explained = self.explained(posterior, chosen);
+        let spread = &self.machine.known.laboratory.instrument;
+        let strayed = strayed(&chosen.point.theta, spread);
+        let left = adequacy.left() || bent.is_some() || strayed.is_some();
+        let explained = match strayed {
+            Some(_) => 0.0,
+            None => self.explained(posterior, chosen),
+        };
         let verdict = verdict(&named, left, explained);
-        let description = match (bent, adequacy.left()) {
-            (Some(level), _) => level.description(),
-            (None, true) => adequacy.description(),
-            (None, false) => "nothing above the noise".into(),
+        let description = match (bent, strayed, adequacy.left()) {
+            (Some(level), ..) => level.description(),
+            (None, Some(strayed), _) => strayed,
+            (None, None, true) => adequacy.description(),
+            (None, None, false) => "nothing above the noise".into(),
         };
         let unknown = verdict == Verdict::UnknownCause;
         let named = if unknown { Named::default() } else { named };

@@ -20,6 +20,7 @@ pub mod nuisance;
 pub mod posterior;
 pub mod prediction;
 pub mod search;
+pub mod strayed;
 pub mod structure;
 pub mod suspect;
 pub mod unseen;

@@ -136,7 +136,7 @@ fn told(
         .into_iter()
         .flat_map(|(cut, error)| {
             let number = cut.map(|c| ("cut", (c + 1) as f64, "1"));
-            number.into_iter().chain([(name, error, "m")])
+            std::iter::once((name, error, "m")).chain(number)
         })
         .collect()
 }

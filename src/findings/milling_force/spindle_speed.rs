@@ -31,7 +31,7 @@ pub(super) const EFFECT: Effect<Case> = Effect {
             .into_iter()
             .flat_map(|(cut, error)| {
                 let number = cut.map(|c| ("cut", (c + 1) as f64, "1"));
-                number.into_iter().chain([("speed_error", error, "1")])
+                std::iter::once(("speed_error", error, "1")).chain(number)
             })
             .collect()
     },

@@ -3,7 +3,9 @@
 //! accelerance, F the directions of the hits with the gain of the hammer, B the acceleration under moments
 //! ([`crate::motion::receptance::under_moments`]), P the moments of hits beside the tool's point.
 
+use crate::ground::units::DEGREE;
 use crate::motion::frf::{C64, Response};
+use std::ops::Range;
 
 /// Uncertain numbers that all tests with one set of instruments share: three gains of the sensor, the gain
 /// of the hammer, the delay.
@@ -65,6 +67,35 @@ impl Spread {
             hit_rad: 0.006,
             place_m: 0.005,
             delay_s: 2e-5,
+        }
+    }
+
+    /// The numbers of the hits: two angles, then two places for each direction.
+    pub const HITS: Range<usize> = SHARED + 3..NUMBERS;
+
+    /// One of them, `amount` standard deviations of it, in words.
+    pub fn hits_in_words(&self, number: usize, amount: f64) -> String {
+        let axis = |k: usize| ["x", "y", "z"][k];
+        let size = amount.abs();
+        match number {
+            PLACES.. => {
+                let (input, other) = across(number - PLACES);
+                let mm = 1e3 * size * self.place_m;
+                format!(
+                    "hits along {} {mm:.0} mm beside the tool's point along {}",
+                    axis(input),
+                    axis(other)
+                )
+            }
+            _ => {
+                let (input, other) = across(number - Self::HITS.start);
+                let degrees = size * self.hit_rad / DEGREE;
+                format!(
+                    "hits along {} turned by {degrees:.0}° towards {}",
+                    axis(input),
+                    axis(other)
+                )
+            }
         }
     }
 
