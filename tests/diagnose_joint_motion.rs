@@ -497,3 +497,49 @@ fn the_first_branch_of_a_loop_is_no_jump() {
         assert_eq!(arm.found().0, ["hysteresis"], "{begin}");
     }
 }
+
+/// Moves from point to point, each at its own speed, of a joint whose motor's own encoder errs `order` times per motor turn.
+fn erring_motor(ratio: f64, order: f64, size: f64) -> String {
+    let (step, stay) = (0.01, 60);
+    let points = [0.0, 0.6, 0.12, -0.3, 0.48, 0.0];
+    let mut angles = Vec::new();
+    for (pair, top) in points.windows(2).zip([0.05, 0.2, 0.1, 0.35, 0.6]) {
+        let way = pair[1] - pair[0];
+        let rows = (1.875 * way.abs() / top / step) as usize;
+        let at = |i: usize| i as f64 / rows as f64;
+        let smooth = |s: f64| s.powi(3) * (10.0 - 15.0 * s + 6.0 * s * s);
+        angles.extend((0..rows).map(|i| pair[0] + way * smooth(at(i))));
+        angles.extend(std::iter::repeat_n(pair[1], stay));
+    }
+    let last = angles.len() - 1;
+    let speed = |i: usize| (angles[(i + 1).min(last)] - angles[i.saturating_sub(1)]) / (2.0 * step);
+    let mut random = Random::new(7);
+    let mut text = format!(
+        "# kind = \"joint-motion\"\n# synthetic = true\n# gear_ratio = [{ratio}]\n# nominal_stiffness_Nm_rad = 1e6\n# nominal_stiffness_rel_std = 0.05\ntime_s,motor_angle_deg_3,link_angle_deg_3,motor_torque_Nm_3,motor_speed_deg_s_3\n"
+    );
+    for (i, angle) in angles.iter().enumerate() {
+        let speeding = (speed((i + 1).min(last)) - speed(i.saturating_sub(1))) / (2.0 * step);
+        let torque = 2500.0 * (angle + 0.4).cos() + 300.0 * speeding;
+        let error = size * (order * ratio * angle + 0.3).sin();
+        let link = angle - torque / 1e6 + 1.7e-5 * random.normal();
+        let paid = (torque + 50.0 * speeding + 2.0 * random.normal()) / ratio;
+        let (motor, link) = ((angle - error).to_degrees(), link.to_degrees());
+        text += &format!(
+            "{:.4},{motor:.7},{link:.7},{paid:.5},{:.5}\n",
+            i as f64 * step,
+            speed(i).to_degrees()
+        );
+    }
+    text
+}
+
+/// The ripple is in the acceleration too, which is the motor's angle twice derived, and takes part of it where it is fast.
+#[test]
+fn a_motor_whose_encoder_errs_is_no_meshing_gear() {
+    for (ratio, order, size) in [(85.0, 2.0, 1.3e-4), (122.0, 2.0, 1.7e-4), (81.0, 1.0, 6e-5)] {
+        let found = diagnose(&read(&erring_motor(ratio, order, size)), None);
+        assert_eq!(said(&found), ["encoder_ripple"], "{:?}", found.remarks);
+        let amplitude = found.answer.causes[0].parameters[0].1;
+        assert!((amplitude / size - 1.0).abs() < 0.1, "{amplitude}");
+    }
+}

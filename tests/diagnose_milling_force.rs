@@ -6,6 +6,7 @@ use ident::findings::engine::{Found, diagnose};
 use ident::findings::kinds::Measured;
 use ident::findings::milling_force::Case;
 use ident::findings::{Answer, Verdict};
+use ident::fit::suitability::milling_force::doubts;
 use ident::ground::random::Random;
 use ident::measurement::milling_force::MillingForce;
 use ident::measurement::table::Table;
@@ -22,6 +23,8 @@ pub(crate) struct Bench {
     pub(crate) truth: [f64; 6],
     ring: Option<[f64; 3]>,
     bandwidth_hz: Option<f64>,
+    /// The sensor's own bandwidth over the stated one.
+    wider: f64,
 }
 
 impl Bench {
@@ -53,6 +56,7 @@ impl Bench {
             truth: NOMINAL,
             ring: None,
             bandwidth_hz: Some(2500.0),
+            wider: 1.0,
         }
     }
 
@@ -64,6 +68,7 @@ impl Bench {
             &self.truth,
             &Recording {
                 ring: self.ring,
+                bandwidth_hz: self.bandwidth_hz.map(|hz| self.wider * hz),
                 ..self.recording()
             },
             &mut Random::new(4),
@@ -77,6 +82,11 @@ impl Bench {
     }
 
     pub(crate) fn diagnosed(&self, rows: &[[f64; 5]]) -> Found {
+        let case = Case::new(self.file(rows));
+        diagnose(&case, &case.judgement())
+    }
+
+    fn file(&self, rows: &[[f64; 5]]) -> MillingForce {
         let k = NOMINAL;
         let nominal = format!(
             "# nominal = {{ Ktc_N_mm2 = {}, Krc_N_mm2 = {}, Kac_N_mm2 = {}, Kte_N_mm = {}, Kre_N_mm = {}, Kae_N_mm = {}, rel_std = 0.03 }}\ncut,time_s",
@@ -86,8 +96,7 @@ impl Bench {
             csv(&self.cutter, &self.said, &self.recording(), rows).replace("cut,time_s", &nominal);
         let bytes = text.len() as u64;
         let table = Table::from_reader("cuts.csv".as_ref(), text.as_bytes(), bytes).unwrap();
-        let case = Case::new(MillingForce::from_table(table).unwrap());
-        diagnose(&case, &case.judgement())
+        MillingForce::from_table(table).unwrap()
     }
 
     fn recording(&self) -> Recording {
@@ -136,6 +145,44 @@ fn a_cut_as_it_is_stated_is_sufficient() {
             found.answer.discrepancy.rms
         );
     }
+}
+
+/// A bandwidth is stated to a fifth, so that one that is off by less is no other depth of cut.
+#[test]
+fn a_bandwidth_that_is_a_little_off_is_no_cause() {
+    for wider in [0.94, 1.07] {
+        let mut bench = Bench::new(2);
+        (bench.bandwidth_hz, bench.wider) = (Some(1000.0), wider);
+        let answer = bench.found(|_| ()).answer;
+        assert_eq!(answer.verdict, Verdict::Sufficient, "{:?}", names(&answer));
+    }
+}
+
+/// A helix evens out the axial force of a full slot: a level beside the noise is still a force, noise alone beside others none.
+#[test]
+fn an_axis_without_ripple_is_no_unrelated_record() {
+    let mut bench = Bench::new(3);
+    bench.cutter.helix = 0.785;
+    bench.truth[2] = 40.0;
+    for pass in bench.said.iter_mut().chain(&mut bench.done) {
+        (pass.width, pass.side) = (16.0, "slot");
+    }
+    let rows = bench.rows();
+    let fatal = |rows: &[[f64; 5]]| {
+        let doubts = doubts(&bench.file(rows)).into_iter();
+        doubts.filter(|d| d.rule == "unrelated").count()
+    };
+    assert_eq!(fatal(&rows), 0);
+    let mut random = Random::new(5);
+    let of_another: Vec<[f64; 5]> = rows
+        .iter()
+        .map(|row| {
+            let mut row = *row;
+            row[4] = 20.0 * random.normal();
+            row
+        })
+        .collect();
+    assert_eq!(fatal(&of_another), 1);
 }
 
 #[test]
