@@ -504,7 +504,7 @@ fn erring_motor(ratio: f64, order: f64, size: f64) -> String {
     let points = [0.0, 0.6, 0.12, -0.3, 0.48, 0.0];
     let mut angles = Vec::new();
     for (pair, top) in points.windows(2).zip([0.05, 0.2, 0.1, 0.35, 0.6]) {
-        let way = pair[1] - pair[0];
+        let way: f64 = pair[1] - pair[0];
         let rows = (1.875 * way.abs() / top / step) as usize;
         let at = |i: usize| i as f64 / rows as f64;
         let smooth = |s: f64| s.powi(3) * (10.0 - 15.0 * s + 6.0 * s * s);
