@@ -132,9 +132,10 @@ fn beyond(weighing: &Weighing, kept: &Picked, at: usize) -> f64 {
     kept.gains[at].after.max(left).powi(2) - rms(noise.spread()).powi(2)
 }
 
-/// The set as it was chosen, where nothing is left beside it, and all that was dropped is probable and neither lowers nor
-/// raises the error of unseen rows: all that is uncertain may stand in for it there, far from where it is known to be. Where that
-/// alone costs more than the price of a cause, unseen rows may show a little of it as well.
+/// The set as it was chosen, where nothing is left beside it, and all that was dropped is probable and does not raise the error
+/// of unseen rows. It may be plain beside all others alone; or lower the error by little, but by more than laws miss of the
+/// largest; or not at all, since all that is uncertain may stand in for it there, far from where it is known to be. Where that
+/// alone costs more than the price of a cause, unseen rows may show a little of it as well, and something may be left.
 /// Where laws are only nearly right, a probable cause may be what they miss, and something must be left without it.
 fn needed(
     weighing: &Weighing,
@@ -163,15 +164,15 @@ fn needed(
     let is_strained = kept.leaves.strain > leaves.strain + judgement.further();
     let largest = gains.iter().map(Gain::explained).fold(0.0, f64::max);
     let missed = judgement.formula_error.powi(2) * largest;
-    let changes_nothing = |gain: &Gain| {
+    let may_stand = |gain: &Gain| {
         // beside all others it may be plain what is not plain without them; little is what laws miss of the largest, too
         let is_little = gain.reduction_percent < judgement.companion_gain;
         let is_missed = gain.is_real() && is_little && gain.explained() < missed;
         (is_strained || !is_missed) && gain.reduction_percent > -judgement.companion_gain
     };
     let mut each = chosen.suspects.iter().zip(&gains);
-    let all = each
-        .all(|(s, gain)| !is_dropped(s) || changes_nothing(gain) && !judgement.is_negligible(gain));
+    let all =
+        each.all(|(s, gain)| !is_dropped(s) || may_stand(gain) && !judgement.is_negligible(gain));
     if !all || !chosen.suspects.iter().any(is_dropped) {
         return None;
     }

@@ -6,11 +6,13 @@ use crate::motion::uncertain::instrument::Spread;
 /// Standard deviations beyond which nobody misses. A choice, no measurement; no other number was tried.
 const FAR: f64 = 6.0;
 
-/// What strays farthest of the nuisances `theta`, in words; none where nothing does.
+/// What strays farthest of the nuisances `theta` (standard deviations, those of the instruments first), in words; none where
+/// nothing does.
 pub fn strayed(theta: &[f64], spread: &Spread) -> Option<String> {
-    let far = Spread::HITS.filter(|number| theta[*number].abs() > FAR);
-    let farthest = far.max_by(|a, b| theta[*a].abs().total_cmp(&theta[*b].abs()))?;
-    let told = spread.hits_in_words(farthest, theta[farthest]);
+    let hits = Spread::HITS.filter_map(|number| Some((number, *theta.get(number)?)));
+    let far = hits.filter(|(_, amount)| amount.abs() > FAR);
+    let (farthest, amount) = far.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+    let told = spread.hits_in_words(farthest, amount);
     Some(format!(
         "{told}, as the best fit has them, which no hand misses by: measure where and how the tool is struck"
     ))

@@ -26,10 +26,10 @@ const FEW_PER_MOTOR_TURN: f64 = 8.0;
 /// Ratio of the sizes in slow and in fast motion within which a ripple is steady.
 const STEADY: f64 = 1.2;
 /// Ratio of fast to slow speeds that allows the comparison, and the largest standard error of either size as a share of the
-/// larger one.
+/// larger one. The second is a choice: beside it two standard errors are less than half of a size. No other number was tried.
 const CONTRAST: f64 = 2.5;
 const KNOWN: f64 = 0.15;
-/// Standard errors within which sizes are one, where the order is an encoder's own.
+/// Standard errors within which sizes are one (95 %), where the order is an encoder's own.
 const ALIKE: f64 = 2.0;
 
 /// Share of the twist's rms beside torque below which a ripple is none to speak of, and below which one of teeth is that
@@ -241,7 +241,8 @@ fn size_in(rows: &[usize], data: &Channels, angle: &[f64], order: f64) -> [f64; 
     let reading = taken(&data.twist);
     let mut base = [angle, &data.torque, &data.speed].map(taken).to_vec();
     base.push(vec![1.0; rows.len()]);
-    let [sine, cosine] = [0, 1].map(|k| taken(&wave(angle, order)[k]));
+    let waves = wave(angle, order);
+    let [sine, cosine] = [0, 1].map(|k| taken(&waves[k]));
     let beside = |other: &Vec<f64>| [base.as_slice(), std::slice::from_ref(other)].concat();
     let parts = [
         partial(&beside(&cosine), &sine, &reading),
