@@ -103,7 +103,7 @@ impl Cause for BaseCompliance {
     }
 
     fn heard(&self) -> usize {
-        3
+        2 * SIX
     }
 
     fn blame(&self) -> Blame {
@@ -157,9 +157,11 @@ impl Cause for BaseCompliance {
 /// Adds a shift along a direction: a turn about an axis across it, far away.
 fn add_shift(robot: &mut Robot, name: &str, (along, amount): Axis) {
     let (axis, across) = normals(along);
-    let Some(spring) = added_spring(amount / (FAR * FAR)) else {
+    let Some(mut spring) = added_spring(amount) else {
         return;
     };
+    spring.stiffness *= FAR * FAR;
+    spring.damping *= FAR * FAR;
     robot.elastic.push(ElasticAxis {
         name: name.to_string(),
         after: 0,

@@ -106,7 +106,7 @@ impl Cause for LinkCompliance {
     }
 
     fn heard(&self) -> usize {
-        3
+        SIX
     }
 
     fn blame(&self) -> Blame {

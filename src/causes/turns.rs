@@ -40,12 +40,18 @@ pub fn matrix(amounts: &[f64]) -> Matrix3<f64> {
 
 /// Brings six amounts to the nearest matrix that is nowhere negative (Higham 1988).
 pub fn not_negative(amounts: &mut [f64]) {
+    not_below(amounts, 0.0);
+}
+
+/// Brings six amounts to the nearest matrix that is nowhere below `least`.
+pub fn not_below(amounts: &mut [f64], least: f64) {
     if is_straight(amounts) {
-        amounts.iter_mut().for_each(|a| *a = a.max(0.0));
+        let straight = amounts.iter_mut().take(3);
+        straight.for_each(|a| *a = a.max(least));
         return;
     }
     let mut own = SymmetricEigen::new(matrix(amounts));
-    own.eigenvalues.apply(|x| *x = x.max(0.0));
+    own.eigenvalues.apply(|x| *x = x.max(least));
     let all = own.recompose();
     for (amount, place) in amounts.iter_mut().zip(PLACES) {
         *amount = all[place];

@@ -34,12 +34,22 @@ pub fn is_imposed(file: &LoadCycle) -> bool {
         dd += (d - md).powi(2);
         ld += (l - ml) * (d - md);
     }
-    let pressed = ld * ld >= PRESSED * ll * dd;
+    let pressed = ld * ld >= PRESSED * ll * dd || is_one_sided(&file.load);
     ll > 0.0
         && dd > 0.0
         && !pressed
         && enclosed(&file.load, &file.deflection) > 0.0
         && saturates(&file.deflection, &file.load)
+}
+
+/// Least share of a force's larger extreme that its smaller one, of the other sign, reaches where a contact slips both
+/// ways.
+const OTHER_SIDE: f64 = 0.1;
+
+/// Whether the load keeps its sign. A contact that slips answers a reversed motion with a reversed force.
+fn is_one_sided(load: &[f64]) -> bool {
+    let (low, high) = ends(load);
+    (-low).min(high) < OTHER_SIDE * (-low).max(high)
 }
 
 /// Share of the slope at the beginning of a stroke that may be left on its second half.

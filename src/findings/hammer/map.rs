@@ -4,6 +4,7 @@
 use super::data::Data;
 use super::nuisance::Nuisance;
 use super::prediction::{Machine, Point, stack};
+use super::suspect::Suspect;
 use crate::ground::problem::{Outcome, Problem};
 use crate::inference::descent::{Landscape, Linear, Stop, descend, pushed};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
@@ -181,6 +182,7 @@ impl Landscape for Cost<'_> {
         for ((x, change), [low, high]) in point.amounts.iter_mut().zip(amounts).zip(bounds) {
             *x = (*x + change.clamp(-LARGEST[0], LARGEST[0])).clamp(low, high);
         }
+        point.settle();
         self.at(point).ok()
     }
 
@@ -207,7 +209,8 @@ impl Fit {
             temper * (self.precision[(kept[i], kept[j])] - one) + one
         });
         let spread = log_determinant(&precision.cholesky()?);
-        let odds = ln_odds(self.point.set.len());
+        let choices: f64 = self.point.set.iter().map(Suspect::choices).sum();
+        let odds = ln_odds(self.point.set.len()) - choices;
         Some(-temper * self.misfit - prior - 0.5 * spread + odds)
     }
 

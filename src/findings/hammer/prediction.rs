@@ -3,7 +3,7 @@
 use super::data::Data;
 use super::nuisance::{Known, Nuisance};
 use super::structure::Structure;
-use super::suspect::Suspect;
+use super::suspect::{Suspect, same};
 use crate::causes::contract::Accelerance;
 use crate::ground::problem::Outcome;
 use crate::motion::Linear;
@@ -18,6 +18,9 @@ use std::sync::{Arc, Mutex};
 
 /// Step of a derivative by an amount, relative to the amount or to a hundredth of its spread.
 const STEP: f64 = 1e-4;
+
+/// Coordinates by their names, and which of its places each cause of the set has.
+pub type Coordinates = (Vec<String>, Vec<usize>);
 
 /// The robot as simulated now, at the pose of the test, with what is uncertain about it.
 pub struct Machine<'a> {
@@ -34,7 +37,7 @@ pub struct Machine<'a> {
     /// Where the sensor sits: at the tool, else on the body that this joint moves, 0 being the foot.
     pub sensor: Option<usize>,
     /// What the bodies' numbers do to the mass matrix, by the names of the coordinates.
-    pub masses: Mutex<BTreeMap<Vec<String>, Arc<DMatrix<f64>>>>,
+    pub masses: Mutex<BTreeMap<Coordinates, Arc<DMatrix<f64>>>>,
 }
 
 /// A point of the search: a set of causes with amounts in spreads, and the nuisances.
@@ -49,26 +52,64 @@ pub struct Point {
 }
 
 impl Point {
-    /// Cause by cause: its amounts, SI.
-    pub fn each(&self) -> Vec<(&Suspect, Vec<f64>)> {
-        let mut rest = self.amounts.iter();
-        let own = |suspect: &Suspect| -> Vec<f64> {
-            let spreads = suspect.spreads().into_iter();
-            spreads.zip(rest.by_ref()).map(|(s, a)| s * a).collect()
+    /// Cause by cause: its amounts in spreads.
+    fn own(&self) -> Vec<(&Suspect, Vec<f64>)> {
+        let mut rest = self.amounts.iter().copied();
+        let own = |suspect: &Suspect| {
+            let count = suspect.spreads().len();
+            let mut own: Vec<f64> = rest.by_ref().take(count).collect();
+            suspect.possible(&mut own);
+            own
         };
         let amounts: Vec<Vec<f64>> = self.set.iter().map(own).collect();
         self.set.iter().zip(amounts).collect()
+    }
+
+    /// Cause by cause: all its amounts, SI.
+    pub fn each(&self) -> Vec<(&Suspect, Vec<f64>)> {
+        let own = self.own().into_iter();
+        own.map(|(suspect, own)| (suspect, suspect.whole(&own)))
+            .collect()
     }
 
     /// Where it ended, with only some of its causes.
     pub fn with_only(&self, keep: impl Fn(&Suspect) -> bool) -> Self {
         let mut point = Self::nothing();
         point.theta.clone_from(&self.theta);
-        for (own, amounts) in self.each().into_iter().filter(|(own, _)| keep(own)) {
-            let scaled = amounts.iter().zip(own.spreads()).map(|(a, s)| a / s);
-            point = point.and(own, &scaled.collect::<Vec<_>>());
+        for (own, amounts) in self.own().into_iter().filter(|(own, _)| keep(own)) {
+            point = point.and(own, &amounts);
         }
         point
+    }
+
+    /// Brings every cause to what can be.
+    pub fn settle(&mut self) {
+        let own = self.own().into_iter();
+        self.amounts = own.flat_map(|(_, amounts)| amounts).collect();
+    }
+
+    /// The same with one cause at its other places.
+    pub fn moved(&self) -> Vec<Self> {
+        let each = self.set.iter().enumerate();
+        let elsewhere = each.flat_map(|(i, s)| s.elsewhere().map(move |other| (i, other)));
+        let moved = |(i, other): (usize, Suspect)| {
+            let mut point = self.clone();
+            point.set[i] = other;
+            point
+        };
+        elsewhere.map(moved).collect()
+    }
+
+    /// The same from where another point ended: what both share as it is there. None that shares nothing with it.
+    pub fn following(&self, other: &Self) -> Option<Self> {
+        let mut point = other.with_only(|theirs| self.set.iter().any(|own| same(own, theirs)));
+        let shared = point.set.len();
+        for (own, amounts) in self.own() {
+            if !other.set.iter().any(|theirs| same(own, theirs)) {
+                point = point.and(own, &amounts);
+            }
+        }
+        (shared > 0).then_some(point)
     }
 
     /// Bounds of all amounts.
@@ -128,7 +169,8 @@ impl Machine<'_> {
             Ok(known) => known,
             Err(poisoned) => poisoned.into_inner(),
         };
-        let names = structure.linear.names.clone();
+        let places = point.set.iter().map(|s| s.place).filter(|p| *p > 0);
+        let names = (structure.linear.names.clone(), places.collect());
         if let Some(made) = known.get(&names) {
             return Ok(Arc::clone(made));
         }

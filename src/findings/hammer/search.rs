@@ -23,6 +23,8 @@ const NEAR: f64 = 0.05;
 /// Rounds in which the best set is continued on sharp peaks, and causes of a set at most.
 const ROUNDS: usize = 2;
 const LARGEST: usize = 2;
+/// Sets whose causes are tried at their other places.
+const MOVED: usize = 2;
 /// Nats that a partner must promise to be tried.
 const PROMISE: f64 = 3.0;
 /// How far a partner may be from its start for the straight line to count, in starts.
@@ -62,18 +64,41 @@ pub fn search(
         }
         fits.extend(sharpened(machine, sharp, more));
     }
-    let parts = parts(&fits);
-    fits.extend(sharpened(machine, sharp, parts));
+    for points in [moved, followed, parts] {
+        let points = points(&fits);
+        fits.extend(sharpened(machine, sharp, points));
+    }
     Ok(Found { fits })
+}
+
+/// The best sets with a cause at another place of its site.
+fn moved(fits: &[Fit]) -> Vec<Point> {
+    best(fits, MOVED).flat_map(|f| f.point.moved()).collect()
+}
+
+/// The other good sets from where the best ended.
+fn followed(fits: &[Fit]) -> Vec<Point> {
+    let Some(leader) = best(fits, 1).next() else {
+        return Vec::new();
+    };
+    let others = best(fits, 2 * BASES).skip(1);
+    others
+        .filter_map(|f| f.point.following(&leader.point))
+        .collect()
+}
+
+/// So many of the most probable.
+fn best(fits: &[Fit], count: usize) -> impl Iterator<Item = &Fit> {
+    let mut best: Vec<&Fit> = fits.iter().collect();
+    best.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+    best.into_iter().take(count)
 }
 
 /// The best pairs with either cause left out, from where they ended: a pair is no better than its
 /// parts only because these did not arrive.
 fn parts(fits: &[Fit]) -> Vec<Point> {
-    let mut best: Vec<&Fit> = fits.iter().collect();
-    best.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
-    let pairs = best.into_iter().take(2).filter(|f| f.point.set.len() > 1);
-    pairs
+    best(fits, 2)
+        .filter(|f| f.point.set.len() > 1)
         .flat_map(|f| f.point.set.iter().map(|s| without(&f.point, s)))
         .collect()
 }

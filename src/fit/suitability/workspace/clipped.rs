@@ -81,11 +81,33 @@ fn stands(on: &Loaded, setup: &Setup) -> bool {
     let widest = inner.iter().map(|level| moved(level)).fold(0.0, f64::max);
     let largest = first[0].0.abs().max(last[0].0.abs());
     let limit = (LOOP * widest).max(SPANNED * moved(&steps));
-    let flat = |end: &[(f64, f64)]| {
+    let flat = |end: &[(f64, f64)], other: &[(f64, f64)]| {
+        let limit = match inner.iter().all(|level| level.len() > 1) {
+            true => limit.max(SCATTER * scatter(inner.iter().copied().chain([other]))),
+            false => limit,
+        };
         end.len() >= PLATEAU && end[0].0.abs() > 0.5 * largest && moved(end) > limit
     };
-    flat(first) || flat(last)
+    flat(first, last) || flat(last, first)
 }
+
+/// Standard deviation of displacements about the mean at their force, where every force was set several times, as by
+/// weights; infinite with too few readings to tell.
+fn scatter<'a>(levels: impl Iterator<Item = &'a [(f64, f64)]>) -> f64 {
+    let (mut squares, mut freedom) = (0.0, 0);
+    for level in levels {
+        let mean = level.iter().map(|s| s.1).sum::<f64>() / level.len() as f64;
+        squares += level.iter().map(|s| (s.1 - mean).powi(2)).sum::<f64>();
+        freedom += level.len() - 1;
+    }
+    match freedom >= PLATEAU {
+        true => (squares / freedom as f64).sqrt(),
+        false => f64::INFINITY,
+    }
+}
+
+/// How many standard deviations readings at one force may span.
+const SCATTER: f64 = 6.0;
 
 /// Set-ups that tell whether the force is clipped.
 const ENOUGH: usize = 60;
