@@ -8,7 +8,9 @@ use crate::robot_blind;
 
 use crate::robot_blind::judge::document;
 use crate::robot_blind::suite::{Floors, conclude, judged, kinds, per_kind, say, seeds};
-use crate::robot_blind::{Case, Dynamics, HAMMER_EFFECTS, HAMMER_OUTSIDE, hammer_case, robot_text};
+use crate::robot_blind::{
+    Case, Dynamics, HAMMER_EFFECTS, HAMMER_OUTSIDE, OBLIQUE, hammer_case, robot_text,
+};
 use ident::measurement::hammer::{HammerRecord, read_hammer};
 use nalgebra::{Complex, Matrix3};
 use rayon::prelude::*;
@@ -30,6 +32,21 @@ fn hidden_causes_are_found() {
     let kinds = kinds(&HAMMER_EFFECTS, &HAMMER_OUTSIDE, per_kind(1));
     let all = judged(&kinds, hammer_case);
     conclude("hammer", &all, &FLOORS);
+}
+
+/// A foundation that turns about an oblique axis, and links that bend off their middle about one: named at their place,
+/// nothing invented.
+#[test]
+fn oblique_bends_are_named_at_their_place() {
+    for kind in OBLIQUE {
+        let kinds: Vec<(String, u64)> = seeds(per_kind(3))
+            .into_iter()
+            .map(|s| (kind.into(), s))
+            .collect();
+        let all = judged(&kinds, hammer_case);
+        let right = all.iter().filter(|judged| judged.is_covered()).count();
+        assert!(right >= 2, "{kind}: {right} of {}", all.len());
+    }
 }
 
 /// Files read, whole: every fourth kind, the program reads them all when it judges them.

@@ -187,10 +187,21 @@ fn percent(hits: &[bool]) -> f64 {
     100.0 * hits.iter().filter(|hit| **hit).count() as f64 / hits.len() as f64
 }
 
+/// The same, read to full steps, m.
+fn coarse(mut test: WorkspaceTest, step: f64) -> WorkspaceTest {
+    let each = test.steps.iter_mut().flat_map(|s| &mut s.displacement);
+    each.for_each(|d| *d = (*d / step).round() * step);
+    test
+}
+
 /// Hits of the measured stiffnesses and of the re-identified ones in one repetition.
-fn repeat(recipe: &WorkspaceTruth, seed: u64) -> (Vec<bool>, Vec<bool>) {
+fn repeat(
+    recipe: &WorkspaceTruth,
+    seed: u64,
+    sensor: impl Fn(WorkspaceTest) -> WorkspaceTest,
+) -> (Vec<bool>, Vec<bool>) {
     let truth = scattered(recipe.nominal_stiffness_rel_std, &mut Random::new(seed));
-    let test = record(recipe, &truth, seed + 1_000_000);
+    let test = sensor(record(recipe, &truth, seed + 1_000_000));
     let found = validate(&test, &kr210(), &[]).unwrap();
     let exact = Response::of(&truth, &test.facts.joint_angles);
     let measured = found.comparisons.iter().filter_map(|c| {
@@ -213,7 +224,7 @@ fn intervals_cover_as_often_as_they_say() {
     let recipe = recipe();
     let runs: Vec<_> = (0..240)
         .into_par_iter()
-        .map(|i| repeat(&recipe, 5000 + i))
+        .map(|i| repeat(&recipe, 5000 + i, |test| test))
         .collect();
     let measured: Vec<bool> = runs.iter().flat_map(|r| r.0.clone()).collect();
     let fitted: Vec<bool> = runs.iter().flat_map(|r| r.1.clone()).collect();
@@ -228,6 +239,27 @@ fn intervals_cover_as_often_as_they_say() {
         "{a} {b}"
     );
     assert!(fitted.len() > 2 * 240);
+}
+
+/// Seven deviations of the noise to a step: rounding is the same in every cycle, and no reading is wild for it.
+#[test]
+fn intervals_cover_where_the_sensor_is_coarse() {
+    let recipe = recipe();
+    let read = |test| coarse(test, 20e-6);
+    let runs: Vec<_> = (0..40)
+        .into_par_iter()
+        .map(|i| repeat(&recipe, 9000 + i, read))
+        .collect();
+    let measured: Vec<bool> = runs.iter().flat_map(|r| r.0.clone()).collect();
+    let fitted: Vec<bool> = runs.iter().flat_map(|r| r.1.clone()).collect();
+    let (a, b) = (percent(&measured), percent(&fitted));
+    assert!(a >= 92.0 && b >= 92.0, "{a} {b}");
+    assert!(fitted.len() > 2 * 40);
+    let truth = scattered(0.0, &mut Random::new(1));
+    let test = read(record(&recipe, &truth, 17));
+    let found = validate(&test, &kr210(), &[]).unwrap();
+    let lines = found.comparisons.iter().flat_map(|c| c.setup.lines);
+    assert_eq!(lines.flatten().map(|line| line.wild).sum::<usize>(), 0);
 }
 
 fn sites_of(found: &Validation, kind: Kind) -> Vec<Vec<String>> {

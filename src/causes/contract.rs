@@ -168,9 +168,15 @@ pub trait Cause: Sync {
         }
     }
 
-    /// How many of its leading amounts a hammer test or a plan tells apart; the others stay zero there.
+    /// How many of its leading amounts a hammer test tells apart; the others stay zero there.
     fn heard(&self) -> usize {
         self.card().amounts.len()
+    }
+
+    /// How many of its leading amounts are along the axes of the frame, none of them shared by two: the narrow form.
+    fn straight(&self) -> usize {
+        let all = 0..self.heard();
+        all.take_while(|k| !self.is_shared(*k)).count()
     }
 
     /// How the gaps that it opens are crossed.

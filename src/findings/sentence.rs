@@ -125,31 +125,32 @@ fn opening(answer: &Answer) -> String {
 }
 
 fn of_cause(cause: &Cause, numbered: &str, unit: &str) -> String {
-    let size = match (cause.parameters.first(), cause.limit()) {
-        (Some((name, 0.0, unit)), Some(limit)) => {
-            format!(", {} smaller than {}", spoken(name), amount(limit, unit))
-        }
-        (Some((name, value, unit)), _) => {
-            let within = cause.interval(name).map(|[low, high]| {
-                format!(
-                    " (95 % interval {} to {})",
-                    amount(low, unit),
-                    amount(high, unit)
-                )
-            });
-            let within = within.unwrap_or_default();
-            format!(", {} {}{within}", spoken(name), amount(*value, unit))
-        }
-        (None, _) => String::new(),
-    };
     format!(
-        "{numbered}: {} at {}{size} ({} probable). {} In the model, it {}.",
+        "{numbered}: {} at {}{} ({} probable). {} In the model, it {}.",
         spoken(cause.effect),
         place(&cause.site),
+        size_of(cause).unwrap_or_default(),
         probability(cause.probability),
         cause.summary,
         of_gain(&cause.gain, unit)
     )
+}
+
+/// How large it is: its first amount that is not zero, for zero says nothing where another amount acts.
+fn size_of(cause: &Cause) -> Option<String> {
+    let first = cause.parameters.first()?;
+    if let ((name, 0.0, unit), Some(limit)) = (first, cause.limit()) {
+        let (name, limit) = (spoken(name), amount(limit, unit));
+        return Some(format!(", {name} smaller than {limit}"));
+    }
+    let acting = cause.parameters.iter().find(|p| p.1 != 0.0);
+    let (name, value, unit) = acting.unwrap_or(first);
+    let within = cause.interval(name).map(|[low, high]| {
+        let ends = [low, high].map(|end| amount(end, unit));
+        format!(" (95 % interval {} to {})", ends[0], ends[1])
+    });
+    let (name, value) = (spoken(name), amount(*value, unit));
+    Some(format!(", {name} {value}{}", within.unwrap_or_default()))
 }
 
 fn of_group(group: &Group, unit: &str) -> String {
@@ -182,13 +183,13 @@ fn of_gain(gain: &Gain, unit: &str) -> String {
 }
 
 fn closing(answer: &Answer) -> Option<String> {
-    let seen = &answer.unexplained.description;
+    let seen = answer.unexplained.description.trim_end_matches('.');
     match answer.verdict {
         Verdict::UnknownCause => Some(format!(
-            "No effect in the library explains it; what is seen is {seen}"
+            "No effect in the library explains it; what is seen is {seen}."
         )),
         Verdict::PartlyExplained => {
-            Some(format!("More is wrong than that; what remains is {seen}"))
+            Some(format!("More is wrong than that; what remains is {seen}."))
         }
         Verdict::Explained => Some("Nothing is left above the noise.".into()),
         Verdict::Sufficient | Verdict::CannotTell => None,

@@ -1,6 +1,7 @@
 //! What the line of one component in one set-up leaves, level by level.
 
 use super::force_steps::{Reading, SetupSteps, WILD, Weighted, spread, weighted};
+use super::rounding::Rounding;
 
 /// What the line of one component in one set-up leaves.
 pub(super) struct Rest {
@@ -13,6 +14,7 @@ pub(super) struct Rest {
     pub rise: Vec<f64>,
     /// Doubt of the model in every cell beside the noise, standard deviation, m.
     pub doubt: Vec<f64>,
+    pub rounding: Rounding,
     pub cycles: usize,
     pub component: usize,
     pub point: usize,
@@ -45,6 +47,7 @@ impl Rest {
         residuals: &[f64],
         own: &SetupSteps,
         component: usize,
+        rounding: Rounding,
     ) -> Self {
         let largest = readings.iter().fold(0.0_f64, |m, r| m.max(r.force.abs()));
         let level = |force: f64| (force / largest.max(f64::MIN_POSITIVE) * LEVELS).round() as i64;
@@ -67,7 +70,7 @@ impl Rest {
         distinct.dedup();
         let find = |key: &(i64, bool)| distinct.binary_search(key).unwrap_or(0);
         let cells: Vec<usize> = keys.iter().map(find).collect();
-        let kept = tame(residuals, &cells, distinct.len());
+        let kept = tame(residuals, &cells, distinct.len(), rounding);
         let mut count = vec![0.0; distinct.len()];
         cells
             .iter()
@@ -80,6 +83,7 @@ impl Rest {
             rise: vec![1.0; count.len()],
             doubt: vec![0.0; count.len()],
             count,
+            rounding,
             cycles: own.cycles.len(),
             component,
             point: own.point,
@@ -183,7 +187,9 @@ impl Rest {
         let weight = |cell: usize| match self.count[cell] {
             n if n > 0.0 => {
                 let own = noise * self.rise[cell] / n.sqrt();
-                1.0 / own.hypot(self.doubt[cell]).max(f64::MIN_POSITIVE)
+                let rounding = self.rounding.shared(noise);
+                let own = own.hypot(rounding).hypot(self.doubt[cell]);
+                1.0 / own.max(f64::MIN_POSITIVE)
             }
             _ => 0.0,
         };
@@ -248,7 +254,7 @@ impl Rest {
 
 /// Which readings are used: one that the other cycles do not repeat, and that lies off the line by
 /// far, is wild. What all cycles repeat is shape, however far off.
-fn tame(residuals: &[f64], cells: &[usize], count: usize) -> Vec<f64> {
+fn tame(residuals: &[f64], cells: &[usize], count: usize, rounding: Rounding) -> Vec<f64> {
     let mut own: Vec<Vec<f64>> = vec![Vec::new(); count];
     residuals
         .iter()
@@ -264,7 +270,8 @@ fn tame(residuals: &[f64], cells: &[usize], count: usize) -> Vec<f64> {
         }
     };
     let middles: Vec<f64> = own.iter_mut().map(middle).collect();
-    let limit = WILD * spread(residuals).max(f64::MIN_POSITIVE);
+    let scale = spread(residuals).max(rounding.error());
+    let limit = WILD * scale.max(f64::MIN_POSITIVE);
     let off = |(r, c): (&f64, &usize)| r.abs() > limit && (r - middles[*c]).abs() > limit;
     let kept = |one| if off(one) { 0.0 } else { 1.0 };
     let kept: Vec<f64> = residuals.iter().zip(cells).map(kept).collect();

@@ -3,7 +3,7 @@
 
 pub use super::force_rest::Level;
 use super::force_rest::Rest;
-use super::force_steps::{Reading, Setup, by_setup, setups, straight};
+use super::force_steps::{Reading, Setup, by_setup, known, setups, straight};
 use super::shared_errors::SharedErrors;
 use crate::ground::spatial::V3;
 use crate::measurement::workspace_test::WorkspaceTest;
@@ -31,15 +31,17 @@ pub struct Shapes {
 impl Shapes {
     /// Of a test.
     pub fn of(test: &WorkspaceTest) -> Self {
-        let noise = test.facts.sensor_noise;
+        let known = known(test);
         let mut rests = Vec::new();
         for own in by_setup(test) {
             for component in 0..3 {
                 let readings = own.readings(component);
-                let Some(fit) = straight(&readings, own.cycles.len(), noise) else {
+                let Some(fit) = straight(&readings, own.cycles.len(), known[component]) else {
                     continue;
                 };
-                rests.push(Rest::new(readings, &fit.residuals, &own, component));
+                let rounding = known[component].rounding;
+                let rest = Rest::new(readings, &fit.residuals, &own, component, rounding);
+                rests.push(rest);
             }
         }
         let mut shapes = Self {
@@ -47,7 +49,7 @@ impl Shapes {
             noise: [0.0; 3],
             widen: 1.0,
             slow: [1.0; 3],
-            stated: noise,
+            stated: test.facts.sensor_noise,
             wander: [0.0; 3],
             rests,
             shared: None,
@@ -68,8 +70,9 @@ impl Shapes {
                 let squares: f64 = left.iter().zip(&rest.kept).map(|(l, w)| w * l * l).sum();
                 let freedom = (used - 1.0 - rest.cycles as f64).max(1.0);
                 line.slope = fit.slope;
-                line.scatter = (squares / freedom).sqrt();
-                line.stderr = line.scatter / fit.force_squares.sqrt();
+                let scatter = (squares / freedom).sqrt();
+                line.scatter = scatter.max(rest.rounding.error());
+                line.stderr = fit.stderr(line.scatter, rest.rounding);
                 line.rows = used as usize;
                 line.wild = rest.kept.len() - used as usize;
             }

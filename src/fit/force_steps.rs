@@ -2,6 +2,7 @@
 //! component, with an own intercept for every cycle, wild readings left out and counted.
 
 use super::parameter::{Status, Z95};
+use super::rounding::Rounding;
 use crate::ground::stats::rms;
 use crate::measurement::workspace_test::{Step, WorkspaceTest};
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -58,9 +59,10 @@ const UNSUPPORTED: f64 = 0.5;
 
 /// Every set-up of a file, by point and direction.
 pub fn setups(test: &WorkspaceTest) -> Vec<Setup> {
-    let noise = test.facts.sensor_noise;
+    let known = known(test);
     let line = |own: &SetupSteps, component: usize| {
-        straight(&own.readings(component), own.cycles.len(), noise).map(|fit| fit.line)
+        let readings = own.readings(component);
+        straight(&readings, own.cycles.len(), known[component]).map(|fit| fit.line)
     };
     let of = |own: SetupSteps| Setup {
         point: own.point,
@@ -138,17 +140,27 @@ pub(super) struct Straight {
     pub residuals: Vec<f64>,
 }
 
-/// Robust start, then least squares over what is not wild.
-pub(super) fn straight(
-    readings: &[Reading],
-    cycles: usize,
-    noise: Option<f64>,
-) -> Option<Straight> {
+/// What is known of the readings of one component.
+#[derive(Clone, Copy)]
+pub(super) struct Known {
+    /// Noise of a reading that the data sheet states, m.
+    pub noise: Option<f64>,
+    pub rounding: Rounding,
+}
+
+/// The same of every component of a test.
+pub(super) fn known(test: &WorkspaceTest) -> [Known; 3] {
+    let noise = test.facts.sensor_noise;
+    Rounding::of(test).map(|rounding| Known { noise, rounding })
+}
+
+/// Robust start, then least squares over what is not wild. No reading is nearer to the line than its resolution tells.
+pub(super) fn straight(readings: &[Reading], cycles: usize, known: Known) -> Option<Straight> {
     let mut weights = vec![1.0; readings.len()];
     let mut scale = 0.0;
     for _ in 0..30 {
         let (_, residuals) = weighted(readings, &weights, cycles)?;
-        scale = spread(&residuals);
+        scale = spread(&residuals).max(known.rounding.error());
         if scale == 0.0 {
             break;
         }
@@ -156,32 +168,29 @@ pub(super) fn straight(
         weights = residuals.iter().map(huber).collect();
     }
     let (_, residuals) = weighted(readings, &weights, cycles)?;
-    let limit = WILD * scale.max(0.2 * noise.unwrap_or(0.0)).max(f64::MIN_POSITIVE);
+    let least = 0.2 * known.noise.unwrap_or(0.0);
+    let limit = WILD * scale.max(least).max(f64::MIN_POSITIVE);
     let kept = |r: &f64| if r.abs() <= limit { 1.0 } else { 0.0 };
     let kept: Vec<f64> = residuals.iter().map(kept).collect();
-    ordinary(readings, &kept, cycles, noise)
-        .or_else(|| ordinary(readings, &vec![1.0; kept.len()], cycles, noise))
+    ordinary(readings, &kept, cycles, known)
+        .or_else(|| ordinary(readings, &vec![1.0; kept.len()], cycles, known))
 }
 
-fn ordinary(
-    readings: &[Reading],
-    kept: &[f64],
-    cycles: usize,
-    noise: Option<f64>,
-) -> Option<Straight> {
+fn ordinary(readings: &[Reading], kept: &[f64], cycles: usize, known: Known) -> Option<Straight> {
     let (fit, residuals) = weighted(readings, kept, cycles)?;
     let used = kept.iter().filter(|w| **w > 0.0).count();
     let freedom = used as f64 - 1.0 - fit.cycles as f64;
     let squares: f64 = residuals.iter().zip(kept).map(|(r, w)| w * r * r).sum();
-    let (scatter, freedom) = match (freedom > 0.0, noise) {
-        (true, _) => ((squares / freedom).sqrt(), freedom),
+    let rounding = known.rounding;
+    let (scatter, freedom) = match (freedom > 0.0, known.noise) {
+        (true, _) => ((squares / freedom).sqrt().max(rounding.error()), freedom),
         (false, Some(noise)) => (noise, f64::INFINITY),
         (false, None) => return None,
     };
     Some(Straight {
         line: Line {
             slope: fit.slope,
-            stderr: scatter / fit.force_squares.sqrt(),
+            stderr: fit.stderr(scatter, rounding),
             freedom,
             scatter,
             rows: used,
@@ -195,6 +204,15 @@ pub(super) struct Weighted {
     pub slope: f64,
     pub force_squares: f64,
     cycles: usize,
+}
+
+impl Weighted {
+    /// Standard error of the slope, m/N, of readings that scatter by `scatter`, m: rounding is the same in every cycle.
+    pub fn stderr(&self, scatter: f64, rounding: Rounding) -> f64 {
+        let again = self.cycles.saturating_sub(1) as f64;
+        let shared = again.sqrt() * rounding.shared(scatter);
+        scatter.hypot(shared) / self.force_squares.sqrt()
+    }
 }
 
 /// Weighted least squares of one slope and an intercept per cycle; `None` without any change of force.

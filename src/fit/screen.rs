@@ -54,7 +54,7 @@ fn project(span: &DMatrix<f64>, reading: &[f64], colour: &Colour) -> (DMatrix<f6
 }
 
 /// Orthonormal basis of the columns, directions below 1e-7 of the largest left out.
-fn orthonormal(columns: &DMatrix<f64>) -> DMatrix<f64> {
+pub(super) fn orthonormal(columns: &DMatrix<f64>) -> DMatrix<f64> {
     let eigen = columns.tr_mul(columns).symmetric_eigen();
     let largest = eigen.eigenvalues.iter().fold(0.0_f64, |m, v| m.max(*v));
     let kept: Vec<usize> = (0..eigen.eigenvalues.len())
@@ -102,15 +102,28 @@ fn representatives(candidates: &Candidates) -> Vec<usize> {
     chosen
 }
 
+/// The load over its largest, and the direction of loading.
+fn loading(data: &Observation) -> [Vec<f64>; 2] {
+    let scaled = data.scene.load.iter().map(|m| m / data.scene.load_scale);
+    let u: Vec<f64> = scaled.map(|u| u.clamp(-1.0, 1.0)).collect();
+    let direction = directions(&u);
+    [u, direction]
+}
+
+/// Chebyshev polynomials of the load on either branch: what a law may add that no effect has, no zero among it.
+pub(super) fn laws(data: &Observation) -> DMatrix<f64> {
+    let [u, direction] = loading(data);
+    let of = |power: usize| u.iter().map(move |x| (power as f64 * x.acos()).cos());
+    let along = |power| of(power).zip(&direction).map(|(p, d)| p * d).collect();
+    let loops: Vec<Vec<f64>> = (0..=POWERS).map(along).collect();
+    let curves = (1..=POWERS).map(|power| of(power).collect::<Vec<f64>>());
+    let columns: Vec<Vec<f64>> = loops.into_iter().chain(curves).collect();
+    DMatrix::from_fn(u.len(), columns.len(), |i, j| columns[j][i])
+}
+
 /// Chebyshev polynomials of the load, over all rows, times the direction of loading, and times time.
 fn branch_powers(data: &Observation) -> Vec<Vec<f64>> {
-    let u: Vec<f64> = data
-        .scene
-        .load
-        .iter()
-        .map(|m| (m / data.scene.load_scale).clamp(-1.0, 1.0))
-        .collect();
-    let direction = directions(&u);
+    let [u, direction] = loading(data);
     let span = data.scene.duration;
     let start = data.scene.time[0];
     let mut columns = Vec::new();

@@ -26,10 +26,11 @@ impl Shapes {
         for (k, sum) in sums.iter().enumerate() {
             let own: f64 = lines(k).map(|l| l.rows as f64 * l.scatter.powi(2)).sum();
             let rows: f64 = lines(k).map(|l| l.rows as f64).sum();
-            self.noise[k] = match sum[1] >= FREEDOM {
+            let noise = match sum[1] >= FREEDOM {
                 true => self.no_less(*sum, k, &sums),
                 false => self.without_repeats((own / rows.max(1.0)).sqrt(), k),
             };
+            self.noise[k] = noise.max(self.rounding(k));
         }
         (0..3).for_each(|k| self.grow(k, &left));
         self.wander = self.wandering();
@@ -132,6 +133,12 @@ impl Shapes {
             true => short,
             false => scatter,
         }
+    }
+
+    /// Error of one reading of a component by its resolution, m.
+    fn rounding(&self, component: usize) -> f64 {
+        let mut own = self.rests.iter().filter(|rest| rest.component == component);
+        own.next().map_or(0.0, |rest| rest.rounding.error())
     }
 
     /// Noise of a component by the change from one reading to the next, m.

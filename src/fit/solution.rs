@@ -34,7 +34,7 @@ pub struct Solution {
 }
 
 /// Relative standard error beyond which a parameter counts as not supported by the data.
-const UNSUPPORTED: f64 = 0.5;
+pub(super) const UNSUPPORTED: f64 = 0.5;
 /// The same for shapes, in which laws are far from linear: beyond, an interval by linearisation is
 /// not to be trusted.
 const UNSUPPORTED_SHAPE: f64 = 0.15;

@@ -3,6 +3,7 @@
 use super::bootstrap;
 use super::derived::derived;
 use super::imposed::{self, fit_imposed, is_imposed};
+use super::law_error;
 use super::observation::{MOST_ROWS, Observation};
 use super::parameter::{Identified, Status, Z95};
 use super::solution::Solution;
@@ -145,6 +146,7 @@ fn pressed(file: &LoadCycle, request: &Request) -> Account {
     }
     let candidates = Candidates::new(&shapes(EFFECTS), &data);
     let noise = screen(&data, &candidates);
+    law_error::widen(&mut solution, &data, &noise);
     let (low, high) = data.load_range();
     let branches = settled_cycle(&solution.model, &solution.p, &data.scene, low, high);
     let site = file.site();

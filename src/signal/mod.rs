@@ -12,6 +12,7 @@ pub mod fault;
 pub mod frf;
 pub mod jackknife;
 pub mod judge;
+pub mod lattice;
 pub mod line_noise;
 pub mod local_rational;
 pub mod low_pass;

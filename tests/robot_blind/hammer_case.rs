@@ -7,6 +7,7 @@ use super::hammer_effects::{Drawn, EFFECTS, OUTSIDE, draw};
 use super::hammer_strength::{Before, spread};
 use super::poses::random_pose;
 use super::robot::Robot;
+use super::structure::OBLIQUE;
 use crate::blind_generator::random::Random;
 use std::fmt::Write;
 
@@ -23,7 +24,7 @@ pub fn hammer_case(kind: &str, seed: u64) -> Case {
 }
 
 fn wanted(kind: &str, random: &mut Random) -> Vec<&'static str> {
-    let mut known = EFFECTS.iter().chain(&OUTSIDE).copied();
+    let mut known = EFFECTS.iter().chain(&OBLIQUE).chain(&OUTSIDE).copied();
     match kind {
         "clean" => Vec::new(),
         "pair" => {
@@ -100,7 +101,7 @@ fn hide(
 
 fn truth(effect: &'static str, drawn: Drawn, strength: f64, size: f64, scene: &mut Scene) -> Truth {
     Truth {
-        effect,
+        effect: effect.trim_end_matches(":oblique"),
         strength,
         detail: (drawn.change)(scene, size),
         sites: drawn.sites,

@@ -36,5 +36,6 @@ pub use dynamics::Dynamics;
 pub use hammer_case::hammer_case;
 pub use hammer_effects::{EFFECTS as HAMMER_EFFECTS, OUTSIDE as HAMMER_OUTSIDE};
 pub use robot_text::robot_text;
+pub use structure::OBLIQUE;
 pub use workspace_case::workspace_case;
 pub use workspace_effects::{EFFECTS as WORKSPACE_EFFECTS, OUTSIDE as WORKSPACE_OUTSIDE};

@@ -5,6 +5,7 @@ use super::case::between;
 use super::family::turning;
 use super::robot::{Robot, Spring, V3, across};
 use crate::blind_generator::random::Random;
+use nalgebra::{Rotation3, Unit};
 
 /// Changes the robot by a size of 0..1 and says how.
 pub type Change = Box<dyn Fn(&mut Robot, f64) -> String>;
@@ -17,6 +18,9 @@ pub const STRUCTURE: [&str; 6] = [
     "link_compliance",
     "tool_compliance",
 ];
+
+/// The same along none of the frame's axes, and not half-way; no suite draws them by chance.
+pub const OBLIQUE: [&str; 2] = ["base_compliance:oblique", "link_compliance:oblique"];
 
 /// Names of the place and change; `None` if the name is of no structure, or the robot has no such place.
 pub fn draw(
@@ -54,7 +58,12 @@ pub fn draw(
             Some((vec![format!("A{}-tilt", joint + 1)], Box::new(change)))
         }
         "base_compliance" => Some((vec!["base".into()], base(damping, random))),
-        "link_compliance" => Some(link(robot, damping, random)),
+        "base_compliance:oblique" => Some((vec!["base".into()], oblique(damping, random))),
+        "link_compliance" => Some(link(robot, damping, None, random)),
+        "link_compliance:oblique" => {
+            let oblique = (random.choose(&[0.2, 0.8]), random.uniform(0.4, 1.1));
+            Some(link(robot, damping, Some(oblique), random))
+        }
         "tool_compliance" => {
             // Axes that the file has at the flange are the same place by another name.
             let known = robot.extra.iter().filter(|e| e.after == 6);
@@ -119,13 +128,36 @@ fn base(damping: f64, random: &mut Random) -> Change {
     })
 }
 
-/// Link arm or forearm bends half-way, in one direction or in both.
-fn link(robot: &Robot, damping: f64, random: &mut Random) -> (Vec<String>, Change) {
+/// The foundation turns about an axis along none of the frame's.
+fn oblique(damping: f64, random: &mut Random) -> Change {
+    let angle = random.uniform(0.5, 1.1) + random.choose(&[0.0, std::f64::consts::FRAC_PI_2]);
+    let axis = V3::new(angle.cos(), angle.sin(), random.uniform(-0.2, 0.2)).normalize();
+    Box::new(move |robot, size| {
+        let stiffness = between(4e8, 2e6, size);
+        let soft = spring(stiffness, damping);
+        robot
+            .extra
+            .push(turning("base-oblique", 0, axis, V3::zeros(), soft));
+        format!("about {:.2?} {stiffness:.2e} Nm/rad", axis.as_slice())
+    })
+}
+
+/// Link arm or forearm bends, in one direction or in both: half-way, or after a share of its length and in directions
+/// turned about it by an angle, rad.
+fn link(
+    robot: &Robot,
+    damping: f64,
+    oblique: Option<(f64, f64)>,
+    random: &mut Random,
+) -> (Vec<String>, Change) {
     let number = random.integer(2, 3);
     let (from, to) = (robot.joints[number - 1].point, robot.joints[number].point);
-    let axes = across(&(to - from).normalize());
+    let along = Unit::new_normalize(to - from);
+    let turned = Rotation3::from_axis_angle(&along, oblique.map_or(0.0, |o| o.1));
+    let axes = across(&along).map(|axis| turned * axis);
     let (ways, first) = (random.integer(1, 2), random.integer(0, 1));
-    let at = from.lerp(&to, random.uniform(0.35, 0.65));
+    let share = oblique.map_or_else(|| random.uniform(0.35, 0.65), |o| o.0);
+    let at = from.lerp(&to, share);
     let change: Change = Box::new(move |robot, size| {
         let stiffness = between(8e7, 4e5, size);
         for way in 0..ways {

@@ -25,6 +25,13 @@ pub struct Judged {
     place: bool,
 }
 
+impl Judged {
+    /// Whether the truth was named, alone or in a small group, and nothing else.
+    pub fn is_covered(&self) -> bool {
+        self.score <= Score::Covered
+    }
+}
+
 /// Writes into the test log even where the test passes.
 pub fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");

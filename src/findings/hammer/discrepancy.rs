@@ -1,7 +1,8 @@
 //! How far a simulated accelerance is from the measured one, and where.
 
 use super::data::Data;
-use super::prediction::{Machine, Point};
+use super::point::Point;
+use super::prediction::Machine;
 use crate::ground::problem::Outcome;
 use crate::motion::frf::C64;
 

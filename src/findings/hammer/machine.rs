@@ -3,7 +3,8 @@
 use super::data::Data;
 use super::map::weights;
 use super::nuisance::{Known, Nuisance};
-use super::prediction::{Machine, Point};
+use super::point::Point;
+use super::prediction::Machine;
 use super::structure::Structure;
 use crate::ground::problem::Outcome;
 use crate::ground::products::gram;
@@ -52,25 +53,5 @@ impl<'a> Machine<'a> {
             column.iter_mut().zip(&weights).for_each(|(x, w)| *x *= w);
         }
         Ok(bodies::seen(gram(&all), UNSEEN, MOST))
-    }
-}
-
-impl Point {
-    /// No cause, everything as stated.
-    pub fn nothing() -> Self {
-        Self {
-            set: Vec::new(),
-            amounts: Vec::new(),
-            theta: Vec::new(),
-        }
-    }
-
-    /// With one more cause, at `amounts` (spreads).
-    #[must_use]
-    pub fn and(&self, suspect: &super::suspect::Suspect, amounts: &[f64]) -> Self {
-        let mut point = self.clone();
-        point.set.push(suspect.clone());
-        point.amounts.extend(amounts);
-        point
     }
 }

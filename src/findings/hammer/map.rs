@@ -3,7 +3,8 @@
 
 use super::data::Data;
 use super::nuisance::Nuisance;
-use super::prediction::{Machine, Point, stack};
+use super::point::Point;
+use super::prediction::{Machine, stack};
 use super::suspect::Suspect;
 use crate::ground::problem::{Outcome, Problem};
 use crate::inference::descent::{Landscape, Linear, Stop, descend, pushed};

@@ -17,6 +17,7 @@ pub mod machine;
 pub mod map;
 pub mod next;
 pub mod nuisance;
+pub mod point;
 pub mod posterior;
 pub mod prediction;
 pub mod search;

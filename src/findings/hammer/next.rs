@@ -3,7 +3,8 @@
 
 use super::data::{Data, Pair};
 use super::map::{Fit, weights};
-use super::prediction::{Machine, Point, stack};
+use super::point::Point;
+use super::prediction::{Machine, stack};
 use super::structure::Structure;
 use crate::ground::problem::Outcome;
 use crate::motion::frf::C64;

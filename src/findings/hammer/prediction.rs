@@ -2,8 +2,8 @@
 
 use super::data::Data;
 use super::nuisance::{Known, Nuisance};
+use super::point::Point;
 use super::structure::Structure;
-use super::suspect::{Suspect, same};
 use crate::causes::contract::Accelerance;
 use crate::ground::problem::Outcome;
 use crate::motion::Linear;
@@ -38,104 +38,6 @@ pub struct Machine<'a> {
     pub sensor: Option<usize>,
     /// What the bodies' numbers do to the mass matrix, by the names of the coordinates.
     pub masses: Mutex<BTreeMap<Coordinates, Arc<DMatrix<f64>>>>,
-}
-
-/// A point of the search: a set of causes with amounts in spreads, and the nuisances.
-#[derive(Clone)]
-pub struct Point {
-    /// The causes.
-    pub set: Vec<Suspect>,
-    /// All their amounts in spreads, one after the other.
-    pub amounts: Vec<f64>,
-    /// The nuisances in standard deviations.
-    pub theta: Vec<f64>,
-}
-
-impl Point {
-    /// Cause by cause: its amounts in spreads.
-    fn own(&self) -> Vec<(&Suspect, Vec<f64>)> {
-        let mut rest = self.amounts.iter().copied();
-        let own = |suspect: &Suspect| {
-            let count = suspect.spreads().len();
-            let mut own: Vec<f64> = rest.by_ref().take(count).collect();
-            suspect.possible(&mut own);
-            own
-        };
-        let amounts: Vec<Vec<f64>> = self.set.iter().map(own).collect();
-        self.set.iter().zip(amounts).collect()
-    }
-
-    /// Cause by cause: all its amounts, SI.
-    pub fn each(&self) -> Vec<(&Suspect, Vec<f64>)> {
-        let own = self.own().into_iter();
-        own.map(|(suspect, own)| (suspect, suspect.whole(&own)))
-            .collect()
-    }
-
-    /// Where it ended, with only some of its causes.
-    pub fn with_only(&self, keep: impl Fn(&Suspect) -> bool) -> Self {
-        let mut point = Self::nothing();
-        point.theta.clone_from(&self.theta);
-        for (own, amounts) in self.own().into_iter().filter(|(own, _)| keep(own)) {
-            point = point.and(own, &amounts);
-        }
-        point
-    }
-
-    /// Brings every cause to what can be.
-    pub fn settle(&mut self) {
-        let own = self.own().into_iter();
-        self.amounts = own.flat_map(|(_, amounts)| amounts).collect();
-    }
-
-    /// The same with one cause at its other places.
-    pub fn moved(&self) -> Vec<Self> {
-        let each = self.set.iter().enumerate();
-        let elsewhere = each.flat_map(|(i, s)| s.elsewhere().map(move |other| (i, other)));
-        let moved = |(i, other): (usize, Suspect)| {
-            let mut point = self.clone();
-            point.set[i] = other;
-            point
-        };
-        elsewhere.map(moved).collect()
-    }
-
-    /// The same from where another point ended: what both share as it is there. None that shares nothing with it.
-    pub fn following(&self, other: &Self) -> Option<Self> {
-        let mut point = other.with_only(|theirs| self.set.iter().any(|own| same(own, theirs)));
-        let shared = point.set.len();
-        for (own, amounts) in self.own() {
-            if !other.set.iter().any(|theirs| same(own, theirs)) {
-                point = point.and(own, &amounts);
-            }
-        }
-        (shared > 0).then_some(point)
-    }
-
-    /// Bounds of all amounts.
-    pub fn bounds(&self) -> Vec<[f64; 2]> {
-        self.set.iter().flat_map(Suspect::bounds).collect()
-    }
-
-    /// The robot with the physical causes in it.
-    pub fn robot(&self, robot: &Robot) -> Robot {
-        let mut robot = robot.clone();
-        for (suspect, amounts) in self.each() {
-            suspect.cause.alter(&mut robot, &suspect.site, &amounts);
-        }
-        robot
-    }
-
-    fn is_physical(&self) -> bool {
-        self.set.iter().any(Suspect::is_physical)
-    }
-
-    /// Rate of all undeclared windows, 1/s.
-    fn rate(&self) -> f64 {
-        let each = self.each();
-        let rates = each.iter().map(|(s, a)| s.cause.undeclared_rate(a));
-        rates.sum()
-    }
 }
 
 /// Values and slopes of one point on the lines of some data, unweighted, in the order of the rows.

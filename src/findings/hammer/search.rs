@@ -3,7 +3,8 @@
 
 use super::data::Data;
 use super::map::{Fit, fit, measured, weights};
-use super::prediction::{Machine, Point, stack};
+use super::point::Point;
+use super::prediction::{Machine, stack};
 use super::suspect::{Suspect, same};
 use super::unseen::without;
 use crate::ground::problem::Outcome;

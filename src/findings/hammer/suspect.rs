@@ -135,15 +135,13 @@ pub fn suspects(robot: &Robot, outputs: &[String]) -> Vec<Suspect> {
 
 /// The narrow form of a cause whose amounts are matrices, their axes those of the frame, and the whole.
 fn forms(cause: &'static dyn Cause, site: &str) -> Vec<Suspect> {
-    let whole = cause.heard();
-    let straight = (0..whole).take_while(|k| !cause.is_shared(*k)).count();
     let form = |heard| Suspect {
         cause,
         site: site.to_string(),
         place: 0,
         heard,
     };
-    let mut heard = vec![straight, whole];
+    let mut heard = vec![cause.straight(), cause.heard()];
     heard.dedup();
     heard.into_iter().map(form).collect()
 }

@@ -3,7 +3,8 @@
 use super::data::{Data, Pair};
 use super::discrepancy::simulated;
 use super::map::{Fit, fit};
-use super::prediction::{Machine, Point};
+use super::point::Point;
+use super::prediction::Machine;
 use super::suspect::{Suspect, same};
 use crate::findings::gain::Gain;
 use crate::motion::frf::C64;

@@ -1,7 +1,6 @@
 //! A record with what the engine found in it, and the named laws fitted to it.
 
 use super::diagnosis::Settings;
-use super::lattice;
 use super::naming::site;
 use super::noise::Coloured;
 use super::patterns::JUMPS;
@@ -15,6 +14,7 @@ use crate::fit::observation::Observation;
 use crate::fit::starts::starts;
 use crate::measurement::load_cycle::LoadCycle;
 use crate::signal::colour::Colour;
+use crate::signal::lattice;
 
 /// Steps of a lattice above this many times the noise at high frequency are coarse: their rounding,
 /// step/√12, is then half of it or more.

@@ -83,8 +83,9 @@ fn widened(robot: &Robot) -> Robot {
     let mut wide = robot.clone();
     let physics = seen_by(Sight::Workspace).filter(|c| c.card().family == Family::Physics);
     for cause in physics {
-        let own = |k: usize| f64::from(u8::from(!cause.is_shared(k)));
-        let amounts: Vec<f64> = (0..cause.heard()).map(own).collect();
+        // a shift has no drive to be compared with
+        let own = |k: usize| f64::from(u8::from(k < cause.straight()));
+        let amounts: Vec<f64> = (0..cause.card().amounts.len()).map(own).collect();
         for site in cause.sites(robot) {
             let mut one = robot.clone();
             cause.alter(&mut one, &site, &amounts);
