@@ -40,22 +40,30 @@ pub fn matrix(amounts: &[f64]) -> Matrix3<f64> {
 
 /// Brings six amounts to the nearest matrix that is nowhere negative (Higham 1988).
 pub fn not_negative(amounts: &mut [f64]) {
-    not_below(amounts, 0.0);
-}
-
-/// Brings six amounts to the nearest matrix that is nowhere below `least`.
-pub fn not_below(amounts: &mut [f64], least: f64) {
     if is_straight(amounts) {
         let straight = amounts.iter_mut().take(3);
-        straight.for_each(|a| *a = a.max(least));
+        straight.for_each(|a| *a = a.max(0.0));
         return;
     }
     let mut own = SymmetricEigen::new(matrix(amounts));
-    own.eigenvalues.apply(|x| *x = x.max(least));
+    own.eigenvalues.apply(|x| *x = x.max(0.0));
     let all = own.recompose();
     for (amount, place) in amounts.iter_mut().zip(PLACES) {
         *amount = all[place];
     }
+}
+
+/// Row and column of each of the six numbers of a lower root, each at the place of the amount that it makes.
+pub const LOWER: [(usize, usize); SIX] = [(0, 0), (1, 1), (2, 2), (2, 1), (2, 0), (1, 0)];
+
+/// The six amounts of the matrix with this lower root: nowhere negative, whatever the root.
+pub fn squared(root: &[f64]) -> [f64; SIX] {
+    let mut lower = Matrix3::zeros();
+    for (place, value) in LOWER.into_iter().zip(root) {
+        lower[place] = *value;
+    }
+    let all = lower * lower.transpose();
+    PLACES.map(|place| all[place])
 }
 
 /// Whether the axes of a matrix are those of its frame.
@@ -166,6 +174,14 @@ mod tests {
         not_negative(&mut fine);
         let moved = fine.iter().zip(OBLIQUE).map(|(a, b)| (a - b).abs());
         assert!(moved.fold(0.0, f64::max) < 1e-12);
+    }
+
+    #[test]
+    fn what_a_root_makes_is_nowhere_negative() {
+        let made = squared(&[1.0, 0.0, 0.5, -0.3, 2.0, 0.7]);
+        assert_eq!(made[5], 0.7);
+        let own = SymmetricEigen::new(matrix(&made)).eigenvalues;
+        assert!(own.min() > -1e-12, "{own}");
     }
 
     #[test]

@@ -183,7 +183,6 @@ impl Landscape for Cost<'_> {
         for ((x, change), [low, high]) in point.amounts.iter_mut().zip(amounts).zip(bounds) {
             *x = (*x + change.clamp(-LARGEST[0], LARGEST[0])).clamp(low, high);
         }
-        point.settle();
         self.at(point).ok()
     }
 

@@ -36,12 +36,7 @@ impl Point {
     /// Cause by cause: its amounts in spreads.
     fn own(&self) -> Vec<(&Suspect, Vec<f64>)> {
         let mut rest = self.amounts.iter().copied();
-        let own = |suspect: &Suspect| {
-            let count = suspect.spreads().len();
-            let mut own: Vec<f64> = rest.by_ref().take(count).collect();
-            suspect.possible(&mut own);
-            own
-        };
+        let own = |suspect: &Suspect| rest.by_ref().take(suspect.heard).collect::<Vec<f64>>();
         let amounts: Vec<Vec<f64>> = self.set.iter().map(own).collect();
         self.set.iter().zip(amounts).collect()
     }
@@ -63,10 +58,16 @@ impl Point {
         point
     }
 
-    /// Brings every cause to what can be.
-    pub fn settle(&mut self) {
-        let own = self.own().into_iter();
-        self.amounts = own.flat_map(|(_, amounts)| amounts).collect();
+    /// The same with one cause free to give way about any axis.
+    pub fn widened(&self) -> Vec<Self> {
+        let own = self.own();
+        let wide = |at: usize| {
+            let (suspect, amounts) = &own[at];
+            let (wide, roots) = suspect.widened(amounts)?;
+            let others = self.with_only(|other| !same(other, suspect));
+            Some(others.and(&wide, &roots))
+        };
+        (0..own.len()).filter_map(wide).collect()
     }
 
     /// The same with one cause at its other places.

@@ -65,7 +65,7 @@ pub fn search(
         }
         fits.extend(sharpened(machine, sharp, more));
     }
-    for points in [moved, followed, parts] {
+    for points in [moved, widened, followed, parts] {
         let points = points(&fits);
         fits.extend(sharpened(machine, sharp, points));
     }
@@ -75,6 +75,11 @@ pub fn search(
 /// The best sets with a cause at another place of its site.
 fn moved(fits: &[Fit]) -> Vec<Point> {
     best(fits, MOVED).flat_map(|f| f.point.moved()).collect()
+}
+
+/// The best sets with a cause that gives way about any axis, from where it ended along those of the frame.
+fn widened(fits: &[Fit]) -> Vec<Point> {
+    best(fits, BASES).flat_map(|f| f.point.widened()).collect()
 }
 
 /// The other good sets from where the best ended.
@@ -173,7 +178,7 @@ fn begin(machine: &Machine, data: &Data, nothing: &Fit, suspect: &Suspect) -> Op
     let clean = Point::nothing();
     let starts = suspect.starts();
     let fresh = starts.iter().filter_map(|start| from(&clean, start));
-    let small: Vec<f64> = starts.first()?.iter().map(|s| 0.02 * s).collect();
+    let small = suspect.times(starts.first()?, 0.02);
     let near = from(&nothing.point, &small);
     fresh.chain(near).min_by(|a, b| a.cost.total_cmp(&b.cost))
 }
@@ -232,7 +237,7 @@ pub fn promise(
         .map(|((w, m), r)| m * w - r)
         .collect();
     let along = |start: &Vec<f64>, share: f64| {
-        let scaled: Vec<f64> = start.iter().map(|s| s * share).collect();
+        let scaled = suspect.times(start, share);
         let point = base.point.and(suspect, &scaled);
         let nuisance = machine.nuisance(&point).ok()?;
         let mut full = point.clone();
@@ -244,24 +249,14 @@ pub fn promise(
         let column = column.map(|((p, w), now)| p * w - now);
         let column = DVector::from_iterator(weights.len(), column);
         let (nats, times) = base.promise(&column, REACH / share);
-        let amounts: Vec<f64> = scaled.iter().map(|s| s * times).collect();
+        let amounts = suspect.times(&scaled, times);
         Some((nats, base.point.and(suspect, &within(suspect, &amounts))))
     };
     let starts = suspect.starts();
-    let near = tangents(&starts).into_iter();
+    let near = suspect.tangents().into_iter();
     let near = near.filter_map(|start| along(&start, NEAR));
     let tried = starts.iter().filter_map(|start| along(start, 1.0));
     tried.chain(near).max_by(|a, b| a.0.total_cmp(&b.0))
-}
-
-/// The first start of every amount alone.
-fn tangents(starts: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let first = starts.first().map_or(&[][..], Vec::as_slice);
-    let alone = |k: usize| {
-        let own = first.iter().enumerate();
-        own.map(|(i, s)| if i == k { *s } else { 0.0 }).collect()
-    };
-    (0..first.len()).map(alone).collect()
 }
 
 /// Amounts inside their bounds, and not quite nothing.

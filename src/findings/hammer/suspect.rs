@@ -1,6 +1,6 @@
 //! A cause at a place of one robot, its amounts counted in spreads.
 
-use crate::causes::turns::{SIX, not_below};
+use crate::causes::turns::{LOWER, SIX, squared};
 use crate::causes::{self, Amount, Cause, Sight};
 use crate::effects::Family;
 use crate::findings::belief::Place;
@@ -9,6 +9,9 @@ use crate::robot::Robot;
 
 /// Where an amount that cannot be negative starts to exist, in spreads.
 const LEAST: f64 = 1e-3;
+
+/// Root of a compliance that nothing speaks for yet.
+const FAINT: f64 = 0.2;
 
 /// A cause at a place.
 #[derive(Clone)]
@@ -39,8 +42,18 @@ impl Suspect {
         self.place * self.cause.heard()
     }
 
-    /// All amounts of the cause, SI, where those of its place are `own` spreads.
+    /// Whether it gives way about any axis. Its unknowns are then the lower roots of its matrices, six each: whatever
+    /// they are, the matrix is nowhere negative, and one soft axis is no corner of what is allowed.
+    fn is_whole(&self) -> bool {
+        self.heard > self.cause.straight()
+    }
+
+    /// All amounts of the cause, SI, where its unknowns are `own`.
     pub fn whole(&self, own: &[f64]) -> Vec<f64> {
+        let own: Vec<f64> = match self.is_whole() {
+            true => own.chunks(SIX).flat_map(squared).collect(),
+            false => own.to_vec(),
+        };
         let own = own.iter().zip(self.spreads()).map(|(a, s)| a * s);
         std::iter::repeat_n(0.0, self.before()).chain(own).collect()
     }
@@ -63,49 +76,93 @@ impl Suspect {
         })
     }
 
-    /// Spread of each amount: the prior's standard deviation, as far as its starts reach.
-    pub fn spreads(&self) -> Vec<f64> {
-        let amounts = self.amounts().iter();
-        amounts.map(|a| largest(a.starts)).collect()
+    /// The same cause at the same place, free to give way about any axis, from where its unknowns are `own`; `None`
+    /// where it is so already.
+    pub fn widened(&self, own: &[f64]) -> Option<(Self, Vec<f64>)> {
+        let wide = Self {
+            heard: self.cause.heard(),
+            ..self.clone()
+        };
+        (!self.is_whole() && wide.is_whole()).then(|| {
+            let along = |k: usize| if k % SIX < 3 { FAINT } else { 0.0 };
+            let mut roots: Vec<f64> = (0..wide.heard).map(along).collect();
+            let known = roots.iter_mut().zip(own);
+            known.for_each(|(root, amount)| *root = amount.sqrt().max(FAINT));
+            (wide, roots)
+        })
     }
 
-    /// Bounds of each amount, in spreads.
+    /// Spread of each amount: the prior's standard deviation, as far as its starts reach; one for a whole matrix.
+    fn spreads(&self) -> Vec<f64> {
+        let first = |k: usize| if self.is_whole() { k - k % SIX } else { k };
+        let own = |k: usize| largest(self.amounts()[first(k)].starts);
+        (0..self.heard).map(own).collect()
+    }
+
+    /// Bounds of each unknown.
     pub fn bounds(&self) -> Vec<[f64; 2]> {
-        let amounts = self.amounts().iter().zip(self.spreads());
-        amounts
-            .map(|(a, spread)| {
-                let [low, high] = a.bounds.map(|b| b / spread);
-                [if low == 0.0 { LEAST } else { low }, high]
-            })
-            .collect()
+        let each = self.amounts().iter().zip(self.spreads()).enumerate();
+        let bounds = |(k, (a, spread)): (usize, (&Amount, f64))| {
+            let [low, high] = a.bounds.map(|b| b / spread);
+            match (self.is_whole(), k % SIX < 3) {
+                (true, true) => [LEAST.sqrt(), high.sqrt()],
+                (true, false) => [-high.sqrt(), high.sqrt()],
+                (false, _) => [if low == 0.0 { LEAST } else { low }, high],
+            }
+        };
+        each.map(bounds).collect()
     }
 
-    /// Where to start, in spreads: the first of every amount, the second of every amount, ...
+    /// Where to start: the first of every amount, the second of every amount, ...
     pub fn starts(&self) -> Vec<Vec<f64>> {
         let amounts = self.amounts();
         let count = amounts.iter().map(|a| a.starts.len()).max().unwrap_or(0);
         let at = |j: usize| {
             let each = amounts.iter().zip(self.spreads()).enumerate();
-            each.map(|(k, (a, spread))| match self.cause.is_shared(k) {
+            let own = each.map(|(k, (a, spread))| match self.cause.is_shared(k) {
                 true => 0.0,
                 false => a.starts[j.min(a.starts.len() - 1)] / spread,
-            })
-            .collect()
+            });
+            match self.is_whole() {
+                true => own.map(f64::sqrt).collect(),
+                false => own.collect(),
+            }
         };
         (0..count).map(at).collect()
     }
 
-    /// Brings amounts (spreads) to what can be: every matrix gives way everywhere, if ever so little, so that the
-    /// coordinates stay the same.
-    pub fn possible(&self, amounts: &mut [f64]) {
-        let spreads = self.spreads();
-        let whole = |first: &usize| first + SIX <= spreads.len();
-        for first in self.cause.matrices().into_iter().filter(whole) {
-            let (own, spreads) = (&mut amounts[first..first + SIX], &spreads[first..]);
-            own.iter_mut().zip(spreads).for_each(|(a, s)| *a *= s);
-            not_below(own, LEAST * spreads[0]);
-            own.iter_mut().zip(spreads).for_each(|(a, s)| *a /= s);
-        }
+    /// Unknowns that make so many times the amounts of these.
+    pub fn times(&self, own: &[f64], times: f64) -> Vec<f64> {
+        let times = if self.is_whole() {
+            times.max(0.0).sqrt()
+        } else {
+            times
+        };
+        own.iter().map(|x| x * times).collect()
+    }
+
+    /// Unknowns with one amount alone, and with two and what they share, of the size of its first start.
+    pub fn tangents(&self) -> Vec<Vec<f64>> {
+        let first = self.starts().into_iter().next().unwrap_or_default();
+        let alone = |k: usize| {
+            let own = first.iter().enumerate();
+            own.map(|(i, s)| if i == k { *s } else { 0.0 }).collect()
+        };
+        let both = |(k, side): (usize, f64)| {
+            let (start, (_, column)) = (k - k % SIX, LOWER[k % SIX]);
+            let half = first[start + column] * std::f64::consts::FRAC_1_SQRT_2;
+            let mut own = vec![0.0; first.len()];
+            (own[start + column], own[k]) = (half, side * half);
+            own
+        };
+        let (single, shared): (Vec<usize>, Vec<usize>) =
+            (0..first.len()).partition(|k| !self.cause.is_shared(*k));
+        let sides = shared.into_iter().flat_map(|k| [(k, 1.0), (k, -1.0)]);
+        single
+            .into_iter()
+            .map(alone)
+            .chain(sides.map(both))
+            .collect()
     }
 
     /// Cause and site.
