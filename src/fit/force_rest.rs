@@ -110,8 +110,14 @@ impl Rest {
         (1..left.len()).filter(kept).map(change).collect()
     }
 
+    /// Whether most readings are repeated: those at rest alone say nothing of the noise under load.
+    fn repeats(&self) -> bool {
+        let again: f64 = self.count.iter().filter(|n| **n > 1.0).sum();
+        2.0 * again >= self.kept.iter().sum()
+    }
+
     /// Squares of noise, m², each with the force (N) at which it was seen: readings about the mean of their
-    /// cell, or where nothing is repeated half the square of the change to the next reading.
+    /// cell, or where few are repeated half the square of the change to the next reading.
     pub fn noises(&self, left: &[f64]) -> Vec<(f64, f64)> {
         let means = self.means(|i| left[i]);
         let repeated = |i: &usize| self.kept[*i] > 0.0 && self.count[self.cells[*i]] > 1.0;
@@ -120,9 +126,8 @@ impl Rest {
             let square = (left[i] - means[self.cells[i]]).powi(2) * n / (n - 1.0);
             (self.readings[i].force.abs(), square)
         });
-        let again: Vec<(f64, f64)> = again.collect();
-        if !again.is_empty() {
-            return again;
+        if self.repeats() {
+            return again.collect();
         }
         let changes = self.changes(left).into_iter();
         changes
@@ -196,8 +201,11 @@ impl Rest {
         (0..self.count.len()).map(weight).collect()
     }
 
-    /// Squares about the means of the cells, and their degrees of freedom.
+    /// Squares about the means of the cells, and their degrees of freedom; none where few readings are repeated.
     pub fn scatter(&self, left: &[f64]) -> [f64; 2] {
+        if !self.repeats() {
+            return [0.0; 2];
+        }
         let means = self.means(|i| left[i]);
         let square = |(i, cell): (usize, &usize)| self.kept[i] * (left[i] - means[*cell]).powi(2);
         let squares: f64 = self.cells.iter().enumerate().map(square).sum();

@@ -9,6 +9,8 @@ use super::noise_growth::growth;
 const SHAPE: f64 = 2.0;
 /// Degrees of freedom that the data sheet's noise is worth.
 const LIKELY: f64 = 30.0;
+/// Set-ups that bend to one side below which these say nothing of all.
+const FEW: f64 = 4.0;
 /// Degrees of freedom below which the scatter between cycles is not trusted.
 const FREEDOM: f64 = 12.0;
 
@@ -44,7 +46,8 @@ impl Shapes {
             false => self.slowness(),
         };
         self.widen = widen;
-        self.slow = self.slow_bends(&left, widen);
+        let (slow, strayed) = (self.slow_bends(&left, widen), self.strayed());
+        self.slow = [0, 1, 2].map(|k| slow[k].max(strayed[k]));
         let noise = self.noise;
         let lines = self.setups.iter_mut().flat_map(|s| s.lines.iter_mut());
         for (i, line) in lines.enumerate() {
@@ -93,6 +96,35 @@ impl Shapes {
             true => sums.map(|s| (s / freedom).sqrt().max(1.0)),
             false => [widen; 3],
         }
+    }
+
+    /// How much more than independent readings would set-ups bend to the side to which none gives way: what drifts
+    /// within a cycle bends its line to either side, what a joint does to one. A loop that gives work back is none; an
+    /// even or a cubic part is the joint's on one side alone.
+    fn strayed(&self) -> [f64; 3] {
+        let mut sides = [[[0.0; 2]; 2]; 3];
+        for rest in self
+            .rests
+            .iter()
+            .filter(|rest| rest.component == rest.direction)
+        {
+            let noise = self.noise[rest.component];
+            let (Some(slope), left) = rest.project(&rest.readings, noise) else {
+                continue;
+            };
+            let bends = rest.bends(&left, noise);
+            for (sides, bend) in sides.iter_mut().zip(bends) {
+                let side = &mut sides[usize::from(bend * slope > 0.0)];
+                (side[0], side[1]) = (side[0] + bend * bend, side[1] + 1.0);
+            }
+        }
+        let [even, cubic, looped] = sides;
+        let of = |[squares, count]: [f64; 2]| match count >= FEW {
+            true => (squares / count).sqrt(),
+            false => 0.0,
+        };
+        let less = |[a, b]: [[f64; 2]; 2]| of(a).min(of(b));
+        [less(even), less(cubic), of(looped[1])]
     }
 
     /// How much more than its scatter says noise moves a slope when each reading takes after the one
