@@ -61,6 +61,37 @@ fn a_model_with_its_tilts_is_sufficient() {
     assert!(limits.iter().any(|l| hidden(&l)), "{limits:?}");
 }
 
+/// The displacements read to full steps, mm.
+fn coarse(text: &str, step: f64) -> String {
+    let read = |cell: &str| {
+        let value: f64 = cell.parse().unwrap();
+        format!("{:.4}", (value / step).round() * step)
+    };
+    let line = |line: &str| match line.starts_with(|c: char| c.is_ascii_digit()) {
+        false => line.to_string(),
+        true => {
+            let cells = line.split(',').enumerate();
+            let cells = cells.map(|(i, c)| if i < 4 { c.to_string() } else { read(c) });
+            cells.collect::<Vec<_>>().join(",")
+        }
+    };
+    text.lines().map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// A step of 3 and of 100 times the noise: components that hardly move show one number at every load. A foundation was
+/// named for it, and of a third of a millimetre a wave of A2.
+#[test]
+fn a_coarse_sensor_is_no_cause() {
+    for step in [0.01, 0.1, 0.3] {
+        let (folder, file) = campaign(|text| coarse(&text, step));
+        let file = file.to_str().unwrap();
+        let answer = document(&ident(&["diagnose", file, "--json"], folder.path()));
+        assert_eq!(answer["verdict"], "sufficient", "{step}: {answer:#}");
+        let validated = ident(&["validate", file, "--json"], folder.path());
+        assert!(validated.status.code() < Some(2), "{step}");
+    }
+}
+
 /// The readings at the largest force of every cycle, and no others.
 fn one_force(text: String) -> String {
     let kept = |line: &&str| {

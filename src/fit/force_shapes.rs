@@ -72,7 +72,7 @@ impl Shapes {
                 line.slope = fit.slope;
                 let scatter = (squares / freedom).sqrt();
                 line.scatter = scatter.max(rest.rounding.error());
-                line.stderr = fit.stderr(line.scatter, rest.rounding);
+                line.stderr = fit.stderr(line.scatter, rest.rounding, &rest.readings);
                 line.rows = used as usize;
                 line.wild = rest.kept.len() - used as usize;
             }

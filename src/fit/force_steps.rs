@@ -190,7 +190,7 @@ fn ordinary(readings: &[Reading], kept: &[f64], cycles: usize, known: Known) -> 
     Some(Straight {
         line: Line {
             slope: fit.slope,
-            stderr: fit.stderr(scatter, rounding),
+            stderr: fit.stderr(scatter, rounding, readings),
             freedom,
             scatter,
             rows: used,
@@ -207,9 +207,13 @@ pub(super) struct Weighted {
 }
 
 impl Weighted {
-    /// Standard error of the slope, m/N, of readings that scatter by `scatter`, m: rounding is the same in every cycle.
-    pub fn stderr(&self, scatter: f64, rounding: Rounding) -> f64 {
-        let again = self.cycles.saturating_sub(1) as f64;
+    /// Standard error of the slope, m/N, of readings that scatter by `scatter`, m: rounding is the same for all that show
+    /// the same number, be it in every cycle or at every load.
+    pub fn stderr(&self, scatter: f64, rounding: Rounding, readings: &[Reading]) -> f64 {
+        let mut shown: Vec<f64> = readings.iter().map(|r| r.displacement).collect();
+        shown.sort_by(f64::total_cmp);
+        shown.dedup();
+        let again = readings.len() as f64 / shown.len().max(1) as f64 - 1.0;
         let shared = again.sqrt() * rounding.shared(scatter);
         scatter.hypot(shared) / self.force_squares.sqrt()
     }

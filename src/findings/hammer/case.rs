@@ -28,6 +28,9 @@ const TOLERATED_NATS: f64 = 5.0;
 const FOLDS: usize = 2;
 /// Share of the misfit that a cause must take away to be named although something is left.
 const THE_STORY: f64 = 0.95;
+/// The same where so little of the error's variance is left above the noise: what drifts below the lowest mode weighs much
+/// and is little.
+const LITTLE: f64 = 0.005;
 /// Most members of a group that are named.
 const MEMBERS: usize = 6;
 
@@ -211,7 +214,7 @@ impl Case<'_> {
         let left = adequacy.left() || bent.is_some() || strayed.is_some();
         let explained = match strayed {
             Some(_) => 0.0,
-            None => self.explained(posterior, chosen),
+            None => self.explained(posterior, chosen, share),
         };
         let verdict = verdict(&named, left, explained);
         let description = match (bent, strayed, adequacy.left()) {
@@ -271,9 +274,10 @@ impl Case<'_> {
 
     /// Share of the weighted misfit of the present simulation that the chosen set takes away. While
     /// something is left, several causes may imitate an unknown one together: they count as nothing.
-    fn explained(&self, posterior: &Posterior, chosen: &Fit) -> f64 {
+    fn explained(&self, posterior: &Posterior, chosen: &Fit, share: f64) -> f64 {
         let nothing = posterior.sets.iter().find(|s| s.0.point.set.is_empty());
         match (nothing, chosen.point.set.len()) {
+            (_, 1) if share < LITTLE => 1.0,
             (Some(set), 1) => 1.0 - chosen.misfit / set.0.misfit.max(f64::MIN_POSITIVE),
             _ => 0.0,
         }
