@@ -15,6 +15,8 @@ struct Derived {
     read: fn(&Settled) -> f64,
     /// Whether there may be none of it.
     may_vanish: bool,
+    /// Whether it is a slope at one load, which a curve that misses the readings tells of itself alone.
+    is_slope: bool,
 }
 
 const DERIVED: &[Derived] = &[
@@ -24,6 +26,7 @@ const DERIVED: &[Derived] = &[
         meaning: "work lost in one settled cycle at full load",
         read: |s| s.loss,
         may_vanish: true,
+        is_slope: false,
     },
     Derived {
         name: "loss_factor",
@@ -31,6 +34,7 @@ const DERIVED: &[Derived] = &[
         meaning: "loss per cycle over 2π times the energy stored at full load",
         read: |s| s.loss_factor,
         may_vanish: true,
+        is_slope: false,
     },
     Derived {
         name: "secant_stiffness",
@@ -38,6 +42,7 @@ const DERIVED: &[Derived] = &[
         meaning: "load range over deflection range of a settled cycle at full load, lost motion included",
         read: |s| s.secant,
         may_vanish: false,
+        is_slope: false,
     },
     Derived {
         name: "tangent_stiffness",
@@ -45,6 +50,7 @@ const DERIVED: &[Derived] = &[
         meaning: "slope at the end of loading, at full load",
         read: |s| s.tangent,
         may_vanish: false,
+        is_slope: true,
     },
     Derived {
         name: "reversal_stiffness",
@@ -52,11 +58,18 @@ const DERIVED: &[Derived] = &[
         meaning: "slope right after the load turns",
         read: |s| s.reversal,
         may_vanish: false,
+        is_slope: true,
     },
 ];
 
-/// Everything that follows, with the uncertainty that the fit's parameters hand on.
-pub fn derived(solution: &Solution, data: &Observation, file: &LoadCycle) -> Vec<Identified> {
+/// Everything that follows, with the uncertainty that the fit's parameters hand on. `fits`: whether the model is the curve
+/// that was measured; no slope follows from another.
+pub fn derived(
+    solution: &Solution,
+    data: &Observation,
+    file: &LoadCycle,
+    fits: bool,
+) -> Vec<Identified> {
     let (low, high) = data.load_range();
     let at = |p: &[f64]| {
         let (load, deflection) = settled_cycle(&solution.model, p, &data.scene, low, high);
@@ -70,7 +83,8 @@ pub fn derived(solution: &Solution, data: &Observation, file: &LoadCycle) -> Vec
     let report = |d: &Derived| {
         let (value, stderr) = ((d.read)(&here), fitted.stderr(d.read));
         let parameter = Identified::new(d.name, &site, value, (d.unit)(file), stderr, d.meaning);
-        let known = spring_known && stderr.is_finite() && value.is_finite();
+        let known =
+            spring_known && stderr.is_finite() && value.is_finite() && (fits || !d.is_slope);
         match known {
             false => parameter.without_value(Status::NotIdentifiable),
             true if d.may_vanish && parameter.may_be_zero() => {

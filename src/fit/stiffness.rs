@@ -66,6 +66,9 @@ pub struct Account {
 /// A ratio above this says no more than "far".
 const FAR_BEYOND: f64 = 1e4;
 
+/// A model that leaves so many times the noise is another curve.
+const MISSED: f64 = 1.5;
+
 /// Share of the deflection that a straight line may miss before it counts as no description.
 const NOT_STRAIGHT: f64 = 0.08;
 
@@ -157,7 +160,8 @@ fn pressed(file: &LoadCycle, request: &Request) -> Account {
     }
     parameters.extend(unsaid(&request.model, &solution.model, &site, file.port));
     rename(&mut parameters);
-    parameters.extend(derived(&solution, &data, file));
+    let fits = solution.rms <= MISSED * noise.rms;
+    parameters.extend(derived(&solution, &data, file, fits));
     let straight = straight_line(&file.load, &file.deflection);
     let second = log_ratio(file);
     Account {
@@ -240,7 +244,7 @@ fn warnings(account: &Account, file: &LoadCycle) -> Vec<String> {
             file.path.display()
         ));
     }
-    if account.solution.rms > 1.5 * account.noise_rms {
+    if account.solution.rms > MISSED * account.noise_rms {
         let times = account.solution.rms / account.noise_rms;
         said.push(format!(
             "the model misses the readings by {} their noise: `ident diagnose {}` names the cause",
