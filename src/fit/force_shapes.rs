@@ -34,13 +34,12 @@ impl Shapes {
         let known = known(test);
         let mut rests = Vec::new();
         for own in by_setup(test) {
-            for component in 0..3 {
+            for (component, known) in known.into_iter().enumerate() {
                 let readings = own.readings(component);
-                let Some(fit) = straight(&readings, own.cycles.len(), known[component]) else {
+                let Some(fit) = straight(&readings, own.cycles.len(), known) else {
                     continue;
                 };
-                let rounding = known[component].rounding;
-                let rest = Rest::new(readings, &fit.residuals, &own, component, rounding);
+                let rest = Rest::new(readings, &fit.residuals, &own, component, known.rounding);
                 rests.push(rest);
             }
         }

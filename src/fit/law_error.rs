@@ -72,7 +72,7 @@ fn variance(
     }
     let expected = by_chance.norm_squared() / basis.ncols() as f64;
     let each = seen.norm_squared() / left;
-    (each > expected * (1.0 + BEYOND * (2.0 / left).sqrt())).then(|| each - expected)
+    (each > expected * (1.0 + BEYOND * (2.0 / left).sqrt())).then_some(each - expected)
 }
 
 /// The columns in the cosine domain.
