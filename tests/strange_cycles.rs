@@ -2,7 +2,6 @@
 
 use ident::effects::Composite;
 use ident::findings::{Diagnosis, Settings, Verdict, diagnose};
-use ident::fit::imposed::is_imposed;
 use ident::fit::stiffness::{DEFAULT_EFFECTS, Request, identify};
 use ident::fit::suitability::is_fatal;
 use ident::ground::random::Random;
@@ -173,30 +172,6 @@ fn a_zero_of_any_size_hides_no_gap() {
         let named = |effect: &str| found.causes.iter().any(|c| c.effect == effect);
         assert!(named("backlash") && named("sensor_offset"), "zero {zero}");
     }
-}
-
-/// Pressed one way by weights against much friction: half of the loop is not the slipping of a contact that is moved.
-#[test]
-fn a_joint_pressed_one_way_against_friction_is_not_moved() {
-    let load = triangles(900);
-    let mut slider = 0.0_f64;
-    let mut slip = |u: f64| {
-        slider = slider.clamp(u - 0.42, u + 0.42);
-        0.12 * u + slider
-    };
-    let deflection: Vec<f64> = load.iter().map(|u| slip(*u)).collect();
-    let one_way = file(&load, &deflection, 0.3, 3);
-    assert!(!is_imposed(&one_way));
-    let both: Vec<f64> = load.iter().map(|u| 2.0 * u - 1.0).collect();
-    let mut spring = 0.0_f64;
-    let mut before = both[0];
-    let mut force = |x: f64| {
-        spring = (spring + 5.0 * (x - before)).clamp(-1.0, 1.0);
-        before = x;
-        spring
-    };
-    let forces: Vec<f64> = both.iter().map(|x| force(*x)).collect();
-    assert!(is_imposed(&file(&forces, &both, 0.3, 3)));
 }
 
 /// A joint that stiffens, to a verb that knows gaps and slip: no gap is stated, and the interval of the stiffness reaches

@@ -110,14 +110,22 @@ fn loading(data: &Observation) -> [Vec<f64>; 2] {
     [u, direction]
 }
 
+/// Chebyshev polynomial of the first kind, of the scaled load.
+fn chebyshev(u: &[f64], power: usize) -> Vec<f64> {
+    u.iter().map(|x| (power as f64 * x.acos()).cos()).collect()
+}
+
+/// Number by number.
+fn product(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a * b).collect()
+}
+
 /// Chebyshev polynomials of the load on either branch: what a law may add that no effect has, no zero among it.
 pub(super) fn laws(data: &Observation) -> DMatrix<f64> {
     let [u, direction] = loading(data);
-    let of = |power: usize| u.iter().map(move |x| (power as f64 * x.acos()).cos());
-    let along = |power| of(power).zip(&direction).map(|(p, d)| p * d).collect();
-    let loops: Vec<Vec<f64>> = (0..=POWERS).map(along).collect();
-    let curves = (1..=POWERS).map(|power| of(power).collect::<Vec<f64>>());
-    let columns: Vec<Vec<f64>> = loops.into_iter().chain(curves).collect();
+    let loops = (0..=POWERS).map(|power| product(&chebyshev(&u, power), &direction));
+    let curves = (1..=POWERS).map(|power| chebyshev(&u, power));
+    let columns: Vec<Vec<f64>> = loops.chain(curves).collect();
     DMatrix::from_fn(u.len(), columns.len(), |i, j| columns[j][i])
 }
 
@@ -128,14 +136,8 @@ fn branch_powers(data: &Observation) -> Vec<Vec<f64>> {
     let start = data.scene.time[0];
     let mut columns = Vec::new();
     for power in 0..=POWERS {
-        let polynomial: Vec<f64> = u.iter().map(|x| (power as f64 * x.acos()).cos()).collect();
-        columns.push(
-            polynomial
-                .iter()
-                .zip(&direction)
-                .map(|(p, d)| p * d)
-                .collect(),
-        );
+        let polynomial = chebyshev(&u, power);
+        columns.push(product(&polynomial, &direction));
         if power <= 3 {
             let aged = polynomial
                 .iter()

@@ -28,8 +28,8 @@ const TOLERATED_NATS: f64 = 5.0;
 const FOLDS: usize = 2;
 /// Share of the misfit that a cause must take away to be named although something is left.
 const THE_STORY: f64 = 0.95;
-/// The same where so little of the error's variance is left above the noise: what drifts below the lowest mode weighs much
-/// and is little.
+/// A cause alone is named as well where no more of the error's variance is left above the noise: what drifts below the
+/// lowest mode weighs much and is little. A tenth of what [`THE_STORY`] leaves open, for variances are of the peaks alone.
 const LITTLE: f64 = 0.005;
 /// Most members of a group that are named.
 const MEMBERS: usize = 6;
@@ -272,8 +272,9 @@ impl Case<'_> {
         })
     }
 
-    /// Share of the weighted misfit of the present simulation that the chosen set takes away. While
-    /// something is left, several causes may imitate an unknown one together: they count as nothing.
+    /// Share of the weighted misfit of the present simulation that the chosen set takes away, all of it where nearly
+    /// nothing is left (`share` of the error's variance). While something is left, several causes may imitate an unknown
+    /// one together: they count as nothing.
     fn explained(&self, posterior: &Posterior, chosen: &Fit, share: f64) -> f64 {
         let nothing = posterior.sets.iter().find(|s| s.0.point.set.is_empty());
         match (nothing, chosen.point.set.len()) {

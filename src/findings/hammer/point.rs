@@ -1,14 +1,15 @@
-//! A point of the search: a set of causes, how much of each, and the nuisances.
+//! A point of the search.
 
 use super::suspect::{Suspect, same};
 use crate::robot::Robot;
 
-/// A point of the search: a set of causes with amounts in spreads, and the nuisances.
+/// A set of causes, how much of each, and the nuisances.
 #[derive(Clone)]
 pub struct Point {
     /// The causes.
     pub set: Vec<Suspect>,
-    /// All their amounts in spreads, one after the other.
+    /// All their unknowns, one after the other: amounts in spreads, or the roots of whole matrices of them
+    /// ([`Suspect::whole`]).
     pub amounts: Vec<f64>,
     /// The nuisances in standard deviations.
     pub theta: Vec<f64>,
@@ -24,7 +25,7 @@ impl Point {
         }
     }
 
-    /// With one more cause, at `amounts` (spreads).
+    /// With one more cause, its unknowns at `amounts`.
     #[must_use]
     pub fn and(&self, suspect: &Suspect, amounts: &[f64]) -> Self {
         let mut point = self.clone();
@@ -33,7 +34,7 @@ impl Point {
         point
     }
 
-    /// Cause by cause: its amounts in spreads.
+    /// Cause by cause: its unknowns.
     fn own(&self) -> Vec<(&Suspect, Vec<f64>)> {
         let mut rest = self.amounts.iter().copied();
         let own = |suspect: &Suspect| rest.by_ref().take(suspect.heard).collect::<Vec<f64>>();
@@ -94,7 +95,7 @@ impl Point {
         (shared > 0).then_some(point)
     }
 
-    /// Bounds of all amounts.
+    /// Bounds of all unknowns.
     pub fn bounds(&self) -> Vec<[f64; 2]> {
         self.set.iter().flat_map(Suspect::bounds).collect()
     }
