@@ -17,6 +17,7 @@ mod coulomb_friction;
 mod creep;
 mod cubic_stiffness;
 mod dry_slider;
+mod hertz_contact;
 mod hysteresis;
 mod lever_arm;
 mod loosening;
@@ -44,6 +45,7 @@ pub const EFFECTS: &[&dyn Effect] = &[
     OFFSET_GAP,
     &soft_zone::SoftZone,
     &cubic_stiffness::CubicStiffness,
+    &hertz_contact::HertzContact,
     &asymmetry::Asymmetry,
     &hysteresis::Hysteresis,
     &bouc_wen::BoucWen,

@@ -7,6 +7,7 @@ use super::observation::Observation;
 use super::parameter::Status;
 use super::screen::{laws, orthonormal};
 use super::solution::{Solution, UNSUPPORTED};
+use crate::effects::composite::Slot;
 use crate::signal::colour::Colour;
 use nalgebra::{DMatrix, DVector};
 
@@ -27,6 +28,34 @@ pub fn widen(solution: &mut Solution, data: &Observation, noise: &Colour) {
     let Some(variance) = variance(&basis, free, &solution.residual, data, noise) else {
         return;
     };
+    add(&basis, variance, solution, data);
+}
+
+/// Widens the covariance of a fit with a gap by what is not known of its flanks: how they close is a law like another, and
+/// the gap and the spring beside it are read off its tails. One deviation is what lies between flanks that close by a power
+/// of the load and such that close exponentially.
+pub fn widen_by_flanks(solution: &mut Solution, data: &Observation) {
+    let slots = solution.model.slots();
+    let is_gap = |s: &Slot| s.amplitude && s.effect.card().cause == "backlash";
+    let Some(gap) = slots.iter().position(is_gap) else {
+        return;
+    };
+    let (half, contact) = (0.5 * solution.p[gap], solution.p[gap + 1]);
+    let between = |load: &f64| {
+        let x = load / contact;
+        half * (x.tanh() - x / x.hypot(1.0))
+    };
+    let column: Vec<f64> = data.scene.load.iter().map(between).collect();
+    add(
+        &DMatrix::from_vec(data.rows(), 1, column),
+        1.0,
+        solution,
+        data,
+    );
+}
+
+/// Adds what errors of this variance along each of these functions do to the parameters.
+fn add(functions: &DMatrix<f64>, variance: f64, solution: &mut Solution, data: &Observation) {
     let problem = Problem {
         model: &solution.model,
         data,
@@ -38,7 +67,7 @@ pub fn widen(solution: &mut Solution, data: &Observation, noise: &Colour) {
     for (mut column, scale) in jacobian.column_iter_mut().zip(&scale) {
         column /= *scale;
     }
-    let mut whitened = turned(&basis, data);
+    let mut whitened = turned(functions, data);
     for mut column in whitened.column_iter_mut() {
         solution.colour.whiten(column.as_mut_slice());
     }

@@ -48,6 +48,7 @@ mod noise_growth;
 pub mod normal;
 pub mod observation;
 mod off_centre;
+mod other_law;
 pub mod parameter;
 mod rounding;
 pub mod screen;

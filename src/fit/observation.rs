@@ -167,6 +167,21 @@ impl Observation {
         }
     }
 
+    /// The same, averaged down to about `most` rows, for a quick look; `None` where cycles would lose their shape.
+    pub fn coarser(&self, most: usize) -> Option<Self> {
+        let least = PER_CYCLE * self.cycles.count();
+        let block = self.rows() / most.max(least);
+        let taken = |v: &[f64]| reduce(v, block);
+        (block > 1).then(|| {
+            Self::from_channels(
+                taken(&self.scene.time),
+                taken(&self.scene.load),
+                taken(&self.reading),
+                block * self.block,
+            )
+        })
+    }
+
     /// Number of readings.
     pub fn rows(&self) -> usize {
         self.reading.len()

@@ -56,6 +56,17 @@ pub fn fit_from(
     starts: &[Vec<f64>],
     ignored: &[bool],
 ) -> Solution {
+    fit_until(model, data, starts, ignored, Stop::default())
+}
+
+/// The same, every descent ended by `stop`.
+pub fn fit_until(
+    model: &Composite,
+    data: &Observation,
+    starts: &[Vec<f64>],
+    ignored: &[bool],
+    stop: Stop,
+) -> Solution {
     let mut colour = Colour::white(data.rows(), data.scene.deflection_scale * 1e-3);
     let mut starts = starts.to_vec();
     let mut optimum = None;
@@ -68,7 +79,7 @@ pub fn fit_from(
         };
         let best = starts
             .iter()
-            .map(|start| minimise(&problem, start, Stop::default()))
+            .map(|start| minimise(&problem, start, stop))
             .filter(|optimum| optimum.chi2.is_finite())
             .min_by(|a, b| a.chi2.total_cmp(&b.chi2));
         let Some(best) = best else { break };
@@ -82,7 +93,7 @@ pub fn fit_from(
         colour: &colour,
         ignored,
     };
-    let last = minimise(&problem, &starts[0], Stop::default());
+    let last = minimise(&problem, &starts[0], stop);
     conclude(&problem, optimum.map_or(last.clone(), |_| last))
 }
 
@@ -248,6 +259,9 @@ impl Solution {
                 }
                 Status::AtBound if slot.amplitude => value.limited(Status::AtBound, 0.0),
                 Status::Identified => value,
+                Status::NotIdentifiable if slot.may_vanish() => {
+                    value.limited(Status::NotIdentifiable, self.limit(j))
+                }
                 other => value.without_value(other),
             }
         };

@@ -5,6 +5,7 @@ use super::derived::derived;
 use super::imposed::{self, fit_imposed, is_imposed};
 use super::law_error;
 use super::observation::{MOST_ROWS, Observation};
+use super::other_law::{gap_or, other_law};
 use super::parameter::{Identified, Status, Z95};
 use super::solution::Solution;
 use super::supported::{simpler, unsaid};
@@ -57,6 +58,8 @@ pub struct Account {
     pub second: Option<(f64, f64)>,
     /// Effects over time that are no part of the joint and were taken off the readings.
     pub courses: Vec<&'static str>,
+    /// The cause that does as well as a gap.
+    pub rival: Option<&'static str>,
     /// What needs attention, one sentence each.
     pub warnings: Vec<String>,
     /// What is odd about the data.
@@ -131,6 +134,7 @@ fn moved(file: &LoadCycle) -> Account {
         straight: straight_line(&file.load, &file.deflection),
         second: None,
         courses: Vec::new(),
+        rival: None,
         warnings: Vec::new(),
         doubts: Vec::new(),
         data: fitted.data,
@@ -142,6 +146,10 @@ fn moved(file: &LoadCycle) -> Account {
 fn pressed(file: &LoadCycle, request: &Request) -> Account {
     let mut data = Observation::of(file, MOST_ROWS);
     let (mut solution, courses) = fit_beside(&request.model, &mut data);
+    if let Some(other) = other_law(&solution, &data) {
+        solution = other;
+    }
+    let rival = gap_or(&mut solution, &data);
     if solution.status[0] != Status::Identified
         && let Some(simpler) = simpler(&solution, &data)
     {
@@ -150,6 +158,7 @@ fn pressed(file: &LoadCycle, request: &Request) -> Account {
     let candidates = Candidates::new(&shapes(EFFECTS), &data);
     let noise = screen(&data, &candidates);
     law_error::widen(&mut solution, &data, &noise);
+    law_error::widen_by_flanks(&mut solution, &data);
     let (low, high) = data.load_range();
     let branches = settled_cycle(&solution.model, &solution.p, &data.scene, low, high);
     let site = file.site();
@@ -176,6 +185,7 @@ fn pressed(file: &LoadCycle, request: &Request) -> Account {
         straight,
         second,
         courses,
+        rival,
         warnings: Vec::new(),
         doubts: Vec::new(),
     }
@@ -242,6 +252,11 @@ fn warnings(account: &Account, file: &LoadCycle) -> Vec<String> {
              (`ident diagnose {}` weighs it)",
             account.courses.join(", "),
             file.path.display()
+        ));
+    }
+    if let Some(rival) = account.rival {
+        said.push(format!(
+            "these data do not tell a gap from {rival}: no gap is told"
         ));
     }
     if account.solution.rms > MISSED * account.noise_rms {

@@ -55,7 +55,9 @@ fn next(before: &Solution, data: &Observation) -> Option<(&'static dyn Effect, S
         let all: Vec<&'static dyn Effect> = own.iter().copied().chain([effect]).collect();
         let model = Composite::new(&all);
         let fits = model.len() <= crate::effects::contract::MOST;
-        let (start, most) = fits.then(|| guess(effect, before, data))??;
+        let guess = fits.then(|| guess(effect, &before.model, &before.p, data))??;
+        let most = -0.5 * data.rows() as f64 * guess.left.max(f64::MIN_POSITIVE).ln();
+        let start: Vec<f64> = before.p.iter().copied().chain(guess.p).collect();
         let ignored = vec![false; data.rows()];
         let after = || fit_from(&model, data, &[start], &ignored);
         (most > price(effect, data)).then(|| (effect, after()))
@@ -76,20 +78,30 @@ fn price(effect: &dyn Effect, data: &Observation) -> f64 {
     BEYOND + 0.5 * effect.card().parameters.len() as f64 * (data.rows() as f64).ln()
 }
 
-/// Where a fit with a course begins: at the one before, with the curve of the course that lowers its sum of squares
-/// most; and the nats that are in it at most, which are those of white noise.
-fn guess(
+/// Where a fit with one more effect begins.
+pub(super) struct Guess {
+    /// Parameters of the effect.
+    pub p: Vec<f64>,
+    /// Sum of squares that its curve leaves, over that without it, both by the linear model about the one before.
+    pub left: f64,
+    /// Sum of squares without it.
+    pub without: f64,
+}
+
+/// The curve of one more effect that lowers the sum of squares of a model most.
+pub(super) fn guess(
     effect: &'static dyn Effect,
-    before: &Solution,
+    before: &Composite,
+    p: &[f64],
     data: &Observation,
-) -> Option<(Vec<f64>, f64)> {
+) -> Option<Guess> {
     let problem = Problem {
-        model: &before.model,
+        model: before,
         data,
         colour: &Colour::white(data.rows(), 1.0),
         ignored: &vec![false; data.rows()],
     };
-    let (residual, jacobian) = problem.linearise(&before.p, &problem.scale());
+    let (residual, jacobian) = problem.linearise(p, &problem.scale());
     let basis = jacobian.qr().q();
     let beside = |v: &DVector<f64>| v - &basis * basis.tr_mul(v);
     let own = beside(&residual);
@@ -103,9 +115,12 @@ fn guess(
     let best = candidates.atoms.into_iter().filter_map(gain);
     let (gain, amount, mut p) = best.max_by(|a, b| a.0.total_cmp(&b.0))?;
     p[0] = amount;
-    let all = own.norm_squared();
-    let nats = -0.5 * data.rows() as f64 * (1.0 - gain / all).max(f64::MIN_POSITIVE).ln();
-    Some((before.p.iter().copied().chain(p).collect(), nats))
+    let without = own.norm_squared();
+    Some(Guess {
+        p,
+        left: 1.0 - gain / without,
+        without,
+    })
 }
 
 /// Rise of the log likelihood from one noise to another, each that of its own residual.

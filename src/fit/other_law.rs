@@ -1,0 +1,180 @@
+//! A joint that bends by other laws than those asked for. A gap and slips of springs in parallel are what a joint mostly
+//! has; the curve may as well stiffen without a gap, or slip without an end, and the numbers of the wrong law would be
+//! wrong.
+
+use super::observation::Observation;
+use super::parameter::Status;
+use super::solution::{Solution, fit_from, fit_until};
+use super::time_course::{guess, nats};
+use crate::effects::composite::Slot;
+use crate::effects::{Composite, Effect, named};
+use crate::inference::descent::Stop;
+use crate::signal::smooth::noise;
+
+/// The cause whose size must not be that of another law.
+const GAP: &str = "backlash";
+/// What may change: the cause whose law goes, if one goes, and the law that comes.
+const CHANGES: [(Option<&str>, &str); 5] = [
+    (Some(GAP), "cubic_stiffness"),
+    (Some(GAP), "soft_zone"),
+    (Some(GAP), "hertz_contact"),
+    (Some("hysteresis"), "bouc_wen"),
+    (None, "cubic_stiffness"),
+];
+/// Most changes, one after the other.
+const MOST: usize = 2;
+/// What a model leaves, over the scatter of neighbours, above which other laws are tried.
+const LEFT: f64 = 1.03;
+/// What a law leaves about the parameters of the one before, in sums of squares of what that left, above which no descent is
+/// tried: with hundreds of rows, a hundred nats and more would have to come from there.
+const HOPELESS: f64 = 50.0;
+/// Rows with which laws are compared at first.
+const QUICK: usize = 400;
+/// Where a descent ends that only compares: a nat is a hundredth of these rows' sum of squares.
+const COMPARED: Stop = Stop::at_share(20, 1e-4);
+/// Nats that another law must gain beyond half the logarithm of the rows for each parameter that it has more (Schwarz 1978),
+/// and that a gap must be ahead of every law without one.
+const BEYOND: f64 = 5.0;
+
+/// The fit by the laws that the readings demand in the place of those of `asked`; `None` where those suffice, or where no
+/// other helps. Only a model with a gap is changed: who asks for other laws gets them.
+pub fn other_law(asked: &Solution, data: &Observation) -> Option<Solution> {
+    gap(asked).filter(|_| misses(asked))?;
+    let coarse = data.coarser(QUICK);
+    let quick = coarse.as_ref().unwrap_or(data);
+    let mut found = again(asked, quick);
+    for _change in 0..MOST {
+        let each = CHANGES.iter().filter_map(|c| changed(&found, *c, quick));
+        let best = each.max_by(|a, b| a.0.total_cmp(&b.0));
+        match best.filter(|(ahead, _)| misses(&found) && *ahead > BEYOND) {
+            Some((_, better)) => found = better,
+            None => break,
+        }
+    }
+    let after = again(&found, data);
+    (ahead(&after, asked, data) > BEYOND).then_some(after)
+}
+
+/// Takes a gap back that the readings do not tell from a law without one: the better fit counts, and the stiffness is as
+/// uncertain as the two differ. The cause of that law; `None` where the gap is told, or none is there.
+pub fn gap_or(solution: &mut Solution, data: &Observation) -> Option<&'static str> {
+    let own = gap(solution).filter(|j| solution.status[*j] == Status::Identified)?;
+    let rival = match data.coarser(QUICK) {
+        Some(quick) => again(&rival(&again(solution, &quick), &quick)?, data),
+        None => rival(solution, data)?,
+    };
+    let ahead = ahead(&rival, solution, data);
+    if ahead < -BEYOND {
+        return None;
+    }
+    let own_names: Vec<&str> = solution
+        .model
+        .effects()
+        .iter()
+        .map(|e| e.card().name)
+        .collect();
+    let mut others = rival.model.effects().iter().map(|e| e.card());
+    let cause = others.find(|card| !own_names.contains(&card.name))?.cause;
+    let apart = (rival.p[0] - solution.p[0]).powi(2);
+    let other = 1.0 / (1.0 + ahead.abs().exp());
+    if ahead > 0.0 {
+        *solution = rival;
+    } else {
+        solution.status[own] = Status::NotIdentifiable;
+    }
+    solution.covariance[(0, 0)] += other * apart;
+    Some(cause)
+}
+
+/// The best fit without a gap, where no gap is clearly ahead of it.
+fn rival(solution: &Solution, data: &Observation) -> Option<Solution> {
+    let without = CHANGES.iter().filter(|(goes, _)| *goes == Some(GAP));
+    let each = without.filter_map(|c| changed(solution, *c, data));
+    let best = each.max_by(|a, b| a.0.total_cmp(&b.0));
+    best.filter(|(ahead, _)| *ahead > -BEYOND)
+        .map(|(_, rival)| rival)
+}
+
+/// Whether a fit leaves more than the scatter of neighbours.
+fn misses(fitted: &Solution) -> bool {
+    fitted.rms > LEFT * noise(&fitted.residual)
+}
+
+/// The same model fitted to other data of the same joint.
+fn again(fitted: &Solution, data: &Observation) -> Solution {
+    let ignored = vec![false; data.rows()];
+    fit_from(
+        &fitted.model,
+        data,
+        std::slice::from_ref(&fitted.p),
+        &ignored,
+    )
+}
+
+/// Nats by which one fit is ahead of another, half the logarithm of the rows for each parameter that it has more taken off.
+fn ahead(one: &Solution, other: &Solution, data: &Observation) -> f64 {
+    let more = one.model.len() as f64 - other.model.len() as f64;
+    nats(&other.colour, &one.colour) - 0.5 * more * (data.rows() as f64).ln()
+}
+
+/// The place of the gap among the parameters.
+fn gap(solution: &Solution) -> Option<usize> {
+    let slots = solution.model.slots();
+    slots
+        .iter()
+        .position(|s| s.amplitude && s.effect.card().cause == GAP)
+}
+
+/// The fit after a change, and by how many nats it is ahead of the one before; `None` where the model has nothing to give
+/// up, or the law already.
+fn changed(
+    before: &Solution,
+    (goes, comes): (Option<&str>, &str),
+    data: &Observation,
+) -> Option<(f64, Solution)> {
+    let own = before.model.effects();
+    let gone = |effect: &dyn Effect| goes.is_some_and(|cause| effect.card().cause == cause);
+    let comes = named(comes)?;
+    let has = own.iter().any(|e| e.card().name == comes.card().name);
+    let lacks = goes.is_some() && !own.iter().any(|e| gone(*e));
+    if has || lacks {
+        return None;
+    }
+    let mut effects: Vec<&'static dyn Effect> = own.iter().copied().filter(|e| !gone(*e)).collect();
+    let kept = Composite::new(&effects);
+    let guess = guess(comes, &kept, &parameters(&kept, before, comes, &[]), data)?;
+    if guess.left * guess.without > HOPELESS * before.rms.powi(2) * data.rows() as f64 {
+        return None;
+    }
+    effects.push(comes);
+    let model = Composite::new(&effects);
+    let start = parameters(&model, before, comes, &guess.p);
+    let ignored = vec![false; data.rows()];
+    let after = fit_until(&model, data, &[start], &ignored, COMPARED);
+    Some((ahead(&after, before, data), after))
+}
+
+/// The parameters of a model: what stays as it was before, those of the law that comes as given.
+fn parameters(
+    model: &Composite,
+    before: &Solution,
+    comes: &'static dyn Effect,
+    given: &[f64],
+) -> Vec<f64> {
+    let old = before.model.slots();
+    let new = comes.card().parameters;
+    let each = model.slots().into_iter();
+    each.filter_map(|slot| {
+        let (effect, name) = (slot.effect.card().name, slot.parameter.name);
+        if effect == comes.card().name {
+            return new
+                .iter()
+                .zip(given)
+                .find(|(q, _)| q.name == name)
+                .map(|(_, v)| *v);
+        }
+        let is_it = |s: &Slot| s.effect.card().name == effect && s.parameter.name == name;
+        old.iter().position(is_it).map(|j| before.p[j])
+    })
+    .collect()
+}
