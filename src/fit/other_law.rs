@@ -13,7 +13,8 @@ use crate::signal::smooth::noise;
 
 /// The cause whose size must not be that of another law.
 const GAP: &str = "backlash";
-/// What may change: the cause whose law goes, if one goes, and the law that comes.
+/// What may change: the cause whose law goes, if one goes, and the law that comes. Beside another curve none comes: the two
+/// would share the spring out between them.
 const CHANGES: [(Option<&str>, &str); 5] = [
     (Some(GAP), "cubic_stiffness"),
     (Some(GAP), "soft_zone"),
@@ -136,7 +137,10 @@ fn changed(
     let gone = |effect: &dyn Effect| goes.is_some_and(|cause| effect.card().cause == cause);
     let comes = named(comes)?;
     let has = own.iter().any(|e| e.card().name == comes.card().name);
-    let lacks = goes.is_some() && !own.iter().any(|e| gone(*e));
+    let lacks = match goes {
+        Some(_) => !own.iter().any(|e| gone(*e)),
+        None => gap(before).is_none(),
+    };
     if has || lacks {
         return None;
     }
