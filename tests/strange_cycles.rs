@@ -2,6 +2,7 @@
 
 use ident::effects::Composite;
 use ident::findings::{Diagnosis, Settings, Verdict, diagnose};
+use ident::fit::parameter::Identified;
 use ident::fit::stiffness::{DEFAULT_EFFECTS, Request, identify};
 use ident::fit::suitability::is_fatal;
 use ident::ground::random::Random;
@@ -174,24 +175,66 @@ fn a_zero_of_any_size_hides_no_gap() {
     }
 }
 
-/// A joint that stiffens, to a verb that knows gaps and slip: no gap is stated, and the interval of the stiffness reaches
-/// as far as the law is wrong. It was 2.6 % wide on either side, and a gap of 78 ± 23 µrad stood beside it.
-#[test]
-fn a_law_that_does_not_fit_widens_what_it_tells() {
+/// What `stiffness` tells of a joint that bends so under three triangles of load.
+fn told(bent: impl Fn(f64) -> f64) -> Vec<Identified> {
     let load = triangles(900);
-    let bent = |u: f64| {
-        let step = |x: f64| x - (x + 0.4 * x.powi(3) - u) / (1.0 + 1.2 * x * x);
-        (0..60).fold(u, |x, _| step(x))
-    };
     let deflection: Vec<f64> = load.iter().map(|u| bent(*u)).collect();
     let request = Request {
         model: Composite::named(DEFAULT_EFFECTS).unwrap(),
         bootstrap: 0,
         seed: 1,
     };
-    let told = identify(&file(&load, &deflection, 0.3, 3), &request).parameters;
-    let gap = told.iter().find(|p| p.name == "backlash").unwrap();
-    assert!(gap.ci95.is_none(), "{:?}", gap.ci95);
-    let [low, high] = told[0].ci95.unwrap();
-    assert!((high - low) / (high + low) > 0.08, "{low:e} {high:e}");
+    identify(&file(&load, &deflection, 0.3, 3), &request).parameters
+}
+
+fn interval(told: &[Identified], name: &str) -> Option<[f64; 2]> {
+    told.iter().find(|p| p.name == name).unwrap().ci95
+}
+
+/// A joint that stiffens by a cube of its deflection, by contacts that flatten, or whose second spring gives way up to a
+/// load, has no gap; its stiffness is that of the spring. All three came back with one.
+#[test]
+fn what_stiffens_without_a_gap_is_told_without_one() {
+    let cube = |u: f64| {
+        let step = |x: f64| x - (x + 0.4 * x.powi(3) - u) / (1.0 + 1.2 * x * x);
+        (0..60).fold(u, |x, _| step(x))
+    };
+    let contact = |u: f64| u + 0.3 * u.signum() * u.abs().powf(2.0 / 3.0);
+    let second = |u: f64| u + 0.2 * (u / 0.3).tanh();
+    let laws: [&dyn Fn(f64) -> f64; 3] = [&cube, &contact, &second];
+    for (law, bent) in laws.iter().enumerate() {
+        let told = told(bent);
+        assert_eq!(interval(&told, "backlash"), None, "law {law}");
+        let [low, high] = interval(&told, "stiffness").unwrap();
+        assert!(
+            low < STIFFNESS && STIFFNESS < high,
+            "law {law}: {low:e} {high:e}"
+        );
+    }
+}
+
+/// A gap beside a joint that stiffens, and one alone, are told.
+#[test]
+fn a_gap_beside_a_curve_is_told() {
+    let gap = |u: f64| 0.04 * (u / 0.004).tanh();
+    let stiffened = |u: f64| {
+        let step = |x: f64| x - (x + 0.4 * x.powi(3) - u) / (1.0 + 1.2 * x * x);
+        (0..60).fold(u, |x, _| step(x)) + gap(u)
+    };
+    let straight = |u: f64| u + gap(u);
+    let laws: [&dyn Fn(f64) -> f64; 2] = [&straight, &stiffened];
+    let hidden = 0.08 * LARGEST / STIFFNESS;
+    for (law, bent) in laws.iter().enumerate() {
+        let [low, high] = interval(&told(bent), "backlash").unwrap();
+        assert!(low < hidden && hidden < high, "law {law}: {low:e} {high:e}");
+    }
+}
+
+/// A joint that ripples over its load, to a verb that knows no such law: the interval of the stiffness reaches as far as the
+/// law is wrong.
+#[test]
+fn a_law_that_does_not_fit_widens_what_it_tells() {
+    let told = told(|u| u + 0.04 * (9.0 * u).sin());
+    let [low, high] = interval(&told, "stiffness").unwrap();
+    assert!((high - low) / (high + low) > 0.04, "{low:e} {high:e}");
 }

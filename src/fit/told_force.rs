@@ -9,6 +9,8 @@ const FINE: f64 = 0.05;
 const FILLED: f64 = 0.4;
 /// Fewer distinct forces than this lie on a common grid by choice: 100, 500 and 1000 N are no display of 100 N.
 const FEWEST: usize = 8;
+/// Steps that are a little unequal in one grid were rounded to it, from so many on.
+const STEPS: u64 = 3;
 /// No display is coarser than this share of the largest force that is read from it.
 const COARSEST: f64 = 0.02;
 
@@ -30,9 +32,23 @@ pub fn grid(forces: impl Iterator<Item = f64>) -> Option<f64> {
     let last = *parts.last()?;
     let share = common as f64 / last as f64;
     let filled = parts.len() as f64 * share;
-    let rounded = filled < FILLED && parts.len() >= FEWEST && share < COARSEST;
+    let rounded = filled < FILLED && parts.len() >= FEWEST || steps_rounded(&parts, common);
     let grid = common as f64 * FINEST;
-    (rounded && grid > FINE).then_some(grid)
+    (rounded && share < COARSEST && grid > FINE).then_some(grid)
+}
+
+/// Whether these were equal steps before they were rounded to a grid: 265, 535 and 800 N are thirds of 800 to five.
+fn steps_rounded(parts: &[u64], grid: u64) -> bool {
+    let (count, Some(last)) = (parts.len() as u64, parts.last()) else {
+        return false;
+    };
+    // in units of a count-th part of the finest: step i off i·last/count, by half a grid of its own and of the last's
+    let off = |(i, part): (usize, &u64)| (part * count).abs_diff((i as u64 + 1) * last);
+    let may = |i: usize| grid * (count + i as u64 + 1) / 2;
+    let near = |step: (usize, &u64)| off(step) <= may(step.0);
+    let equal = |step: (usize, &u64)| off(step) == 0;
+    let steps = || parts.iter().enumerate();
+    count >= STEPS && steps().all(near) && !steps().all(equal)
 }
 
 /// The sizes of force (N) that occur, ascending, none twice and not zero.
@@ -63,6 +79,10 @@ mod tests {
         let rounded = [0.0, 105.0, 215.0, 320.0, -110.0, 415.0, 525.0, 610.0, 705.0];
         assert_eq!(grid(rounded.into_iter()), Some(5.0));
         assert_eq!(grid(rounded.into_iter().take(5)), None);
+        let thirds = [0.0, 265.0, 535.0, 800.0, -265.0];
+        assert_eq!(grid(thirds.into_iter()), Some(5.0));
+        let chosen = [0.0, 265.0, 600.0, 800.0];
+        assert_eq!(grid(chosen.into_iter()), None);
         let exact = [0.0, 104.9931, 213.4452];
         assert_eq!(grid(exact.into_iter()), None);
     }
