@@ -5,6 +5,8 @@
 pub enum Law {
     /// A gap crossed evenly within this torque to either side, N·m: no drive moves without any.
     Free(f64),
+    /// The same where no weight presses it.
+    Unpressed(f64),
     /// A gap crossed at once, and only under more torque than this, N·m: friction holds the axis where
     /// it was left last.
     Held(f64),
@@ -34,6 +36,7 @@ impl Law {
         let torque = press.load + press.weight;
         match self {
             Self::Free(within) => 0.5 * (torque / within).clamp(-1.0, 1.0),
+            Self::Unpressed(within) => 0.5 * (press.load / within).clamp(-1.0, 1.0),
             Self::Held(by) if torque.abs() > by => 0.5 * torque.signum(),
             Self::Held(_) => last,
             Self::OneSided(sign) => press.soft * sign * (sign * press.load).max(0.0),

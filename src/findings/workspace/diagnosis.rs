@@ -90,7 +90,7 @@ impl Case<'_> {
         let named = self.name(&chosen);
         let rest = adequacy.rest(strange.is_some());
         let mut answer = Answer {
-            verdict: match scattered(&named.causes) {
+            verdict: match scattered(&named.causes, strange.is_some()) {
                 true => Verdict::UnknownCause,
                 false => verdict(&named, &rest, &self.judgement),
             },
@@ -167,8 +167,9 @@ impl Case<'_> {
     }
 }
 
-/// Whether so many points are blamed that it is none of them: stiffness depends on the posture.
-fn scattered(causes: &[Cause]) -> bool {
+/// Whether so many points are blamed that it is none of them: stiffness depends on the posture, or, beside a `strange`
+/// pattern, that pattern is another one.
+fn scattered(causes: &[Cause], strange: bool) -> bool {
     let points = causes.iter().filter(|c| c.site.starts_with("point"));
-    points.count() > 2
+    points.count() > if strange { 1 } else { 2 }
 }

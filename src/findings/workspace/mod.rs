@@ -14,6 +14,7 @@ mod limits;
 mod name;
 mod next;
 mod patterns;
+mod play;
 mod remains;
 mod search;
 mod seats;

@@ -1,6 +1,7 @@
 //! Patterns that no cause of the library has, kept beside it so that they take no neighbour's name:
 //! where one of them explains the error best, the cause is unknown, and this is what is seen.
 
+use super::play::Play;
 use crate::causes::contract::{Amount, Blame, Card, Cause, Sight};
 use crate::causes::places::{UNIT_COMPLIANCE, added, drives, number_in, soften};
 use crate::effects::Family;
@@ -12,7 +13,7 @@ use crate::robot::{Robot, Spring};
 use nalgebra::{DMatrix, DVector};
 
 /// All of them.
-pub const STRANGERS: &[&dyn Cause] = &[&Shift, &Uneven, &Wave];
+pub const STRANGERS: &[&dyn Cause] = &[&Shift, &Uneven, &Wave, &Play];
 
 /// Whether a cause is none of the library.
 pub fn is_stranger(cause: &dyn Cause) -> bool {
