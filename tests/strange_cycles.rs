@@ -175,6 +175,15 @@ fn a_zero_of_any_size_hides_no_gap() {
     }
 }
 
+/// Loads in equal steps put the readings on a lattice, and no converter does: each lies on it within the noise, which is far
+/// less than rounding to it would be.
+#[test]
+fn equal_steps_of_load_are_no_coarse_converter() {
+    let load = triangles(54);
+    let found = judged(&file(&load, &load, 5.0, 11));
+    assert_eq!(found.verdict, Verdict::Sufficient, "{:?}", found.causes);
+}
+
 /// What `stiffness` tells of a joint that bends so under three triangles of load.
 fn told(bent: impl Fn(f64) -> f64) -> Vec<Identified> {
     let load = triangles(900);

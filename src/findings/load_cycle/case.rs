@@ -19,6 +19,9 @@ use crate::signal::lattice;
 /// Steps of a lattice above this many times the noise at high frequency are coarse: their rounding,
 /// step/√12, is then half of it or more.
 const COARSE: f64 = 1.73;
+/// Steps of a lattice above this many times the noise round nothing: rounding would be 2.5 times that noise. Readings lie on
+/// such a lattice because the load does, in equal steps.
+const SEEN: f64 = 8.7;
 /// Share of a coarse step that an effect must move the readings to be seen.
 const HALF_STEP: f64 = 0.3;
 /// Iterations of a law's fit, and points that it starts from.
@@ -52,8 +55,9 @@ impl<'a> Case<'a> {
         let colour = noise.colour(factor);
         let start = [data.scene.load_scale / data.scene.deflection_scale];
         let plain = refine_from(Composite::new(&[]), &start, &data, &colour, FIT.0);
+        let shown = found.answer.discrepancy.noise_rms;
         let step = lattice::step(&file.deflection)
-            .filter(|s| *s > COARSE * colour.floor())
+            .filter(|s| *s > COARSE * colour.floor() && *s < SEEN * shown)
             .or_else(|| lattice::plain_step(&file.deflection));
         Self {
             file,
