@@ -240,10 +240,11 @@ fn a_gap_beside_a_curve_is_told() {
 }
 
 /// A joint that ripples over its load, to a verb that knows no such law: the interval of the stiffness reaches as far as the
-/// law is wrong.
+/// law is wrong, or none is told.
 #[test]
 fn a_law_that_does_not_fit_widens_what_it_tells() {
     let told = told(|u| u + 0.04 * (9.0 * u).sin());
-    let [low, high] = interval(&told, "stiffness").unwrap();
-    assert!((high - low) / (high + low) > 0.04, "{low:e} {high:e}");
+    let wide = |[low, high]: [f64; 2]| (high - low) / (high + low) > 0.04;
+    let stiffness = interval(&told, "stiffness");
+    assert!(stiffness.is_none_or(wide), "{stiffness:?}");
 }

@@ -118,6 +118,12 @@ fn ahead(one: &Solution, other: &Solution, data: &Observation) -> f64 {
     nats(&other.colour, &one.colour) - 0.5 * more * (data.rows() as f64).ln()
 }
 
+/// Largest gap that a fit allows (95 %): it holds where another law explains what the gap did.
+pub fn gap_limit(solution: &Solution) -> Option<f64> {
+    let limit = solution.limit(gap(solution)?);
+    (limit.is_finite() && limit > 0.0).then_some(limit)
+}
+
 /// The place of the gap among the parameters.
 fn gap(solution: &Solution) -> Option<usize> {
     let slots = solution.model.slots();

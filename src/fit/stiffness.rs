@@ -5,7 +5,7 @@ use super::derived::derived;
 use super::imposed::{self, fit_imposed, is_imposed};
 use super::law_error;
 use super::observation::{MOST_ROWS, Observation};
-use super::other_law::{gap_or, other_law};
+use super::other_law::{gap_limit, gap_or, other_law};
 use super::parameter::{Identified, Status, Z95};
 use super::solution::Solution;
 use super::supported::{simpler, unsaid};
@@ -146,6 +146,7 @@ fn moved(file: &LoadCycle) -> Account {
 fn pressed(file: &LoadCycle, request: &Request) -> Account {
     let mut data = Observation::of(file, MOST_ROWS);
     let (mut solution, courses) = fit_beside(&request.model, &mut data);
+    let most = gap_limit(&solution);
     if let Some(other) = other_law(&solution, &data) {
         solution = other;
     }
@@ -168,6 +169,10 @@ fn pressed(file: &LoadCycle, request: &Request) -> Account {
         widen(&mut parameters, &intervals, &mut solution);
     }
     parameters.extend(unsaid(&request.model, &solution.model, &site, file.port));
+    for gap in parameters.iter_mut().filter(|p| p.name == "gap") {
+        let absent = gap.value.is_none() && gap.limit95.is_none();
+        gap.limit95 = if absent { most } else { gap.limit95 };
+    }
     rename(&mut parameters);
     let fits = solution.rms <= MISSED * noise.rms;
     parameters.extend(derived(&solution, &data, file, fits));
