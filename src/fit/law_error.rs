@@ -4,10 +4,10 @@
 
 use super::least_squares::Problem;
 use super::observation::Observation;
+use super::other_law::GAP;
 use super::parameter::Status;
 use super::screen::{laws, orthonormal};
 use super::solution::{Solution, UNSUPPORTED};
-use crate::effects::composite::Slot;
 use crate::signal::colour::Colour;
 use nalgebra::{DMatrix, DVector};
 
@@ -31,27 +31,26 @@ pub fn widen(solution: &mut Solution, data: &Observation, noise: &Colour) {
     add(&basis, variance, solution, data);
 }
 
-/// Widens the covariance of a fit with a gap by what is not known of its flanks: how they close is a law like another, and
-/// the gap and the spring beside it are read off its tails. One deviation is what lies between flanks that close by a power
-/// of the load and such that close exponentially.
+/// Causes that saturate, and how many of their amplitudes one side of zero takes: amplitude first, then the load at which.
+const SATURATING: [(&str, f64); 2] = [(GAP, 0.5), ("soft_zone", 1.0)];
+
+/// Widens the covariance of a fit with a gap or a soft zone by what is not known of how flanks close: that is a law like
+/// another, and the size and the spring beside it are read off its tails. One deviation is what lies between flanks that close
+/// by a power of the load and such that close exponentially.
 pub fn widen_by_flanks(solution: &mut Solution, data: &Observation) {
-    let slots = solution.model.slots();
-    let is_gap = |s: &Slot| s.amplitude && s.effect.card().cause == "backlash";
-    let Some(gap) = slots.iter().position(is_gap) else {
-        return;
-    };
-    let (half, contact) = (0.5 * solution.p[gap], solution.p[gap + 1]);
-    let between = |load: &f64| {
-        let x = load / contact;
-        half * (x.tanh() - x / x.hypot(1.0))
-    };
-    let column: Vec<f64> = data.scene.load.iter().map(between).collect();
-    add(
-        &DMatrix::from_vec(data.rows(), 1, column),
-        1.0,
-        solution,
-        data,
-    );
+    for (cause, share) in SATURATING {
+        let Some(own) = solution.amplitude_of(cause) else {
+            continue;
+        };
+        let (side, at) = (share * solution.p[own], solution.p[own + 1]);
+        let between = |load: &f64| {
+            let x = load / at;
+            side * (x.tanh() - x / x.hypot(1.0))
+        };
+        let column: Vec<f64> = data.scene.load.iter().map(between).collect();
+        let column = DMatrix::from_vec(data.rows(), 1, column);
+        add(&column, 1.0, solution, data);
+    }
 }
 
 /// Adds what errors of this variance along each of these functions do to the parameters.

@@ -5,6 +5,7 @@ pub mod bootstrap;
 pub mod candidates;
 pub mod compare;
 pub mod compare_causes;
+mod comparison;
 pub mod compliance;
 pub mod convex;
 pub mod cubes;

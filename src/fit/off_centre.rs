@@ -1,9 +1,9 @@
 //! A gap that does not lie at zero load: the law of a gap about zero would give a wrong size, and the spring beside it the rest.
 
+use super::comparison::{nats, price};
 use super::observation::Observation;
 use super::parameter::Status;
 use super::solution::{Solution, fit_from};
-use super::time_course::nats;
 use crate::effects::{Composite, Effect, OFFSET_GAP};
 use crate::signal::smooth::noise;
 
@@ -68,6 +68,6 @@ pub fn off_centre(centred: &Solution, data: &Observation) -> Option<Solution> {
     let starts: Vec<Vec<f64>> = PLACES.iter().map(|place| start(*place)).collect();
     let found = fit_from(&model, data, &starts, &vec![false; data.rows()]);
     let gained = nats(&centred.colour, &found.colour);
-    let is_worth_it = gained > 0.5 * MORE * (data.rows() as f64).ln();
+    let is_worth_it = gained > price(MORE, data.rows());
     (is_worth_it && (is_there || !is_left(&found))).then_some(found)
 }

@@ -2,17 +2,17 @@
 //! has; the curve may as well stiffen without a gap, or slip without an end, and the numbers of the wrong law would be
 //! wrong.
 
+use super::comparison::{BEYOND, ahead, misses};
 use super::observation::Observation;
 use super::parameter::Status;
 use super::solution::{Solution, fit_from, fit_until};
-use super::time_course::{guess, nats};
+use super::time_course::guess;
 use crate::effects::composite::Slot;
 use crate::effects::{Composite, Effect, named};
 use crate::inference::descent::Stop;
-use crate::signal::smooth::noise;
 
 /// The cause whose size must not be that of another law.
-const GAP: &str = "backlash";
+pub const GAP: &str = "backlash";
 /// What may change: the cause whose law goes, if one goes, and the law that comes. Beside another curve none comes: the two
 /// would share the spring out between them.
 const CHANGES: [(Option<&str>, &str); 5] = [
@@ -24,33 +24,51 @@ const CHANGES: [(Option<&str>, &str); 5] = [
 ];
 /// Most changes, one after the other.
 const MOST: usize = 2;
-/// What a model leaves, over the scatter of neighbours, above which other laws are tried.
-const LEFT: f64 = 1.03;
 /// What a law leaves about the parameters of the one before, in sums of squares of what that left, above which no descent is
-/// tried: with hundreds of rows, a hundred nats and more would have to come from there.
+/// tried: it would have to gain two nats a row.
 const HOPELESS: f64 = 50.0;
 /// Rows with which laws are compared at first.
 const QUICK: usize = 400;
-/// Where a descent ends that only compares: a nat is a hundredth of these rows' sum of squares.
+/// Where a descent ends that only compares: this share of the sum of so many rows' squares is a fiftieth of a nat.
 const COMPARED: Stop = Stop::at_share(20, 1e-4);
-/// Nats that another law must gain beyond half the logarithm of the rows for each parameter that it has more (Schwarz 1978),
-/// and that a gap must be ahead of every law without one.
-const BEYOND: f64 = 5.0;
 
-/// The fit by the laws that the readings demand in the place of those of `asked`; `None` where those suffice, or where no
-/// other helps. Only a model with a gap is changed: who asks for other laws gets them.
-pub fn other_law(asked: &Solution, data: &Observation) -> Option<Solution> {
-    gap(asked).filter(|_| misses(asked))?;
+/// What became of the gap of a model.
+pub struct Gap {
+    /// The cause whose law does as well, or better; `None` where the gap is told, or none is there.
+    pub rival: Option<&'static str>,
+    /// Largest gap that the law of a gap allows (95 %): it holds where another law explains what the gap did.
+    pub limit: Option<f64>,
+}
+
+/// Puts laws in the place of those of a fit where the readings demand it, and takes a gap back that is not told from a law
+/// without one. Only a model with a gap is changed (`None`: it has none): who asks for other laws gets them.
+pub fn weigh_gap(solution: &mut Solution, data: &Observation) -> Option<Gap> {
+    let own = solution.amplitude_of(GAP)?;
+    let limit = Some(solution.limit(own)).filter(|limit| limit.is_finite() && *limit > 0.0);
+    if misses(solution)
+        && let Some(other) = other_law(solution, data)
+    {
+        *solution = other;
+    }
+    let rival = gap_or(solution, data).or_else(|| in_its_place(&solution.model));
+    Some(Gap { rival, limit })
+}
+
+/// The fit by the laws that the readings demand in the place of those of `asked`, if any are worth it.
+fn other_law(asked: &Solution, data: &Observation) -> Option<Solution> {
     let coarse = data.coarser(QUICK);
     let quick = coarse.as_ref().unwrap_or(data);
-    let mut found = again(asked, quick);
-    for _change in 0..MOST {
-        let each = CHANGES.iter().filter_map(|c| changed(&found, *c, quick));
+    let next = |before: &Solution| {
+        let each = CHANGES.iter().filter_map(|c| changed(before, *c, quick));
         let best = each.max_by(|a, b| a.0.total_cmp(&b.0));
-        match best.filter(|(ahead, _)| misses(&found) && *ahead > BEYOND) {
-            Some((_, better)) => found = better,
-            None => break,
-        }
+        best.filter(|(ahead, _)| misses(before) && *ahead > BEYOND)
+    };
+    let mut found = next(&again(asked, quick))?.1;
+    for _more in 1..MOST {
+        let Some((_, better)) = next(&found) else {
+            break;
+        };
+        found = better;
     }
     let after = again(&found, data);
     (ahead(&after, asked, data) > BEYOND).then_some(after)
@@ -58,8 +76,11 @@ pub fn other_law(asked: &Solution, data: &Observation) -> Option<Solution> {
 
 /// Takes a gap back that the readings do not tell from a law without one: the better fit counts, and the stiffness is as
 /// uncertain as the two differ. The cause of that law; `None` where the gap is told, or none is there.
-pub fn gap_or(solution: &mut Solution, data: &Observation) -> Option<&'static str> {
-    let own = gap(solution).filter(|j| solution.status[*j] == Status::Identified)?;
+fn gap_or(solution: &mut Solution, data: &Observation) -> Option<&'static str> {
+    let own = solution.amplitude_of(GAP)?;
+    if solution.status[own] != Status::Identified {
+        return None;
+    }
     let rival = match data.coarser(QUICK) {
         Some(quick) => again(&rival(&again(solution, &quick), &quick)?, data),
         None => rival(solution, data)?,
@@ -68,14 +89,7 @@ pub fn gap_or(solution: &mut Solution, data: &Observation) -> Option<&'static st
     if ahead < -BEYOND {
         return None;
     }
-    let own_names: Vec<&str> = solution
-        .model
-        .effects()
-        .iter()
-        .map(|e| e.card().name)
-        .collect();
-    let mut others = rival.model.effects().iter().map(|e| e.card());
-    let cause = others.find(|card| !own_names.contains(&card.name))?.cause;
+    let cause = in_its_place(&rival.model)?;
     let apart = (rival.p[0] - solution.p[0]).powi(2);
     let other = 1.0 / (1.0 + ahead.abs().exp());
     if ahead > 0.0 {
@@ -87,6 +101,16 @@ pub fn gap_or(solution: &mut Solution, data: &Observation) -> Option<&'static st
     Some(cause)
 }
 
+/// The cause of the law that stands in the place of the gap.
+fn in_its_place(model: &Composite) -> Option<&'static str> {
+    let comes = |name: &str| model.effects().iter().find(|e| e.card().name == name);
+    let mut laws = CHANGES.iter().filter(|(goes, _)| *goes == Some(GAP));
+    let gone = model.effects().iter().all(|e| e.card().cause != GAP);
+    laws.find_map(|(_, name)| comes(name))
+        .filter(|_| gone)
+        .map(|e| e.card().cause)
+}
+
 /// The best fit without a gap, where no gap is clearly ahead of it.
 fn rival(solution: &Solution, data: &Observation) -> Option<Solution> {
     let without = CHANGES.iter().filter(|(goes, _)| *goes == Some(GAP));
@@ -94,11 +118,6 @@ fn rival(solution: &Solution, data: &Observation) -> Option<Solution> {
     let best = each.max_by(|a, b| a.0.total_cmp(&b.0));
     best.filter(|(ahead, _)| *ahead > -BEYOND)
         .map(|(_, rival)| rival)
-}
-
-/// Whether a fit leaves more than the scatter of neighbours.
-fn misses(fitted: &Solution) -> bool {
-    fitted.rms > LEFT * noise(&fitted.residual)
 }
 
 /// The same model fitted to other data of the same joint.
@@ -110,26 +129,6 @@ fn again(fitted: &Solution, data: &Observation) -> Solution {
         std::slice::from_ref(&fitted.p),
         &ignored,
     )
-}
-
-/// Nats by which one fit is ahead of another, half the logarithm of the rows for each parameter that it has more taken off.
-fn ahead(one: &Solution, other: &Solution, data: &Observation) -> f64 {
-    let more = one.model.len() as f64 - other.model.len() as f64;
-    nats(&other.colour, &one.colour) - 0.5 * more * (data.rows() as f64).ln()
-}
-
-/// Largest gap that a fit allows (95 %): it holds where another law explains what the gap did.
-pub fn gap_limit(solution: &Solution) -> Option<f64> {
-    let limit = solution.limit(gap(solution)?);
-    (limit.is_finite() && limit > 0.0).then_some(limit)
-}
-
-/// The place of the gap among the parameters.
-fn gap(solution: &Solution) -> Option<usize> {
-    let slots = solution.model.slots();
-    slots
-        .iter()
-        .position(|s| s.amplitude && s.effect.card().cause == GAP)
 }
 
 /// The fit after a change, and by how many nats it is ahead of the one before; `None` where the model has nothing to give
@@ -145,7 +144,7 @@ fn changed(
     let has = own.iter().any(|e| e.card().name == comes.card().name);
     let lacks = match goes {
         Some(_) => !own.iter().any(|e| gone(*e)),
-        None => gap(before).is_none(),
+        None => before.amplitude_of(GAP).is_none(),
     };
     if has || lacks {
         return None;

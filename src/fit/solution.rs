@@ -234,6 +234,12 @@ fn judge(model: &Composite, optimum: &Optimum, covariance: &DMatrix<f64>) -> Vec
 }
 
 impl Solution {
+    /// The place of a cause's amplitude among the parameters.
+    pub fn amplitude_of(&self, cause: &str) -> Option<usize> {
+        let is_it = |s: &Slot| s.amplitude && s.effect.card().cause == cause;
+        self.model.slots().iter().position(is_it)
+    }
+
     /// Standard error of parameter j, SI.
     pub fn stderr(&self, j: usize) -> f64 {
         self.covariance[(j, j)].sqrt()

@@ -5,7 +5,7 @@ use super::derived::derived;
 use super::imposed::{self, fit_imposed, is_imposed};
 use super::law_error;
 use super::observation::{MOST_ROWS, Observation};
-use super::other_law::{gap_limit, gap_or, other_law};
+use super::other_law::weigh_gap;
 use super::parameter::{Identified, Status, Z95};
 use super::solution::Solution;
 use super::supported::{simpler, unsaid};
@@ -58,7 +58,7 @@ pub struct Account {
     pub second: Option<(f64, f64)>,
     /// Effects over time that are no part of the joint and were taken off the readings.
     pub courses: Vec<&'static str>,
-    /// The cause that does as well as a gap.
+    /// The cause that does as well as a gap, or better; none is told then.
     pub rival: Option<&'static str>,
     /// What needs attention, one sentence each.
     pub warnings: Vec<String>,
@@ -146,11 +146,7 @@ fn moved(file: &LoadCycle) -> Account {
 fn pressed(file: &LoadCycle, request: &Request) -> Account {
     let mut data = Observation::of(file, MOST_ROWS);
     let (mut solution, courses) = fit_beside(&request.model, &mut data);
-    let most = gap_limit(&solution);
-    if let Some(other) = other_law(&solution, &data) {
-        solution = other;
-    }
-    let rival = gap_or(&mut solution, &data);
+    let gap = weigh_gap(&mut solution, &data);
     if solution.status[0] != Status::Identified
         && let Some(simpler) = simpler(&solution, &data)
     {
@@ -169,9 +165,11 @@ fn pressed(file: &LoadCycle, request: &Request) -> Account {
         widen(&mut parameters, &intervals, &mut solution);
     }
     parameters.extend(unsaid(&request.model, &solution.model, &site, file.port));
-    for gap in parameters.iter_mut().filter(|p| p.name == "gap") {
-        let absent = gap.value.is_none() && gap.limit95.is_none();
-        gap.limit95 = if absent { most } else { gap.limit95 };
+    for own in parameters
+        .iter_mut()
+        .filter(|p| p.name == "gap" && p.value.is_none())
+    {
+        own.limit95 = own.limit95.or(gap.as_ref().and_then(|gap| gap.limit));
     }
     rename(&mut parameters);
     let fits = solution.rms <= MISSED * noise.rms;
@@ -190,7 +188,7 @@ fn pressed(file: &LoadCycle, request: &Request) -> Account {
         straight,
         second,
         courses,
-        rival,
+        rival: gap.and_then(|gap| gap.rival),
         warnings: Vec::new(),
         doubts: Vec::new(),
     }
@@ -261,7 +259,8 @@ fn warnings(account: &Account, file: &LoadCycle) -> Vec<String> {
     }
     if let Some(rival) = account.rival {
         said.push(format!(
-            "these data do not tell a gap from {rival}: no gap is told"
+            "{rival} explains these data as well as a gap, or better: no gap is told (`ident diagnose {}` weighs both)",
+            file.path.display()
         ));
     }
     if account.solution.rms > MISSED * account.noise_rms {

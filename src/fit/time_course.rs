@@ -3,6 +3,7 @@
 //! readings demand them, and taken off.
 
 use super::candidates::{Atom, Candidates};
+use super::comparison::{self, BEYOND, misses, nats};
 use super::least_squares::Problem;
 use super::observation::Observation;
 use super::off_centre::off_centre;
@@ -10,20 +11,15 @@ use super::solution::{Solution, fit, fit_from};
 use crate::effects::{Composite, Effect, named};
 use crate::ground::stats::rms;
 use crate::signal::colour::Colour;
-use crate::signal::smooth::noise;
 use nalgebra::{DMatrix, DVector};
 
 /// Courses that are tried, by the names of their effects.
 const COURSES: [&str; 3] = ["sensor_offset", "thermal_drift", "slip"];
 /// Most that are taken off together.
 const MOST: usize = 2;
-/// What a model leaves, over the scatter of neighbours, above which a course is sought.
-const LEFT: f64 = 1.03;
 /// Least size of a course, as a share of the readings' own (rms): a sixth of what a lever is known to
 /// (`LEVER_REL_STD`), so that no stiffness is moved by what a million rows may show.
 const MATERIAL: f64 = 5e-4;
-/// Nats that a course must gain beyond half the logarithm of the rows per parameter (Schwarz 1978).
-const BEYOND: f64 = 5.0;
 
 /// The fit of a model with the courses that the readings demand, and what these are called; the readings are
 /// less by them after that.
@@ -32,7 +28,7 @@ pub fn fit_beside(model: &Composite, data: &mut Observation) -> (Solution, Vec<&
     let mut best = off_centre(&fitted, data).unwrap_or(fitted);
     let own = best.model.clone();
     let mut taken: Vec<&'static dyn Effect> = Vec::new();
-    while taken.len() < MOST && best.rms > LEFT * noise(&best.residual) {
+    while taken.len() < MOST && misses(&best) {
         let Some((effect, better)) = next(&best, data) else {
             break;
         };
@@ -75,7 +71,7 @@ fn next(before: &Solution, data: &Observation) -> Option<(&'static dyn Effect, S
 
 /// Nats that a course costs.
 fn price(effect: &dyn Effect, data: &Observation) -> f64 {
-    BEYOND + 0.5 * effect.card().parameters.len() as f64 * (data.rows() as f64).ln()
+    BEYOND + comparison::price(effect.card().parameters.len() as f64, data.rows())
 }
 
 /// Where a fit with one more effect begins.
@@ -121,12 +117,6 @@ pub(super) fn guess(
         left: 1.0 - gain / without,
         without,
     })
-}
-
-/// Rise of the log likelihood from one noise to another, each that of its own residual.
-pub(super) fn nats(before: &Colour, after: &Colour) -> f64 {
-    let each = before.sigma.iter().zip(&after.sigma);
-    each.map(|(b, a)| (b / a).ln()).sum()
 }
 
 /// The places of a smaller model's parameters in those of a solution, and what the rest adds to the readings.

@@ -9,8 +9,11 @@ const FINE: f64 = 0.05;
 const FILLED: f64 = 0.4;
 /// Fewer distinct forces than this lie on a common grid by choice: 100, 500 and 1000 N are no display of 100 N.
 const FEWEST: usize = 8;
-/// Steps that are a little unequal in one grid were rounded to it, from so many on.
-const STEPS: u64 = 3;
+/// Steps that are a little unequal in one grid were rounded to it, from so many on: two forces are always near halves of
+/// some grid.
+const STEPS: usize = 3;
+/// Errors of this arithmetic.
+const CALCULATED: f64 = 1e-9;
 /// No display is coarser than this share of the largest force that is read from it.
 const COARSEST: f64 = 0.02;
 
@@ -39,16 +42,17 @@ pub fn grid(forces: impl Iterator<Item = f64>) -> Option<f64> {
 
 /// Whether these were equal steps before they were rounded to a grid: 265, 535 and 800 N are thirds of 800 to five.
 fn steps_rounded(parts: &[u64], grid: u64) -> bool {
-    let (count, Some(last)) = (parts.len() as u64, parts.last()) else {
+    let Some(last) = parts.last() else {
         return false;
     };
-    // in units of a count-th part of the finest: step i off i·last/count, by half a grid of its own and of the last's
-    let off = |(i, part): (usize, &u64)| (part * count).abs_diff((i as u64 + 1) * last);
-    let may = |i: usize| grid * (count + i as u64 + 1) / 2;
-    let near = |step: (usize, &u64)| off(step) <= may(step.0);
-    let equal = |step: (usize, &u64)| off(step) == 0;
-    let steps = || parts.iter().enumerate();
-    count >= STEPS && steps().all(near) && !steps().all(equal)
+    // each step may be off by half a grid of its own, and by its share of half a grid of the last
+    let off = |(i, part): (usize, &u64)| {
+        let share = (i + 1) as f64 / parts.len() as f64;
+        let may = 0.5 * grid as f64 * (1.0 + share);
+        (*part as f64 - share * *last as f64).abs() / may
+    };
+    let most = parts.iter().enumerate().map(off).fold(0.0, f64::max);
+    parts.len() >= STEPS && most > CALCULATED && most <= 1.0 + CALCULATED
 }
 
 /// The sizes of force (N) that occur, ascending, none twice and not zero.

@@ -19,7 +19,7 @@ use crate::signal::lattice;
 /// Steps of a lattice above this many times the noise at high frequency are coarse: their rounding,
 /// step/√12, is then half of it or more.
 const COARSE: f64 = 1.73;
-/// Steps of a lattice above this many times the noise round nothing: rounding would be 2.5 times that noise. Readings lie on
+/// Steps of a lattice above this many times the noise round nothing: rounding, step/√12, would be 2.5 times that noise. Readings lie on
 /// such a lattice because the load does, in equal steps.
 const SEEN: f64 = 8.7;
 /// Share of a coarse step that an effect must move the readings to be seen.

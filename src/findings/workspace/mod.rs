@@ -19,6 +19,7 @@ mod remains;
 mod search;
 mod seats;
 mod set;
+mod slide;
 mod smooth;
 mod strangers;
 mod thin;

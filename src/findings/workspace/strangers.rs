@@ -2,13 +2,13 @@
 //! where one of them explains the error best, the cause is unknown, and this is what is seen.
 
 use super::play::Play;
+use super::slide::{FAR, slide};
 use crate::causes::contract::{Amount, Blame, Card, Cause, Sight};
 use crate::causes::places::{UNIT_COMPLIANCE, added, drives, number_in, soften};
 use crate::effects::Family;
 use crate::experiments::drive_law::Law;
 use crate::ground::spatial::V3;
 use crate::ground::stats::descending;
-use crate::robot::model::ElasticAxis;
 use crate::robot::{Robot, Spring};
 use nalgebra::{DMatrix, DVector};
 
@@ -37,9 +37,6 @@ const CARD: Card = Card {
     ],
 };
 
-/// A turn about an axis this far away is a shift, m.
-const FAR: f64 = 5000.0;
-
 impl Cause for Shift {
     fn card(&self) -> &'static Card {
         &CARD
@@ -64,14 +61,10 @@ impl Cause for Shift {
     fn alter(&self, robot: &mut Robot, site: &str, amounts: &[f64]) {
         let after = number_in(site, "link").unwrap_or(0);
         for (k, amount) in amounts.iter().enumerate().filter(|(_, a)| **a > 0.0) {
-            let unit = |at: usize| -> V3 { std::array::from_fn(|i| f64::from(u8::from(i == at))) };
-            robot.elastic.push(ElasticAxis {
-                name: format!("{site}-along-{k}"),
-                after,
-                axis: unit((k + 1) % 3),
-                point: unit((k + 2) % 3).map(|x| x * FAR),
-                spring: Spring::new(FAR * FAR / (amount * UNIT_COMPLIANCE), 0.0),
-            });
+            let line: V3 = std::array::from_fn(|i| f64::from(u8::from(i == k)));
+            let spring = Spring::new(FAR * FAR / (amount * UNIT_COMPLIANCE), 0.0);
+            let name = format!("{site}-along-{k}");
+            robot.elastic.push(slide(name, after, line, spring));
         }
     }
 }
