@@ -17,6 +17,8 @@ struct Block {
     variances: Vec<f64>,
     /// Deviation that is put up with in every component, m/N.
     tolerance: f64,
+    /// What the shared factor was last taken about.
+    mean: DVector<f64>,
     whitener: DMatrix<f64>,
 }
 
@@ -44,6 +46,7 @@ impl Weighing {
                     .map(|(_, l)| variance(l.stderr, l.freedom))
                     .collect(),
                 tolerance: 0.0,
+                mean: DVector::zeros(lines.len()),
                 whitener: DMatrix::zeros(lines.len(), lines.len()),
             }
         });
@@ -80,8 +83,43 @@ impl Weighing {
         }
     }
 
+    /// The same with so many times the deviation that is put up with.
+    pub fn tolerating(&self, times: f64) -> Self {
+        let mut other = self.clone();
+        other.blocks.iter_mut().for_each(|b| b.tolerance *= times);
+        let means: Vec<DVector<f64>> = self.blocks.iter().map(|b| b.mean.clone()).collect();
+        other.about(&means);
+        other
+    }
+
+    /// Logarithm of the density of a row of zeros that is whitened so, but for a constant.
+    pub fn ln_density(&self) -> f64 {
+        let own = |b: &Block| {
+            b.whitener
+                .diagonal()
+                .iter()
+                .map(|x| x.abs().ln())
+                .sum::<f64>()
+        };
+        self.blocks.iter().map(own).sum()
+    }
+
+    /// Rows that `other` whitened, whitened by this.
+    pub fn again(&self, other: &Self, rows: &[f64]) -> DVector<f64> {
+        let raw = other.colour(rows);
+        let mut first = 0;
+        let all = self.blocks.iter().flat_map(|b| {
+            let n = b.components.len();
+            let own = DVector::from_column_slice(&raw[first..first + n]);
+            first += n;
+            (&b.whitener * own).data.as_vec().clone()
+        });
+        DVector::from_vec(all.collect())
+    }
+
     fn about(&mut self, shared: &[DVector<f64>]) {
         for (block, mean) in self.blocks.iter_mut().zip(shared) {
+            block.mean = mean.clone();
             let floor = 1e-12 * mean.norm_squared().max(block.slopes.norm_squared());
             let mut covariance = mean * mean.transpose() * self.repeatability.powi(2);
             for (k, variance) in block.variances.iter().enumerate() {

@@ -56,28 +56,32 @@ pub(super) struct Case<'a> {
 
 impl<'a> Case<'a> {
     /// Twice where an instrument is suspect: it acts upon what it makes of the true displacement.
-    /// And where the robot is: how far it lies beyond proportion follows from how soft it is.
+    /// And where the robot is: how far it lies beyond proportion follows from how soft it is. And where the rows agree with
+    /// the model better than it was trusted.
     pub(super) fn of(test: &'a WorkspaceTest, robot: &'a Robot) -> Self {
-        let first = Self::about(test, robot, (&[], robot));
+        let first = Self::about(test, robot, (&[], robot), 1.0);
+        let doubt = first.doubt();
         let best = &first.posterior.sets[0].0;
         let columns = first.columns_of(best);
         let blamed = columns.iter().any(|c| first.seats.columns[*c].instrument);
         let few = test.facts.joint_angles.len() <= FEW && !columns.is_empty();
-        match blamed || few {
+        match blamed || few || doubt < 1.0 {
             false => first,
             true => {
                 let softer = first.extended(best);
                 drop(first);
-                Self::about(test, robot, (&columns, &softer))
+                Self::about(test, robot, (&columns, &softer), doubt)
             }
         }
     }
 
-    /// With the columns of the causes that are suspect, the robot being as soft as `bent` is.
+    /// With the columns of the causes that are suspect, the robot being as soft as `bent` is, and a share of the guess of how
+    /// far the model is wrong.
     fn about(
         test: &'a WorkspaceTest,
         robot: &'a Robot,
         (suspect, bent): (&[usize], &Robot),
+        doubt: f64,
     ) -> Self {
         let points = &test.facts.joint_angles;
         let mut shapes = Shapes::of(test);
@@ -106,7 +110,7 @@ impl<'a> Case<'a> {
             let size = |p: usize, d: usize| {
                 let error: V3 =
                     std::array::from_fn(|k| smooth.read[p][d][k] - scene.base.slopes[p][d][k]);
-                (exact * norm(smooth.read[p][d])).hypot(LAW * norm(error))
+                doubt * (exact * norm(smooth.read[p][d])).hypot(LAW * norm(error))
             };
             weighing.tolerate(size);
             weighing.about_slopes(|p, d| smooth.read[p][d]);
@@ -132,11 +136,8 @@ impl<'a> Case<'a> {
         let levels = left.len();
         let patterns = seats.columns.iter().map(|c| &c.pattern);
         let columns = Columns::of(patterns, &weighing, levels);
-        let springs = weighing.design(&response, &response.sites);
-        let springs = Springs {
-            columns: springs.resize_vertically(readings.len(), 0.0),
-            spread,
-        };
+        let mut springs = Springs::of(&weighing, robot, points, spread);
+        springs.columns = springs.columns.resize_vertically(readings.len(), 0.0);
         let prior = seats.columns.iter().map(|c| c.prior).collect();
         let bounds = seats.columns.iter().map(|c| c.bound).collect();
         let field = Field::new(&readings, &columns, &springs, (prior, bounds));

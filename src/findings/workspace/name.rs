@@ -8,12 +8,20 @@ use crate::findings::engine::posterior::without;
 use crate::findings::engine::rivals::{Rivals, runners_up};
 use crate::findings::engine::verdict::Named;
 
+/// What a free amount gains by chance, nats (Akaike 1974).
+const PRICE: f64 = 1.0;
+/// Odds below which a rival that fits better is still none.
+const POSSIBLE: f64 = 0.003;
+
 impl Case<'_> {
     pub(super) fn name(&self, chosen: &Set) -> Named {
         let mut named = Named::default();
         let is_named = |s: usize| !self.seats.seats[s].stranger;
         for seat in chosen.seats.iter().filter(|s| is_named(**s)) {
-            let rivals = Rivals::of(&self.posterior, chosen, *seat, is_named, &self.judgement);
+            let mut rivals = Rivals::of(&self.posterior, chosen, *seat, is_named, &self.judgement);
+            if rivals.open.is_empty() {
+                rivals.open = self.fitting_better(chosen, *seat);
+            }
             let gain = self.told_gain(chosen, *seat);
             let own = &self.seats.seats[*seat];
             if !rivals.open.is_empty() {
@@ -40,6 +48,22 @@ impl Case<'_> {
             });
         }
         named.sorted()
+    }
+
+    /// Who in the place of a seat fits better, each free amount paid for, although it was thought the less likely one before:
+    /// what is believed before the data names no cause against them.
+    fn fitting_better(&self, chosen: &Set, seat: usize) -> Vec<usize> {
+        let fit = |set: &Set| set.nats - PRICE * self.columns_of(set).len() as f64;
+        let fits = |(other, odds): &(usize, f64)| {
+            let mut seats = without(&chosen.seats, seat);
+            seats.push(*other);
+            seats.sort_unstable();
+            let better = |set: &Set| fit(set) > fit(chosen);
+            let library = !self.seats.seats[*other].stranger;
+            library && *odds > POSSIBLE && self.posterior.set(&seats).is_some_and(better)
+        };
+        let rivals = self.posterior.stand_ins(chosen, seat).into_iter();
+        rivals.filter(fits).map(|r| r.0).take(2).collect()
     }
 
     /// What would tell a seat of a set from its rivals.

@@ -6,7 +6,6 @@ use super::columns::Columns;
 use super::field::{Field, Springs};
 use super::patterns::Scene;
 use super::seats::{Column, Seats};
-use crate::experiments::workspace::Response;
 use crate::fit::force_shapes::Shapes;
 use crate::fit::force_steps::Setup;
 use crate::fit::weighing::Weighing;
@@ -208,10 +207,7 @@ fn separations(known: &Known, probe: &Probe, suspects: &[Suspect]) -> Vec<f64> {
     weighing.tolerate(|p, d| MODEL * norm(scene.reference[p][d]));
     weighing.about_slopes(|p, d| scene.reference[p][d]);
     let springs = match probe.sensor {
-        None => weighing.design(
-            &Response::of(&probe.robot, &probe.points),
-            &Response::of(&probe.robot, &probe.points).sites,
-        ),
+        None => Springs::of(&weighing, &probe.robot, &probe.points, known.springs.spread).columns,
         Some(_) => DMatrix::zeros(weighing.len(), known.springs.columns.ncols()),
     };
     let seen = |suspect: &Suspect| -> Vec<DVector<f64>> {

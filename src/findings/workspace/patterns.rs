@@ -214,7 +214,11 @@ fn beside(cause: &dyn Cause, amounts: &[f64]) -> Vec<f64> {
     all
 }
 
-fn deflection(robot: &Robot, points: &[Vec<f64>], sensor: Option<(usize, V3)>) -> Deflection {
+pub(super) fn deflection(
+    robot: &Robot,
+    points: &[Vec<f64>],
+    sensor: Option<(usize, V3)>,
+) -> Deflection {
     match sensor {
         None => Deflection::of(robot, points),
         Some((after, at)) => Deflection::seen_at(robot, points, after, at),
