@@ -14,8 +14,8 @@ const CARD: Card = Card {
     name: "link_compliance",
     family: Family::Physics,
     summary: "A link bends or twists, and the model holds it rigid.",
-    equation: "rotations about axes through one place along the link, from its near to its far end, compliance added: a symmetric matrix",
-    source: "virtual axes as in sources 000 and 002, Table 1",
+    equation: "rotations about axes through one place along the link, from its near to its far end, compliance added: a symmetric matrix; or as a beam, half of it at each of two places",
+    source: "virtual axes as in sources 000 and 002, Table 1; a beam integrated by two points (Gauss 1814)",
     shows: &[
         (
             Sight::Workspace,
@@ -29,34 +29,31 @@ const CARD: Card = Card {
     amounts: &AMOUNTS,
 };
 
-macro_rules! turns_at {
-    ($at:literal) => {
+macro_rules! turns {
+    ($name:expr, $place:expr) => {
         [
-            added(
-                concat!("x_at_", $at),
-                concat!("compliance about x at ", $at, " of the length"),
-            ),
-            added(
-                concat!("y_at_", $at),
-                concat!("compliance about y at ", $at, " of the length"),
-            ),
-            added(
-                concat!("z_at_", $at),
-                concat!("compliance about z at ", $at, " of the length"),
+            added(concat!("x", $name), concat!("compliance about x", $place)),
+            added(concat!("y", $name), concat!("compliance about y", $place)),
+            added(concat!("z", $name), concat!("compliance about z", $place)),
+            shared(
+                concat!("yz", $name),
+                concat!("compliance that y and z share", $place),
             ),
             shared(
-                concat!("yz_at_", $at),
-                concat!("compliance that y and z share at ", $at, " of the length"),
+                concat!("zx", $name),
+                concat!("compliance that z and x share", $place),
             ),
             shared(
-                concat!("zx_at_", $at),
-                concat!("compliance that z and x share at ", $at, " of the length"),
-            ),
-            shared(
-                concat!("xy_at_", $at),
-                concat!("compliance that x and y share at ", $at, " of the length"),
+                concat!("xy", $name),
+                concat!("compliance that x and y share", $place),
             ),
         ]
+    };
+}
+
+macro_rules! turns_at {
+    ($at:literal) => {
+        turns!(concat!("_at_", $at), concat!(" at ", $at, " of the length"))
     };
 }
 
@@ -70,6 +67,7 @@ static AMOUNTS: [Amount; SIX * ALONG.len()] = flat([
     turns_at!("3/8"),
     turns_at!("5/8"),
     turns_at!("7/8"),
+    turns!("_as_beam", " spread over the length"),
 ]);
 
 const fn flat(places: [[Amount; SIX]; ALONG.len()]) -> [Amount; SIX * ALONG.len()] {
@@ -82,12 +80,26 @@ const fn flat(places: [[Amount; SIX]; ALONG.len()]) -> [Amount; SIX * ALONG.len(
     all
 }
 
-/// Where along the link the matrices act, as a share of its length.
-const ALONG: [f64; 9] = [0.5, 0.0, 1.0, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875];
+/// Where along the link the matrices act, as shares of its length: at one place, or at the two that integrate a uniform beam
+/// under end loads exactly.
+const ALONG: [&[f64]; 10] = [
+    &[0.5],
+    &[0.0],
+    &[1.0],
+    &[0.25],
+    &[0.75],
+    &[0.125],
+    &[0.375],
+    &[0.625],
+    &[0.875],
+    &[0.5 - GAUSS, 0.5 + GAUSS],
+];
+/// 1 / √12.
+const GAUSS: f64 = 0.288_675_134_594_812_9;
 
-/// How likely each is: a beam under end loads turns as if hinged between a third and the middle of its
-/// length; at its ends sit bearings that have causes of their own.
-const LIKELY: [f64; 9] = [1.0, 0.05, 0.05, 0.6, 0.6, 0.2, 1.0, 1.0, 0.2];
+/// How likely each is: a flange or a hollow gives way between a third and two thirds of the length; at its ends sit bearings
+/// that have causes of their own; a casting bends all along.
+const LIKELY: [f64; 10] = [1.0, 0.05, 0.05, 0.6, 0.6, 0.2, 1.0, 1.0, 0.2, 1.0];
 /// The shortest of links is still blamed with this share of the readiness of the longest.
 const SHORT: f64 = 0.1;
 
@@ -156,9 +168,12 @@ impl Cause for LinkCompliance {
         let Some((i, [from, to])) = number.and_then(|i| Some((i, ends(robot, i)?))) else {
             return;
         };
-        for (own, along) in amounts.chunks(SIX).zip(ALONG) {
-            let at = [0, 1, 2].map(|k| from[k] + along * (to[k] - from[k]));
-            add_axes(robot, site, i, at, own);
+        for (own, places) in amounts.chunks(SIX).zip(ALONG) {
+            let each: Vec<f64> = own.iter().map(|a| a / places.len() as f64).collect();
+            for along in places {
+                let at = [0, 1, 2].map(|k| from[k] + along * (to[k] - from[k]));
+                add_axes(robot, site, i, at, &each);
+            }
         }
     }
 
