@@ -157,18 +157,22 @@ impl Book<'_> {
         }
     }
 
-    /// Sparse selection by convex programming: what stays above zero when every amount pays for its
+    /// Beside two causes all parts of a kind, which few pairs lead to: two bends stand in for five bearings. Beside more, sparse
+    /// selection by convex programming: what stays above zero when every amount pays for its
     /// size (Tibshirani 1996), over a falling price; then the members that do not pay are left out.
     fn propose(&mut self) {
         let best = self
             .sets
             .values()
             .max_by(|a, b| a.score.total_cmp(&b.score));
-        if best.is_none_or(|set| set.seats.len() < 3) {
-            return;
+        let longest = best.map_or(0, |set| set.seats.len());
+        if longest > 1 {
+            for of_one_kind in self.kinds() {
+                self.prune(of_one_kind);
+            }
         }
-        for of_one_kind in self.kinds() {
-            self.prune(of_one_kind);
+        if longest < 3 {
+            return;
         }
         let narrow = self.narrow();
         let columns: Vec<usize> = narrow.iter().map(|n| n.1).collect();
