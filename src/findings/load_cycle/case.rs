@@ -22,8 +22,9 @@ const COARSE: f64 = 1.73;
 /// Steps of a lattice above this many times the noise round nothing: rounding, step/√12, would be 2.5 times that noise. Readings lie on
 /// such a lattice because the load does, in equal steps.
 const SEEN: f64 = 8.7;
-/// Share of a coarse step that an effect must move the readings to be seen.
-const HALF_STEP: f64 = 0.3;
+/// Share of a coarse step that an effect must move the readings to be seen, rms: a converter that cuts digits off instead of
+/// rounding them is half a step wrong, and by which sign depends on the reading.
+const HALF_STEP: f64 = 0.5;
 /// Iterations of a law's fit, and points that it starts from.
 const FIT: (usize, usize) = (14, 3);
 
