@@ -1,8 +1,8 @@
 //! Diagnosis of workspace tests on the command line.
 
 use ident::experiments::workspace::Deflection;
-use ident::robot::Spring;
 use ident::robot::model::ElasticAxis;
+use ident::robot::{Robot, Spring};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -214,9 +214,16 @@ fn wrong_input_is_refused_with_a_remedy() {
 
 /// The example's readings with what an elastic axis adds to them.
 fn softened(text: &str, axis: ElasticAxis) -> String {
+    changed(text, |robot, points| {
+        let mut soft = robot.clone();
+        soft.elastic.push(axis.clone());
+        Deflection::of(&soft, points).slopes
+    })
+}
+
+/// The example's readings with other slopes (m/N, by point, direction and component) in the place of the robot's.
+fn changed(text: &str, other: impl Fn(&Robot, &[Vec<f64>]) -> Vec<[[f64; 3]; 3]>) -> String {
     let robot = ident::robot::builtin::named("kr210").unwrap().unwrap();
-    let mut soft = robot.clone();
-    soft.elastic.push(axis);
     let angles = text.lines().filter_map(|line| line.strip_prefix("#   ["));
     let angles = angles.map(|line| {
         let own = line.trim_end_matches("],").split(", ");
@@ -224,7 +231,10 @@ fn softened(text: &str, axis: ElasticAxis) -> String {
             .collect()
     });
     let points: Vec<Vec<f64>> = angles.collect();
-    let [before, after] = [&robot, &soft].map(|robot| Deflection::of(robot, &points).slopes);
+    let (before, after) = (
+        Deflection::of(&robot, &points).slopes,
+        other(&robot, &points),
+    );
     let line = |line: &str| -> String {
         let cells: Vec<&str> = line.split(',').collect();
         let Some(point) = cells[0].parse::<usize>().ok().filter(|_| cells.len() == 7) else {
@@ -287,4 +297,25 @@ fn what_gives_way_about_an_oblique_axis_is_one_cause() {
         );
         assert_eq!(answer["verdict"], "explained", "{effect}: {answer:#}");
     }
+}
+
+/// A reflector beside the tip moves by what the tool turns by: no load is turned and no sensor wrong.
+#[test]
+fn a_target_beside_the_tip_is_no_cause() {
+    let (folder, file) = campaign(|text| {
+        let exact = text.replace("setup_repeatability = 0.015", "setup_repeatability = 0.002");
+        changed(&exact, |robot, points| {
+            let tip = Deflection::of(robot, points).slopes;
+            let [at, beside] = [0.0, 0.025].map(|off| {
+                let place = [0, 1, 2].map(|k| robot.tool.tcp[k] + off * [0.6, 0.0, 0.8][k]);
+                Deflection::seen_at(robot, points, 6, place).slopes
+            });
+            let moved = |p: usize, d: usize, k: usize| tip[p][d][k] + beside[p][d][k] - at[p][d][k];
+            let point = |p: usize| [0, 1, 2].map(|d| [0, 1, 2].map(|k| moved(p, d, k)));
+            (0..points.len()).map(point).collect()
+        })
+    });
+    let typed = ["diagnose", file.to_str().unwrap(), "--json", "--dry-run"];
+    let answer = document(&ident(&typed, folder.path()));
+    assert_eq!(answer["causes"].as_array().unwrap().len(), 0, "{answer:#}");
 }

@@ -98,7 +98,7 @@ const ALONG: [&[f64]; 10] = [
 const GAUSS: f64 = 0.288_675_134_594_812_9;
 
 /// How likely each is: a flange or a hollow gives way between a third and two thirds of the length; at its ends sit bearings
-/// that have causes of their own; a casting bends all along.
+/// that have causes of their own; a casting bends all along (as likely as the middle: no other value was tried).
 const LIKELY: [f64; 10] = [1.0, 0.05, 0.05, 0.6, 0.6, 0.2, 1.0, 1.0, 0.2, 1.0];
 /// The shortest of links is still blamed with this share of the readiness of the longest.
 const SHORT: f64 = 0.1;
@@ -180,5 +180,32 @@ impl Cause for LinkCompliance {
     fn said(&self, _robot: &Robot, _site: &str, amounts: &[f64]) -> Said {
         let each = amounts.chunks(SIX);
         each.flat_map(|own| said_matrix(own, &TURNS)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::builtin;
+
+    /// A cantilever of compliance c = L/EI under a force at its end sinks by F c L²/3 and turns by F c L/2 (Euler and Bernoulli).
+    #[test]
+    fn a_beam_sinks_and_turns_as_a_beam() {
+        let mut robot = builtin::named("kr210").unwrap().unwrap();
+        let [from, to] = ends(&robot, 2).unwrap();
+        let before = robot.elastic.len();
+        let mut amounts = [0.0; SIX * ALONG.len()];
+        amounts[SIX * (ALONG.len() - 1)] = 1.0;
+        LinkCompliance.alter(&mut robot, "link2", &amounts);
+        let length = norm(sub(to, from));
+        let hinges = robot.elastic[before..].iter();
+        let hinges: Vec<[f64; 2]> = hinges
+            .map(|h| [norm(sub(to, h.point)) / length, 1.0 / h.spring.stiffness])
+            .collect();
+        let moment = |power: i32| hinges.iter().map(|[x, c]| c * x.powi(power)).sum::<f64>();
+        let whole = moment(0);
+        assert_eq!(hinges.len(), 2);
+        assert!((moment(1) / whole - 1.0 / 2.0).abs() < 1e-12);
+        assert!((moment(2) / whole - 1.0 / 3.0).abs() < 1e-12);
     }
 }

@@ -15,8 +15,8 @@ const SETS: usize = 80;
 /// A set with less than this share of the best one's probability is no explanation.
 const UNLIKELY: f64 = 1e-3;
 
-/// A second gap cuts the error at least by this share, percent.
-const PLAIN: f64 = 10.0;
+/// The cause that is a gap.
+const GAP: &str = "backlash";
 
 /// What is left out at a time.
 #[derive(Clone, Copy)]
@@ -40,11 +40,7 @@ impl Case<'_> {
         let mut likely = likely.filter(|(_, p)| *p > UNLIKELY * self.posterior.sets[0].1);
         let real = |set: &Set| {
             let needed = set.seats.iter().all(|seat| self.is_needed(set, *seat));
-            needed
-                && set
-                    .seats
-                    .iter()
-                    .all(|s| self.helps(set, *s) && !self.is_echo(set, *s))
+            needed && set.seats.iter().all(|s| self.stands(set, *s))
         };
         if let Some((set, _)) = likely.find(|(set, _)| !set.seats.is_empty() && real(set)) {
             return set.clone();
@@ -57,25 +53,27 @@ impl Case<'_> {
     }
 
     fn is_real(&self, set: &Set, seat: usize) -> bool {
-        self.is_needed(set, seat) && self.helps(set, seat) && !self.is_echo(set, seat)
+        self.is_needed(set, seat) && self.stands(set, seat)
     }
 
-    /// Whether a seat is a gap beside a larger one that does not plainly cut the error: where a gap closes hangs on weights that
-    /// nobody knows exactly, and what its law misses looks like another gap.
+    /// Whether a seat helps, and is no echo of another.
+    fn stands(&self, set: &Set, seat: usize) -> bool {
+        self.helps(set, seat) && !self.is_echo(set, seat)
+    }
+
+    /// Whether a seat is a gap that does not plainly cut the error beside one that cuts it more: what the law of that one misses
+    /// looks like another gap.
     fn is_echo(&self, set: &Set, seat: usize) -> bool {
-        let name = |s: usize| self.seats.seats[s].cause.card().name;
-        let others = set
-            .seats
-            .iter()
-            .filter(|s| **s != seat && name(**s) == "backlash");
-        let mut others = others
-            .map(|s| self.told_gain(set, *s).reduction_percent)
-            .peekable();
-        if name(seat) != "backlash" || others.peek().is_none() {
+        let is_gap = |s: &usize| self.seats.seats[*s].cause.card().name == GAP;
+        let others = set.seats.iter().filter(|s| **s != seat && is_gap(s));
+        let others: Vec<usize> = others.copied().collect();
+        if !is_gap(&seat) || others.is_empty() {
             return false;
         }
         let own = self.told_gain(set, seat);
-        own.ci95_percent[0] < PLAIN && others.any(|other| other > own.reduction_percent)
+        let more = |s: &usize| self.told_gain(set, *s).reduction_percent > own.reduction_percent;
+        let plain = own.ci95_percent[0] >= self.judgement.companion_gain_beside_kin;
+        !plain && others.iter().any(more)
     }
 
     /// The set less one seat; one that was not compared has its other seats in the same forms.

@@ -2,7 +2,9 @@
 //! causes show it to be too large, and what is hidden below it becomes visible.
 
 use super::case::Case;
-use nalgebra::{DMatrix, DVector};
+use crate::ground::products::gram;
+use crate::inference::gaussian::{Products, Reading, evidence};
+use nalgebra::DMatrix;
 
 /// Shares of the guess that are tried.
 const SHARES: [f64; 9] = [1.0, 0.84, 0.71, 0.59, 0.5, 0.42, 0.35, 0.3, 0.25];
@@ -25,39 +27,25 @@ impl Case<'_> {
         let weighing = self.weighing.tolerating(share);
         let again = |rows: &[f64]| weighing.again(&self.weighing, &rows[..self.slopes()]);
         let rows = again(self.readings.as_slice());
+        let causes = self.columns_of(&self.posterior.sets[0].0);
         let springs = self.springs.columns.column_iter();
-        let springs = springs.map(|c| again(c.as_slice()) * self.springs.spread);
-        let causes = self.columns_of(&self.posterior.sets[0].0).into_iter();
-        let causes =
-            causes.map(|c| again(self.columns.column(c).as_slice()) * (WIDE * self.field.prior(c)));
-        let all: Vec<DVector<f64>> = springs.chain(causes).collect();
-        weighing.ln_density() - 0.5 * summed_out(&rows, &DMatrix::from_columns(&all))
-    }
-}
-
-/// Squares of rows and logarithm of the determinant, amounts of unit variance summed out.
-fn summed_out(rows: &DVector<f64>, design: &DMatrix<f64>) -> f64 {
-    let mut inner = design.tr_mul(design);
-    (0..inner.nrows()).for_each(|i| inner[(i, i)] += 1.0);
-    let squares = rows.norm_squared();
-    inner.cholesky().map_or(squares, |root| {
-        let right = design.tr_mul(rows);
-        squares - right.dot(&root.solve(&right)) + root.ln_determinant()
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::summed_out;
-    use nalgebra::{DMatrix, DVector};
-
-    #[test]
-    fn amounts_summed_out_are_a_covariance() {
-        let design = DMatrix::from_column_slice(3, 1, &[1.0, -2.0, 0.5]);
-        let rows = DVector::from_column_slice(&[0.3, 1.0, -0.7]);
-        let root = (&design * design.transpose() + DMatrix::identity(3, 3)).cholesky();
-        let root = root.expect("positive");
-        let wanted = rows.dot(&root.solve(&rows)) + root.ln_determinant();
-        assert!((summed_out(&rows, &design) - wanted).abs() < 1e-12);
+        let springs = springs.map(|c| again(c.as_slice()));
+        let own = causes.iter().map(|c| self.columns.column(*c));
+        let own = own.map(|c| again(c.as_slice()));
+        let design = DMatrix::from_columns(&springs.chain(own).collect::<Vec<_>>());
+        let sizes = causes.iter().map(|c| (1, WIDE * self.field.prior(*c)));
+        let springs = [(self.springs.columns.ncols(), self.springs.spread)];
+        let blocks: Vec<(usize, f64)> = springs.into_iter().chain(sizes).collect();
+        let products = Products {
+            gram: gram(&design),
+            right: design.tr_mul(&rows),
+        };
+        let reading = Reading {
+            square: rows.norm_squared(),
+            rows: rows.len() as f64,
+            noise_rows: f64::INFINITY,
+        };
+        let summed_out = evidence(&products, &reading, &blocks);
+        weighing.ln_density() + summed_out.map_or(-0.5 * reading.square, |found| found.1)
     }
 }

@@ -28,10 +28,10 @@ pub struct Amounts {
     pub nats: f64,
 }
 
-/// The springs of the model: columns of relative compliance (in standard deviations of the readings)
-/// with the spread stated for them.
+/// What is free in every set: the springs of the model as columns of relative compliance (in standard deviations of the readings)
+/// with the spread stated for them, and the place of the target (`target`).
 pub struct Springs {
-    /// One column for each.
+    /// One column for each spring, then three for the target.
     pub columns: DMatrix<f64>,
     /// Relative standard deviation.
     pub spread: f64,

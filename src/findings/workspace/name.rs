@@ -8,10 +8,8 @@ use crate::findings::engine::posterior::without;
 use crate::findings::engine::rivals::{Rivals, runners_up};
 use crate::findings::engine::verdict::Named;
 
-/// What a free amount gains by chance, nats (Akaike 1974).
-const PRICE: f64 = 1.0;
-/// Odds below which a rival that fits better is still none.
-const POSSIBLE: f64 = 0.003;
+/// Most members of a group whose others fit better: with more the data tell nothing.
+const MEMBERS: usize = 3;
 
 impl Case<'_> {
     pub(super) fn name(&self, chosen: &Set) -> Named {
@@ -53,17 +51,25 @@ impl Case<'_> {
     /// Who in the place of a seat fits better, each free amount paid for, although it was thought the less likely one before:
     /// what is believed before the data names no cause against them.
     fn fitting_better(&self, chosen: &Set, seat: usize) -> Vec<usize> {
-        let fit = |set: &Set| set.nats - PRICE * self.columns_of(set).len() as f64;
+        let asked = &self.judgement;
+        let fit = |set: &Set| set.nats - asked.amount * self.columns_of(set).len() as f64;
         let fits = |(other, odds): &(usize, f64)| {
-            let mut seats = without(&chosen.seats, seat);
-            seats.push(*other);
-            seats.sort_unstable();
-            let better = |set: &Set| fit(set) > fit(chosen);
             let library = !self.seats.seats[*other].stranger;
-            library && *odds > POSSIBLE && self.posterior.set(&seats).is_some_and(better)
+            let instead = self.swapped(chosen, (seat, *other));
+            library
+                && *odds > asked.ambiguous_if_better
+                && instead.is_some_and(|set| fit(set) > fit(chosen))
         };
         let rivals = self.posterior.stand_ins(chosen, seat).into_iter();
-        rivals.filter(fits).map(|r| r.0).take(2).collect()
+        rivals.filter(fits).map(|r| r.0).take(MEMBERS - 1).collect()
+    }
+
+    /// The set with another seat in the place of one, if it was compared.
+    fn swapped(&self, chosen: &Set, (seat, other): (usize, usize)) -> Option<&Set> {
+        let mut seats = without(&chosen.seats, seat);
+        seats.push(other);
+        seats.sort_unstable();
+        self.posterior.set(&seats)
     }
 
     /// What would tell a seat of a set from its rivals.
@@ -77,10 +83,7 @@ impl Case<'_> {
             repeatability: self.test.facts.setup_repeatability.unwrap_or(0.0),
         };
         let in_its_place = |rival: &usize| {
-            let mut seats = without(&chosen.seats, seat);
-            seats.push(*rival);
-            seats.sort_unstable();
-            let set = self.posterior.set(&seats)?;
+            let set = self.swapped(chosen, (seat, *rival))?;
             Some(self.suspect(set, *rival))
         };
         let rivals = rivals.iter().filter_map(in_its_place);

@@ -31,7 +31,8 @@ impl Springs {
     }
 }
 
-/// Slopes per metre that the target lies beside the tip, 1/N, along the axes of the tool at zero.
+/// Slopes per metre that the target lies beside the tip, 1/N, along the axes of the base with every joint at zero; without
+/// what springs behind the last drive turn.
 fn beside(robot: &Robot, points: &[Vec<f64>]) -> [Vec<M3>; 3] {
     let chain = rigid(robot);
     let zero = vec![0.0; robot.dof()];
