@@ -5,7 +5,7 @@
 //! `IDENT_DEBUG=1` prints every case, `IDENT_PART_CASES=1` takes all of them instead of every third:
 //! `cargo test --test suite milled_part:: -- --nocapture`.
 
-use crate::part_bench::{job, ready};
+use crate::part_bench::{SLOT, job, ready};
 use ident::findings::kinds;
 use ident::findings::{Answer, Verdict};
 use ident::ground::random::Random;
@@ -271,4 +271,15 @@ fn single_causes_are_named_and_sound_parts_are_left_alone() {
         "milled parts: right {right} of {all}, wrong {wrong}, alarms {alarms} of {cleans}, outside flagged {flagged} of 2"
     );
     assert!(right + 1 + usize::from(whole) >= all && wrong == 0 && alarms == 0);
+}
+
+/// A probe that reads by direction is no rival of an offset where all walls face one way: the program had called it one.
+#[test]
+fn a_slot_tells_an_offset_and_no_lobes() {
+    let folder = tempfile::tempdir().unwrap();
+    let (_, setup) = ready(&job(folder.path(), SLOT, 1200.0, ""));
+    let aside = Plant::new(&setup).plus(|_, _, _, _| [0.0, 4e-4, 0.0]);
+    let answer = diagnosed(folder.path(), &aside.probed(&setup, 3, ""));
+    assert!(has(&answer, "workpiece_offset", ""), "{}", said(&answer));
+    assert_eq!(answer.verdict, Verdict::Explained, "{}", said(&answer));
 }

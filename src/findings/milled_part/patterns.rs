@@ -47,14 +47,25 @@ fn step(case: &Case, from: f64) -> Vec<Member> {
     members.into_iter().flatten().collect()
 }
 
+/// Walls that face ways whose numbers of twice per turn differ less than this are all alike: no lobe is seen there.
+const LOBED: f64 = 1.0;
+
 /// What a wall shows by the direction that it faces, twice per turn: once per turn is a datum, all alike a radius.
 fn lobes(case: &Case) -> Vec<Member> {
-    let twice = |of: fn(f64) -> f64| {
-        case.column(|_, row| match row.left {
-            true => of(2.0 * row.across[1].atan2(row.across[0])),
-            false => 0.0,
-        })
-    };
+    let facing = |row: &super::Row| 2.0 * row.across[1].atan2(row.across[0]);
+    let twice =
+        |of: fn(f64) -> f64| case.column(|_, row| if row.left { of(facing(row)) } else { 0.0 });
+    let walls = || case.rows.iter().filter(|row| row.left);
+    let unlike = [f64::cos, f64::sin].iter().any(|of| {
+        let range = walls().fold([f64::INFINITY, f64::NEG_INFINITY], |r, row| {
+            let value = of(facing(row));
+            [r[0].min(value), r[1].max(value)]
+        });
+        range[1] - range[0] > LOBED
+    });
+    if !unlike {
+        return Vec::new();
+    }
     drawn(vec![twice(f64::cos), twice(f64::sin)])
         .into_iter()
         .collect()
