@@ -212,12 +212,11 @@ fn thinned(data: &Data) -> Data {
     let pair = |p: &Pair| Pair {
         frf: thin::<C64>(&p.frf),
         weight: thin(&p.weight),
-        scatter: thin(&p.scatter),
-        ..*p
+        ..p.clone()
     };
     Data {
         s: thin(&data.s),
         pairs: data.pairs.iter().map(pair).collect(),
-        ..*data
+        correlated: data.correlated,
     }
 }
