@@ -21,8 +21,39 @@ const SINGLE: f64 = 0.01;
 /// cables and the model of a record leave no less.
 const FLOOR: f64 = 0.0006;
 
+/// Variance of one value, ((m/s²)/N)², `var(Re) + var(Im)`.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Parts {
+    /// Noise of the response: other on every line.
+    pub response: f64,
+    /// What follows the power of the FRF: noise of the force, and hits that are not alike, which is alike on all lines.
+    pub hits: f64,
+}
+
+impl Parts {
+    /// Both.
+    pub fn sum(&self) -> f64 {
+        self.response + self.hits
+    }
+
+    /// So many times as large.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
+        Self {
+            response: factor * self.response,
+            hits: factor * self.hits,
+        }
+    }
+}
+
 /// Variance `var(Re) + var(Im)` of H1 of one output at `lines`, ((m/s²)/N)².
 pub fn variance(input: &InputFrf, output: usize, lines: &[usize]) -> Vec<f64> {
+    let parts = parts(input, output, lines);
+    parts.iter().map(Parts::sum).collect()
+}
+
+/// The same in its parts.
+pub fn parts(input: &InputFrf, output: usize, lines: &[usize]) -> Vec<Parts> {
     let power = |k: &usize| input.sums.lines[output][*k].h1().norm_sqr();
     let size: Vec<f64> = lines.iter().map(power).collect();
     let level = mean(&size);
@@ -36,30 +67,46 @@ pub fn variance(input: &InputFrf, output: usize, lines: &[usize]) -> Vec<f64> {
         let noise = |k: &usize| input.noise_power[output] / input.sums.lines[output][*k].ff;
         let near = |i: usize| SINGLE.powi(2) * mean(&size[around(i, size.len())]);
         let all = lines.iter().enumerate();
-        all.map(|(i, k)| near(i) + noise(k)).collect()
+        all.map(|(i, k)| Parts {
+            response: noise(k),
+            hits: near(i),
+        })
+        .collect()
     };
     let floor = |s: &f64| FLOOR.powi(2) * (s + level) + f64::MIN_POSITIVE;
-    smooth
-        .iter()
-        .zip(&size)
-        .map(|(v, s)| v + floor(s))
-        .collect()
+    let each = smooth.iter().zip(&size);
+    each.map(|(v, s)| Parts {
+        response: v.response,
+        hits: v.hits + floor(s),
+    })
+    .collect()
 }
 
 /// The scatter as noise of the response, alike on neighbouring lines, and noise of the force, which
 /// follows the power of the FRF: `a + b·|H|²` with `a` and `b` not negative, fitted around every line;
 /// a line that scatters much more, such as one of hum, keeps its own.
-fn smoothed(scatter: &[f64], size: &[f64]) -> Vec<f64> {
+fn smoothed(scatter: &[f64], size: &[f64]) -> Vec<Parts> {
     let mut model = vec![1.0; scatter.len()];
+    let mut parts = Vec::new();
     for _ in 0..PASSES {
         let at = |i: usize| {
-            let [a, b] = share(scatter, size, &model, around(i, scatter.len()));
-            a + b * size[i]
+            let [response, b] = share(scatter, size, &model, around(i, scatter.len()));
+            Parts {
+                response,
+                hits: b * size[i],
+            }
         };
-        model = (0..scatter.len()).map(at).collect();
+        parts = (0..scatter.len()).map(at).collect();
+        model = parts.iter().map(Parts::sum).collect();
     }
-    let raised = |(v, m): (&f64, &f64)| if *v > OUTLYING * m { *v } else { *m };
-    scatter.iter().zip(&model).map(raised).collect()
+    let raised = |(v, m): (&f64, &Parts)| match *v > OUTLYING * m.sum() {
+        true => Parts {
+            response: *v,
+            hits: 0.0,
+        },
+        false => *m,
+    };
+    scatter.iter().zip(&parts).map(raised).collect()
 }
 
 /// The places around `i` of `count`.
@@ -104,6 +151,7 @@ mod tests {
         let both: Vec<f64> = force.iter().map(|f| f + 3.0).collect();
         for truth in [response, force, both] {
             for (found, truth) in smoothed(&truth, &size).iter().zip(&truth) {
+                let found = found.sum();
                 assert!((found / truth - 1.0).abs() < 1e-6, "{found} {truth}");
             }
         }
@@ -112,8 +160,12 @@ mod tests {
     #[test]
     fn nothing_is_never_negative() {
         let found = smoothed(&[0.0, 1.0, 0.0], &[5.0, 0.0, 1.0]);
-        assert!(found.iter().all(|v| v.is_finite() && *v >= 0.0));
+        assert!(
+            found
+                .iter()
+                .all(|v| v.sum().is_finite() && v.response >= 0.0 && v.hits >= 0.0)
+        );
         assert!(smoothed(&[], &[]).is_empty());
-        assert_eq!(smoothed(&[2.0], &[3.0]), [2.0]);
+        assert_eq!(smoothed(&[2.0], &[3.0])[0].sum(), 2.0);
     }
 }

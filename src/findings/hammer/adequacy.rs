@@ -37,9 +37,13 @@ impl Adequacy {
         let (hz, power) = (data.hz(), powers(data, residual));
         let per_line = |k: usize| power.iter().map(|p| p[k]).sum::<f64>();
         let mean = data.correlated / (2.0 * data.pairs.len().max(1) as f64);
-        let windows = hz.iter().map(|middle| {
+        // whole windows: of half a one a single line at the edge of the band, where records drift, would be half
+        let [from, to] = [hz.first(), hz.last()].map(|edge| edge.copied().unwrap_or(0.0));
+        let reach = 0.5 * WINDOW_HZ.min(to - from);
+        let whole = |middle: &&f64| **middle >= from + reach && **middle <= to - reach;
+        let windows = hz.iter().filter(whole).map(|middle| {
             let inside: Vec<usize> = (0..hz.len())
-                .filter(|k| (hz[*k] - middle).abs() <= 0.5 * WINDOW_HZ)
+                .filter(|k| (hz[*k] - middle).abs() <= reach)
                 .collect();
             let sum: f64 = inside.iter().map(|k| per_line(*k)).sum();
             (

@@ -111,8 +111,9 @@ impl Case<'_> {
 
     /// Hits to fit and hits to judge by; lines, where a direction was hit but once.
     fn apart(&self) -> Vec<[Data; 2]> {
-        let hits = (0..FOLDS).map(|k| Data::fold(&self.frf, self.grid, k, FOLDS));
-        let lines = || (0..FOLDS).map(|k| Data::of(&self.frf, self.grid).stretches(k, FOLDS));
+        let doubting = |both: [Data; 2]| both.map(|data| data.doubting(self.sharp.doubt));
+        let hits = (0..FOLDS).map(|k| Data::fold(&self.frf, self.grid, k, FOLDS).map(doubting));
+        let lines = || (0..FOLDS).map(|k| self.sharp.stretches(k, FOLDS));
         hits.collect::<Option<_>>()
             .unwrap_or_else(|| lines().collect())
     }
@@ -254,8 +255,9 @@ impl Case<'_> {
             candidates: candidates.collect(),
             unit: UNIT,
             noise: format!(
-                "the scatter of {} hits, and 0.45 % of the accelerance, which any linear model of a robot misses",
-                self.frf.screened.iter().filter(|h| h.used()).count()
+                "the scatter of {} hits, and {:.2} % of the accelerance, which a linear model of a robot misses",
+                self.frf.screened.iter().filter(|h| h.used()).count(),
+                100.0 * self.sharp.model_error()
             ),
             unstated: false,
             doubts: Vec::new(),

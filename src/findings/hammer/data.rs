@@ -1,7 +1,7 @@
 //! The measured accelerances as a diagnosis weighs them.
 
 use crate::experiments::hammer_frf::HammerFrf;
-use crate::experiments::hammer_variance::variance;
+use crate::experiments::hammer_variance::{Parts, parts};
 use crate::motion::frf::C64;
 use crate::signal::frf::CrossSpectra;
 use crate::signal::mains::MAINS_HZ;
@@ -10,7 +10,8 @@ use crate::signal::window::Exponential;
 /// The rows of a 3×3 accelerance by name.
 pub const AXES: [&str; 3] = ["x", "y", "z"];
 /// A linear model of a robot misses its accelerance by this share of it, and of its root mean square
-/// in the band: hits unlike each other, a sensor beside its point, bodies that are not quite rigid.
+/// in the band: hits unlike each other, a sensor beside its point, bodies that are not quite rigid. A guess before the data
+/// ([`Data::doubting`]).
 const MODEL_ERROR: [f64; 2] = [0.0045, 0.002];
 
 /// How far a line of the mains reaches: lines of the record (the main lobe without a window), but at least so many Hz, since
@@ -42,6 +43,8 @@ pub struct Pair {
     pub frf: Vec<C64>,
     /// Weights, N/(m/s²).
     pub weight: Vec<f64>,
+    /// Variance of each by the scatter of the hits.
+    pub scatter: Vec<Parts>,
 }
 
 /// Pairs on common lines.
@@ -53,6 +56,8 @@ pub struct Data {
     pub pairs: Vec<Pair>,
     /// How many lines carry the information of one: a window correlates its neighbours.
     pub correlated: f64,
+    /// The share that counts of what the model misses and of what the hits differ.
+    pub doubt: f64,
 }
 
 impl Data {
@@ -93,13 +98,33 @@ impl Data {
         let pair = |pair: &Pair| Pair {
             frf: of(&pair.frf, &kept),
             weight: of(&pair.weight, &kept),
+            scatter: of(&pair.scatter, &kept),
             ..*pair
         };
         Self {
             s: of(&self.s, &kept),
             pairs: self.pairs.iter().map(pair).collect(),
-            correlated: self.correlated,
+            ..*self
         }
+    }
+
+    /// The same where model and hits are wrong by a share of what is put up with before the data.
+    pub fn doubting(&self, share: f64) -> Self {
+        let pair = |pair: &Pair| Pair {
+            weight: weights(&pair.frf, &pair.scatter, self.correlated, share),
+            ..pair.clone()
+        };
+        Self {
+            s: self.s.clone(),
+            pairs: self.pairs.iter().map(pair).collect(),
+            doubt: share,
+            ..*self
+        }
+    }
+
+    /// What a linear model misses of an accelerance, as a share of it.
+    pub fn model_error(&self) -> f64 {
+        self.doubt * MODEL_ERROR[0]
     }
 
     fn with(frf: &HammerFrf, sums: &[CrossSpectra], grid: Grid, share: f64) -> Self {
@@ -110,16 +135,18 @@ impl Data {
         for (input, sums) in frf.inputs.iter().zip(sums) {
             for (o, name) in frf.outputs.iter().enumerate() {
                 if let (Some(from), Some(to)) = (row(&input.input), row(name)) {
-                    let scatter = variance(input, o, &all);
+                    let scatter = parts(input, o, &all);
                     let values: Vec<C64> =
                         lines.iter().map(|k| sums.lines[o][all[*k]].h1()).collect();
-                    let scatter: Vec<f64> = lines.iter().map(|k| scatter[*k] / share).collect();
-                    let weight = weights(&values, &scatter, independent(frf, &lines));
+                    let fewer = |k: &usize| scatter[*k].times(1.0 / share);
+                    let scatter: Vec<Parts> = lines.iter().map(fewer).collect();
+                    let weight = weights(&values, &scatter, independent(frf, &lines), 1.0);
                     pairs.push(Pair {
                         output: to,
                         input: from,
                         frf: values,
                         weight,
+                        scatter,
                     });
                 }
             }
@@ -130,6 +157,7 @@ impl Data {
             s: lines.iter().map(line).collect(),
             pairs,
             correlated: independent(frf, &lines),
+            doubt: 1.0,
         }
     }
 
@@ -185,12 +213,37 @@ fn independent(frf: &HammerFrf, lines: &[usize]) -> f64 {
     (all / stride as f64).max(1.0)
 }
 
-fn weights(values: &[C64], scatter: &[f64], independent: f64) -> Vec<f64> {
+/// Of the parts of a variance that of the response is noise, other on every line. What the model misses, and what one hit differs
+/// from another, is alike on many and may be taken by what is uncertain anyway: of these a share counts.
+fn weights(values: &[C64], scatter: &[Parts], independent: f64, doubt: f64) -> Vec<f64> {
     let mean = values.iter().map(|h| h.norm_sqr()).sum::<f64>() / values.len().max(1) as f64;
-    let error = |h: &C64| MODEL_ERROR[0].powi(2) * h.norm_sqr() + MODEL_ERROR[1].powi(2) * mean;
-    let variance = values
-        .iter()
-        .zip(scatter)
-        .map(|(h, v)| (v + error(h)) * independent);
+    let [own, all] = MODEL_ERROR.map(|share| share.powi(2));
+    let error = |h: &C64| own * h.norm_sqr() + all * mean;
+    let of = |(h, v): (&C64, &Parts)| v.response + doubt.powi(2) * (v.hits + error(h));
+    let each = values.iter().zip(scatter).map(of);
+    let variance = each.map(|v| v * independent);
     variance.map(|v| (2.0 / v).sqrt()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{C64, MODEL_ERROR, Parts, weights};
+
+    /// Noise of the response stays, of what lines share a share counts.
+    #[test]
+    fn doubt_leaves_the_noise_of_the_response() {
+        let scatter = Parts {
+            response: 3e-6,
+            hits: 1e-4,
+        };
+        let variance = |doubt: f64| {
+            let all = weights(&[C64::new(0.6, 0.8)], &[scatter], 1.0, doubt);
+            2.0 / all[0].powi(2)
+        };
+        let shared = 1e-4 + MODEL_ERROR[0].powi(2) + MODEL_ERROR[1].powi(2);
+        for doubt in [1.0, 0.5, 0.125] {
+            let right = 3e-6 + doubt * doubt * shared;
+            assert!((variance(doubt) / right - 1.0).abs() < 1e-12);
+        }
+    }
 }

@@ -3,10 +3,11 @@
 use super::case::Case;
 use super::data::{Data, Grid};
 use super::discrepancy::Curves;
+use super::doubt::doubt;
 use super::linearity::Linearity;
 use super::nuisance::Known;
 use super::prediction::Machine;
-use super::search::search;
+use super::search::{again, search};
 use super::suspect::suspects;
 use crate::experiments::hammer_frf::{HammerFrf, Settings, estimate};
 use crate::findings::Answer;
@@ -102,7 +103,7 @@ fn undoubted(record: &HammerRecord, robot: &Robot) -> Outcome<Diagnosis> {
         damping: record.known.damping_rel_std.unwrap_or(DAMPING),
         laboratory: uncertain::Known::stated(record.known),
     };
-    let case = Case {
+    let mut case = Case {
         machine: Machine::new(robot, &joints, known, &wide)?,
         suspects: suspects(robot, &record.outputs),
         frf,
@@ -110,7 +111,12 @@ fn undoubted(record: &HammerRecord, robot: &Robot) -> Outcome<Diagnosis> {
         grid: grid(STEPS_HZ[1]),
         settings,
     };
-    let found = search(&case.machine, &case.suspects, &wide, &case.sharp)?;
+    let mut found = search(&case.machine, &case.suspects, &wide, &case.sharp)?;
+    let doubt = doubt(&case.sharp, &found.fits);
+    if doubt < 1.0 {
+        case.sharp = case.sharp.doubting(doubt);
+        found = again(&case.machine, &case.suspects, &case.sharp, &found);
+    }
     case.conclude(&found, record)
 }
 

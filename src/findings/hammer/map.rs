@@ -152,7 +152,7 @@ impl Cost<'_> {
 }
 
 /// Nuisances, then amounts.
-fn unknowns(point: &Point) -> impl Iterator<Item = f64> {
+pub fn unknowns(point: &Point) -> impl Iterator<Item = f64> {
     point.theta.iter().chain(&point.amounts).copied()
 }
 

@@ -11,6 +11,7 @@ pub mod data;
 pub mod diagnosis;
 pub mod discrepancy;
 pub mod doubled;
+mod doubt;
 pub mod extended;
 pub mod linearity;
 pub mod machine;

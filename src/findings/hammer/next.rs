@@ -212,11 +212,12 @@ fn thinned(data: &Data) -> Data {
     let pair = |p: &Pair| Pair {
         frf: thin::<C64>(&p.frf),
         weight: thin(&p.weight),
-        ..p.clone()
+        scatter: thin(&p.scatter),
+        ..*p
     };
     Data {
         s: thin(&data.s),
         pairs: data.pairs.iter().map(pair).collect(),
-        correlated: data.correlated,
+        ..*data
     }
 }

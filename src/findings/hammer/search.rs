@@ -57,6 +57,25 @@ pub fn search(
     for fits in [&singles, &pairs] {
         points.extend(hopeful(fits, &nothing).map(|f| f.point.clone()));
     }
+    Ok(sought(machine, suspects, sharp, points))
+}
+
+/// The same sets, and what they lead to, on lines that are weighed anew.
+pub fn again(machine: &Machine, suspects: &[Suspect], sharp: &Data, found: &Found) -> Found {
+    let mut fits = found.fits.clone();
+    sort(&mut fits);
+    let nothing = fits.iter().find(|f| f.point.set.is_empty());
+    let mut points: Vec<Point> = nothing.map(|f| f.point.clone()).into_iter().collect();
+    for fit in nothing.into_iter().flat_map(|n| hopeful(&fits, n)) {
+        if !points.iter().any(|p| same_set(p, &fit.point)) {
+            points.push(fit.point.clone());
+        }
+    }
+    sought(machine, suspects, sharp, points)
+}
+
+/// Sets on sharp peaks, and what they lead to.
+fn sought(machine: &Machine, suspects: &[Suspect], sharp: &Data, points: Vec<Point>) -> Found {
     let mut fits = sharpened(machine, sharp, points);
     for _ in 0..ROUNDS {
         let more = continued(machine, suspects, sharp, &fits);
@@ -69,7 +88,7 @@ pub fn search(
         let points = points(&fits);
         fits.extend(sharpened(machine, sharp, points));
     }
-    Ok(Found { fits })
+    Found { fits }
 }
 
 /// The best sets with a cause at another place of its site.

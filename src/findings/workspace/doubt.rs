@@ -1,25 +1,20 @@
-//! How far the model is wrong anyway. What is put up with is a guess before the data; rows that agree far better with a set of
-//! causes show it to be too large, and what is hidden below it becomes visible.
+//! How far the model is wrong anyway, as rows and the best set of causes have it.
 
 use super::case::Case;
 use crate::ground::products::gram;
+use crate::inference::doubt::largest_share;
 use crate::inference::gaussian::{Products, Reading, evidence};
 use nalgebra::DMatrix;
 
-/// Shares of the guess that are tried.
-const SHARES: [f64; 9] = [1.0, 0.84, 0.71, 0.59, 0.5, 0.42, 0.35, 0.3, 0.25];
-/// Nats below the likeliest share at which one is contradicted: half the square of 1.96 deviations.
-const CONTRADICTED: f64 = 1.92;
+/// Least share of the guess.
+const LEAST: f64 = 0.25;
 /// Amounts of the causes spread over so many of their priors, so that a large one is not held back.
 const WIDE: f64 = 3.0;
 
 impl Case<'_> {
     /// The largest share of the guess that the rows do not contradict, with the best set of causes in it.
     pub(super) fn doubt(&self) -> f64 {
-        let all = SHARES.map(|share| self.likelihood(share));
-        let best = all.iter().copied().fold(f64::MIN, f64::max);
-        let fits = all.iter().position(|l| *l >= best - CONTRADICTED);
-        fits.map_or(1.0, |at| SHARES[at])
+        largest_share(LEAST, |share| self.likelihood(share))
     }
 
     /// Logarithm of the likelihood of the slopes, springs and causes summed out.
