@@ -43,6 +43,14 @@ fn names(answer: &Value, effect: &str, site: &str) -> bool {
         .any(|c| c["effect"] == effect && c["site"] == site)
 }
 
+/// Whether something is left that cannot be told from a cause at `site`. The example's robot was struck with dampings two to four times
+/// those that the file assumes: which of them stand out most is no question of this test.
+fn in_a_group(answer: &Value, site: &str) -> bool {
+    let groups = answer["cannot_separate"].as_array().unwrap();
+    let sites = groups.iter().flat_map(|g| g["sites"].as_array().unwrap());
+    sites.into_iter().any(|s| s == site)
+}
+
 #[test]
 fn points_alone_leave_a_group_and_hits_settle_it() {
     let alone = campaign(&["workspace.csv"]);
@@ -50,11 +58,12 @@ fn points_alone_leave_a_group_and_hits_settle_it() {
     assert_eq!(answer["verdict"], "cannot-tell", "{answer:#}");
     assert_eq!(answer["joint"], Value::Null);
     assert!(!names(&answer, "tilt_stiffness", "A3-tilt"));
+    assert!(in_a_group(&answer, "A3-tilt"), "{answer:#}");
 
     let both = campaign(&["workspace.csv", "hammer.csv"]);
     let answer = diagnosed(both.path());
     assert_eq!(answer["verdict"], "explained", "{answer:#}");
-    assert_eq!(answer["cannot_separate"].as_array().unwrap().len(), 0);
+    assert!(!in_a_group(&answer, "A3-tilt"), "{answer:#}");
     let settled = answer["causes"].as_array().unwrap().iter();
     let mut settled = settled.filter(|c| c["file"].as_str().unwrap().ends_with("workspace.csv"));
     let settled = settled.next().unwrap();

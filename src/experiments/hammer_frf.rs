@@ -3,6 +3,7 @@
 use super::hammer_force::{ForceNoise, ForceWindow, force_noise};
 use super::hammer_given::{self, ScatterFrom};
 use super::hammer_screen::{ScreenedHit, directions, screen};
+use super::hammer_window::window;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::stats::mean;
 use crate::measurement::hammer::HammerRecord;
@@ -29,6 +30,9 @@ pub struct Settings {
     pub keep_double: bool,
     /// Value of an exponential window at the end of the record; none: no window is applied.
     pub exponential_end: Option<f64>,
+    /// Instead of that a window at least so fast, 1/s, those in the records counted, and so fast that of neither noise nor
+    /// response anything is left at the end.
+    pub least_rate: Option<f64>,
     /// Whether modes will be sought.
     pub modes: bool,
 }
@@ -41,6 +45,7 @@ impl Default for Settings {
             force_window: ForceWindow::Never,
             keep_double: false,
             exponential_end: None,
+            least_rate: None,
             modes: false,
         }
     }
@@ -104,17 +109,13 @@ pub fn estimate(record: &HammerRecord, settings: &Settings) -> Outcome<HammerFrf
     if settings.keep_double {
         readmit_doubled(&mut screened);
     }
-    let used = || screened.iter().filter(|hit| hit.used());
-    let samples = used().map(|hit| hit.force.len()).min();
+    let used: Vec<&ScreenedHit> = screened.iter().filter(|hit| hit.used()).collect();
+    let samples = used.iter().map(|hit| hit.force.len()).min();
     let samples = samples.ok_or_else(|| no_hit(&screened))?;
     let length_s = samples as f64 * record.interval_s;
-    let window = Exponential {
-        rate: settings
-            .exponential_end
-            .map_or(0.0, |end| Exponential::with_end(end, length_s).rate),
-    };
-    let lines = lines_up_to(samples, record.interval_s, settings.to_hz);
     let recorded_rate = record.exponential_window_s.map_or(0.0, f64::recip);
+    let window = window(settings, &used, length_s, recorded_rate);
+    let lines = lines_up_to(samples, record.interval_s, settings.to_hz);
     let inputs = |window: Exponential, force: ForceWindow| {
         let treat = |hit: &ScreenedHit| treated(hit, samples, record.interval_s, window, force);
         let rate = window.rate + recorded_rate;
@@ -124,7 +125,7 @@ pub fn estimate(record: &HammerRecord, settings: &Settings) -> Outcome<HammerFrf
     let mut frf = HammerFrf {
         interval_s: record.interval_s,
         length_s,
-        impulse_s: impulse(used(), record.interval_s),
+        impulse_s: impulse(&used, record.interval_s),
         rate: window.rate + recorded_rate,
         recorded_rate,
         frequency_hz: frequencies(samples, record.interval_s, lines),
@@ -235,9 +236,9 @@ fn treated(
     (force, responses.collect())
 }
 
-fn impulse<'a>(hits: impl Iterator<Item = &'a ScreenedHit>, interval_s: f64) -> f64 {
+fn impulse(hits: &[&ScreenedHit], interval_s: f64) -> f64 {
     let centroid = |hit: &ScreenedHit| Some(Pulse::find(&hit.force)?.centroid(&hit.force));
-    let instants: Vec<f64> = hits.filter_map(centroid).collect();
+    let instants: Vec<f64> = hits.iter().filter_map(|hit| centroid(hit)).collect();
     mean(&instants) * interval_s
 }
 
@@ -246,7 +247,7 @@ fn remarks(frf: &HammerFrf, screened: &[ScreenedHit], settings: &Settings) -> Ve
     let used = screened.iter().filter(|hit| hit.used());
     let ring = used.map(|hit| hit.ring).fold(0.0, f64::max);
     let ring = ring * (-frf.rate * frf.length_s).exp();
-    if ring > ENOUGH_DECAY && settings.exponential_end.is_none() {
+    if ring > ENOUGH_DECAY && settings.exponential_end.is_none() && settings.least_rate.is_none() {
         remarks.push(format!(
             "the records end before the decay ({:.0} % of the response left): record longer, or use --exponential-end 0.01",
             100.0 * ring

@@ -45,11 +45,12 @@ impl ScreenedHit {
         (!reasons.is_empty()).then(|| reasons.join("; "))
     }
 
-    fn view(&self, interval_s: f64) -> Hit<'_> {
+    fn view(&self, record: &HammerRecord) -> Hit<'_> {
         Hit {
             force: &self.force,
             responses: &self.responses,
-            interval_s,
+            interval_s: record.interval_s,
+            window_rate: record.exponential_window_s.map_or(0.0, f64::recip),
         }
     }
 }
@@ -62,11 +63,11 @@ pub fn screen(record: &HammerRecord, to_hz: f64) -> Vec<ScreenedHit> {
         hits.extend(cut(run, known, record.interval_s));
     }
     for hit in &mut hits {
-        hit.faults = judge::faults(&hit.view(record.interval_s), to_hz);
+        hit.faults = judge::faults(&hit.view(record), to_hz);
         hit.ring = ring(hit, record.interval_s, to_hz);
     }
     for direction in directions(&hits) {
-        judge_family(&mut hits, &direction, record.interval_s);
+        judge_family(&mut hits, &direction, record);
     }
     judge_axes(&mut hits, record.interval_s, to_hz);
     hits
@@ -119,10 +120,10 @@ fn ring(hit: &ScreenedHit, interval_s: f64, to_hz: f64) -> f64 {
     rings.fold(0.0, f64::max)
 }
 
-fn judge_family(hits: &mut [ScreenedHit], direction: &str, interval_s: f64) {
+fn judge_family(hits: &mut [ScreenedHit], direction: &str, record: &HammerRecord) {
     let sound = |hit: &&mut ScreenedHit| hit.direction == direction && hit.used();
     let mut family: Vec<&mut ScreenedHit> = hits.iter_mut().filter(sound).collect();
-    let views: Vec<Hit> = family.iter().map(|hit| hit.view(interval_s)).collect();
+    let views: Vec<Hit> = family.iter().map(|hit| hit.view(record)).collect();
     let faults = judge::family_faults(&views);
     for (hit, faults) in family.iter_mut().zip(faults) {
         hit.faults = faults;

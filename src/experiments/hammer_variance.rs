@@ -26,7 +26,7 @@ const FLOOR: f64 = 0.0006;
 pub struct Parts {
     /// Noise of the response: other on every line.
     pub response: f64,
-    /// What follows the power of the FRF: noise of the force, and hits that are not alike, which is alike on all lines.
+    /// What follows the power of the FRF: noise of the force, and hits that are not alike.
     pub hits: f64,
 }
 
@@ -42,6 +42,15 @@ impl Parts {
         Self {
             response: factor * self.response,
             hits: factor * self.hits,
+        }
+    }
+
+    /// Where no more than a share of what hits differ is alike on all lines ([`super::hammer_alike`]): the rest is other on every line, too.
+    #[must_use]
+    pub fn with_alike(self, share: f64) -> Self {
+        Self {
+            response: self.response + (1.0 - share) * self.hits,
+            hits: share * self.hits,
         }
     }
 }

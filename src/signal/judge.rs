@@ -20,6 +20,10 @@ pub const FORCE_N: f64 = 3e5;
 /// Acceleration beyond that of shock accelerometers (10 000 g), m/s².
 const ACCELERATION: f64 = 1e5;
 
+/// Where a window is taken out of a force: so many samples around its peak; and the digit that is left of it, as a share of the peak.
+const NEAR: f64 = 64.0;
+const DIGIT: f64 = 1e-4;
+
 /// One hit as recorded.
 #[derive(Debug, Clone, Copy)]
 pub struct Hit<'a> {
@@ -29,6 +33,8 @@ pub struct Hit<'a> {
     pub responses: &'a [Vec<f64>],
     /// Time between samples, s.
     pub interval_s: f64,
+    /// Rate of the exponential window that was in the record, 1/s.
+    pub window_rate: f64,
 }
 
 /// The faults of a hit seen alone, for use up to `to_hz`.
@@ -59,12 +65,28 @@ fn double(hit: &Hit, pulse: &Pulse) -> Option<Fault> {
 }
 
 fn force_overload(hit: &Hit, pulse: &Pulse) -> Option<Fault> {
-    let towards: Vec<f64> = (0..hit.force.len())
-        .map(|i| pulse.above(hit.force, i))
-        .collect();
+    let towards = (0..hit.force.len()).map(|i| pulse.above(hit.force, i));
+    let mut towards: Vec<f64> = towards.collect();
+    if hit.window_rate > 0.0 {
+        unwound(&mut towards, pulse.at, hit.window_rate * hit.interval_s);
+    }
     pulse_clipped(&towards).then_some(Fault::ForceOverload {
         at: hit.force[pulse.at],
     })
+}
+
+/// Takes a window that falls by `rate` per sample out of a pulse and of what is near: what it was cut off at is level again, but for the
+/// digits that were written, and so is taken at [`DIGIT`].
+fn unwound(record: &mut [f64], at: usize, rate: f64) {
+    for (i, value) in record.iter_mut().enumerate() {
+        let after = i as f64 - at as f64;
+        *value *= (rate * after.clamp(-NEAR, NEAR)).exp();
+    }
+    let highest = record.iter().copied().fold(f64::MIN, f64::max);
+    let digit = DIGIT * highest;
+    for value in record {
+        *value = highest - ((highest - *value) / digit).round() * digit;
+    }
 }
 
 fn response_overloads(responses: &[Vec<f64>]) -> impl Iterator<Item = Fault> {
@@ -127,4 +149,43 @@ pub fn family_faults(hits: &[Hit]) -> Vec<Vec<Fault>> {
 
 fn peak(hit: &Hit) -> f64 {
     Pulse::find(hit.force).map_or(0.0, |pulse| pulse.peak.abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A hit cut off at a share of its peak, seen through a window of `rate` and written with so many digits.
+    fn overloaded(cut_at: f64, rate: f64, digit: f64) -> bool {
+        let interval_s = 1e-3;
+        let force = |i: usize| {
+            let phase = (i as f64 - 30.3) / 8.0;
+            let pulse = match (0.0..=1.0).contains(&phase) {
+                true => (std::f64::consts::PI * phase).sin(),
+                false => 0.0,
+            };
+            let cut = 250.0 * pulse.min(cut_at);
+            let seen = cut * (-rate * i as f64 * interval_s).exp();
+            (seen / digit).round() * digit
+        };
+        let force: Vec<f64> = (0..2000).map(force).collect();
+        let hit = Hit {
+            force: &force,
+            responses: &[],
+            interval_s,
+            window_rate: rate,
+        };
+        let all = faults(&hit, 50.0);
+        all.iter().any(|f| matches!(f, Fault::ForceOverload { .. }))
+    }
+
+    #[test]
+    fn an_overload_is_seen_through_a_declared_window() {
+        for rate in [0.0, 0.5, 1.5, 5.0] {
+            for digit in [1e-6, 0.01] {
+                assert!(overloaded(0.8, rate, digit), "{rate} {digit}");
+                assert!(!overloaded(1.1, rate, digit), "{rate} {digit}");
+            }
+        }
+    }
 }

@@ -149,6 +149,7 @@ fn settings(args: &FrfArgs) -> Outcome<Settings> {
         },
         keep_double: false,
         exponential_end: args.exponential_end,
+        least_rate: None,
         modes: args.modes,
     })
 }

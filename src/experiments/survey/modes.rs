@@ -54,6 +54,7 @@ pub fn find(survey: &Survey, to_hz: f64) -> Outcome<SurveyModes> {
         force_window: ForceWindow::Never,
         keep_double: false,
         exponential_end: None,
+        least_rate: None,
         modes: true,
     };
     let all = hammer_given::frf(record, &given, &settings);

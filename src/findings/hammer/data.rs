@@ -1,5 +1,6 @@
 //! The measured accelerances as a diagnosis weighs them.
 
+use crate::experiments::hammer_alike::alike;
 use crate::experiments::hammer_frf::HammerFrf;
 use crate::experiments::hammer_variance::{Parts, parts};
 use crate::motion::frf::C64;
@@ -132,23 +133,24 @@ impl Data {
         let all = every_line(frf, grid);
         let row = |name: &str| AXES.iter().position(|axis| *axis == name);
         let mut pairs = Vec::new();
-        for (input, sums) in frf.inputs.iter().zip(sums) {
-            for (o, name) in frf.outputs.iter().enumerate() {
-                if let (Some(from), Some(to)) = (row(&input.input), row(name)) {
-                    let scatter = parts(input, o, &all);
-                    let values: Vec<C64> =
-                        lines.iter().map(|k| sums.lines[o][all[*k]].h1()).collect();
-                    let fewer = |k: &usize| scatter[*k].times(1.0 / share);
-                    let scatter: Vec<Parts> = lines.iter().map(fewer).collect();
-                    let weight = weights(&values, &scatter, independent(frf, &lines), 1.0);
-                    pairs.push(Pair {
+        let correlated = independent(frf, &lines);
+        for (input, sums) in sums.iter().enumerate() {
+            let Some(from) = row(&frf.inputs[input].input) else {
+                continue;
+            };
+            for (o, scatter) in scatter(frf, input, [&all, &lines], share) {
+                let to = row(&frf.outputs[o]);
+                pairs.extend(to.map(|to| {
+                    let values = lines.iter().map(|k| sums.lines[o][all[*k]].h1());
+                    let frf: Vec<C64> = values.collect();
+                    Pair {
                         output: to,
                         input: from,
-                        frf: values,
-                        weight,
+                        weight: weights(&frf, &scatter, correlated, 1.0),
+                        frf,
                         scatter,
-                    });
-                }
+                    }
+                }));
             }
         }
         let line =
@@ -156,7 +158,7 @@ impl Data {
         Self {
             s: lines.iter().map(line).collect(),
             pairs,
-            correlated: independent(frf, &lines),
+            correlated,
             doubt: 1.0,
         }
     }
@@ -184,6 +186,28 @@ impl Data {
         let pair = &self.pairs[pair];
         format!("{}{}", AXES[pair.output], AXES[pair.input])
     }
+}
+
+/// Per output along x, y or z the variance at `lines`, places in `all`, from a `share` of the hits of `input`.
+fn scatter(
+    frf: &HammerFrf,
+    input: usize,
+    [all, lines]: [&[usize]; 2],
+    share: f64,
+) -> Vec<(usize, Vec<Parts>)> {
+    let of = |output: usize| {
+        let every = parts(&frf.inputs[input], output, all);
+        let fewer = lines.iter().map(|k| every[*k].times(1.0 / share));
+        (output, fewer.collect())
+    };
+    let known = (0..frf.outputs.len()).filter(|o| AXES.contains(&frf.outputs[*o].as_str()));
+    let mut scatter: Vec<(usize, Vec<Parts>)> = known.map(of).collect();
+    let own: Vec<usize> = lines.iter().map(|k| all[*k]).collect();
+    let alike = alike(&frf.inputs, input, &scatter, &own, independent(frf, lines));
+    for part in scatter.iter_mut().flat_map(|s| &mut s.1) {
+        *part = part.with_alike(alike);
+    }
+    scatter
 }
 
 fn every_line(frf: &HammerFrf, grid: Grid) -> Vec<usize> {

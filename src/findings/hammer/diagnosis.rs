@@ -22,10 +22,8 @@ use crate::robot::Robot;
 pub const UNIT: &str = "(m/s²)/N";
 /// The band of the diagnosis, Hz.
 const BAND: [f64; 2] = [2.0, 50.0];
-/// Rates of the windows through which the records are seen, 1/s: the broad one, and the least of the
-/// sharp one; and how far the sharp one has fallen at the end of a record.
+/// Least rates of the windows through which the records are seen, 1/s: the broad one, the sharp one.
 const RATES: [f64; 2] = [7.0, 1.5];
-const END: f64 = 0.01;
 /// Least distances of lines, Hz.
 const STEPS_HZ: [f64; 2] = [1.4, 0.5];
 /// Relative standard deviation of a stiffness, and of the logarithm of a damping, where the file states
@@ -78,10 +76,8 @@ pub fn diagnose(record: &HammerRecord, robot: &Robot) -> Outcome<Diagnosis> {
 /// The diagnosis as if the data were beyond doubt.
 fn undoubted(record: &HammerRecord, robot: &Robot) -> Outcome<Diagnosis> {
     let joints = pose(record, robot)?;
-    let length = length(record);
-    let rate = (-END.ln() / length).max(RATES[1]);
-    let broad = estimate(record, &self::settings(RATES[0].max(rate), length))?;
-    let settings = settings(rate, length);
+    let [broad, settings] = RATES.map(settings);
+    let broad = estimate(record, &broad)?;
     let frf = estimate(record, &settings)?;
     let grid = |step_hz: f64| Grid {
         from_hz: BAND[0],
@@ -120,20 +116,14 @@ fn undoubted(record: &HammerRecord, robot: &Robot) -> Outcome<Diagnosis> {
     case.conclude(&found, record)
 }
 
-fn settings(rate: f64, length_s: f64) -> Settings {
+fn settings(rate: f64) -> Settings {
     Settings {
         band_hz: BAND[1],
         to_hz: Some(1.2 * BAND[1]),
         keep_double: true,
-        exponential_end: Some((-rate * length_s).exp()),
+        least_rate: Some(rate),
         ..Settings::default()
     }
-}
-
-/// Length of the shortest record, s.
-fn length(record: &HammerRecord) -> f64 {
-    let samples = record.runs.iter().map(|run| run.force.len()).min();
-    samples.unwrap_or(0) as f64 * record.interval_s
 }
 
 fn pose(record: &HammerRecord, robot: &Robot) -> Outcome<Vec<f64>> {

@@ -1,0 +1,81 @@
+//! Hammer tests: the exponential window through which their records are seen.
+
+use super::hammer_frf::Settings;
+use super::hammer_screen::ScreenedHit;
+use crate::signal::window::Exponential;
+
+/// What a window that leaves nothing of a record cut off leaves of its noise, and of its response: a decay that is cut off
+/// at more than this shows between the modes, where a lightly damped robot hardly answers.
+const LEFT: [f64; 2] = [0.01, 4e-4];
+
+/// The window asked for, of records of `length_s` that hold one of `recorded` (1/s) already.
+pub fn window(
+    settings: &Settings,
+    hits: &[&ScreenedHit],
+    length_s: f64,
+    recorded: f64,
+) -> Exponential {
+    let falls = |left: f64| Exponential::with_end(left, length_s).rate;
+    let rate = match (settings.least_rate, settings.exponential_end) {
+        (Some(least), _) => {
+            let ring = hits.iter().map(|hit| hit.ring).fold(0.0, f64::max);
+            let ring = falls((LEFT[1] / ring.max(LEFT[1])).min(1.0));
+            let noise = falls(LEFT[0]).max(least) - recorded;
+            noise.max(ring).max(0.0)
+        }
+        (None, end) => end.map_or(0.0, falls),
+    };
+    Exponential { rate }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn hit(ring: f64) -> ScreenedHit {
+        ScreenedHit {
+            direction: "x".into(),
+            hit: "1".into(),
+            force: Vec::new(),
+            responses: Vec::new(),
+            faults: Vec::new(),
+            ring,
+        }
+    }
+
+    fn rate(least: f64, ring: f64, length_s: f64, recorded: f64) -> f64 {
+        let settings = Settings {
+            least_rate: Some(least),
+            exponential_end: Some(0.5),
+            ..Settings::default()
+        };
+        window(&settings, &[&hit(0.0), &hit(ring)], length_s, recorded).rate
+    }
+
+    #[test]
+    fn a_window_leaves_nothing_of_noise_and_of_a_decay() {
+        // to a hundredth over two seconds, but no slower than asked for
+        assert!((rate(0.5, 0.0, 2.0, 0.0) - 0.5 * 100f64.ln()).abs() < 1e-12);
+        assert_eq!(rate(7.0, 0.0, 2.0, 0.0), 7.0);
+        // a fifth of the response left after two seconds: to a five-hundredth of that
+        assert!((rate(0.5, 0.2, 2.0, 0.0) - 0.5 * 500f64.ln()).abs() < 1e-12);
+        // what was in the records counts, and the decay was seen through it
+        assert_eq!(rate(1.5, 0.0, 6.0, 1.0), 0.5);
+        assert_eq!(rate(1.5, 0.0, 6.0, 2.0), 0.0);
+        assert!((rate(1.5, 0.2, 2.0, 9.0) - 0.5 * 500f64.ln()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_window_that_is_asked_for_is_that_one() {
+        let settings = Settings {
+            exponential_end: Some(0.5),
+            ..Settings::default()
+        };
+        let asked = window(&settings, &[&hit(0.2)], 2.0, 1.0).rate;
+        assert!((asked - 0.5 * 2f64.ln()).abs() < 1e-12);
+        assert_eq!(
+            window(&Settings::default(), &[&hit(0.2)], 2.0, 1.0).rate,
+            0.0
+        );
+    }
+}
