@@ -17,6 +17,7 @@ use super::{discrepancy, doubled, extended};
 use crate::experiments::hammer_frf::{HammerFrf, Settings};
 use crate::findings::answer::{Answer, Cause, Discrepancy, Group, Structure, Verdict};
 use crate::findings::belief::Belief;
+use crate::findings::engine::judgement::Judgement;
 use crate::findings::gain::Gain;
 use crate::ground::problem::Outcome;
 use crate::measurement::hammer::HammerRecord;
@@ -28,8 +29,8 @@ const TOLERATED_NATS: f64 = 5.0;
 const FOLDS: usize = 2;
 /// Share of the misfit that a cause must take away to be named although something is left.
 const THE_STORY: f64 = 0.95;
-/// A cause alone is named as well where no more of the error's variance is left above the noise: what drifts below the
-/// lowest mode weighs much and is little. A tenth of what [`THE_STORY`] leaves open, for variances are of the peaks alone.
+/// A cause alone is named as well where no more of the error's variance is left above the noise than this share of what is
+/// left without it: drift below the lowest mode weighs much and is little. A tenth of what [`THE_STORY`] leaves open.
 const LITTLE: f64 = 0.005;
 /// Most members of a group that are named.
 const MEMBERS: usize = 6;
@@ -118,15 +119,18 @@ impl Case<'_> {
             .unwrap_or_else(|| lines().collect())
     }
 
-    /// Names the causes of `best`, one after the other dropping those without a gain.
+    /// Names the causes of `best`, one after the other dropping those without a gain or as well absent.
     fn name(&self, posterior: &Posterior, best: &Fit) -> Outcome<(Fit, Named)> {
         let mut chosen = best.clone();
+        let least = Judgement::default().companion_needed;
         loop {
             let folds = folds(&self.machine, self.apart(), &chosen);
             let each = chosen.point.each();
-            let gains = each.iter().map(|(s, _)| gain(&self.machine, &folds, s));
-            let gains: Vec<Gain> = gains.collect();
-            let Some(useless) = gains.iter().position(|g| !g.is_real()) else {
+            let own = |(s, _): &(&Suspect, Vec<f64>)| gain(&self.machine, &folds, s);
+            let gains: Vec<Gain> = each.iter().map(own).collect();
+            let needed = |s: &Suspect| posterior.needed(&chosen, s) > least;
+            let mut both = gains.iter().zip(&each);
+            let Some(useless) = both.position(|(g, (s, _))| !(g.is_real() && needed(s))) else {
                 let mut named = Named::default();
                 for ((suspect, amounts), gain) in each.into_iter().zip(gains) {
                     self.sort_in(posterior, &chosen, (suspect, &amounts), gain, &mut named);
@@ -215,7 +219,7 @@ impl Case<'_> {
         let left = adequacy.left() || bent.is_some() || strayed.is_some();
         let explained = match strayed {
             Some(_) => 0.0,
-            None => self.explained(posterior, chosen, share),
+            None => self.explained(posterior, chosen, left_rms)?,
         };
         let verdict = verdict(&named, left, explained);
         let description = match (bent, strayed, adequacy.left()) {
@@ -274,16 +278,21 @@ impl Case<'_> {
         })
     }
 
-    /// Share of the weighted misfit of the present simulation that the chosen set takes away, all of it where nearly
-    /// nothing is left (`share` of the error's variance). While something is left, several causes may imitate an unknown
-    /// one together: they count as nothing.
-    fn explained(&self, posterior: &Posterior, chosen: &Fit, share: f64) -> f64 {
+    /// Share of the weighted misfit of the present simulation that the chosen cause takes away, all of it where nearly
+    /// nothing is left (`left_rms`). While something is left several may imitate an unknown one together: they count as nothing.
+    fn explained(&self, posterior: &Posterior, chosen: &Fit, left_rms: f64) -> Outcome<f64> {
         let nothing = posterior.sets.iter().find(|s| s.0.point.set.is_empty());
-        match (nothing, chosen.point.set.len()) {
-            (_, 1) if share < LITTLE => 1.0,
-            (Some(set), 1) => 1.0 - chosen.misfit / set.0.misfit.max(f64::MIN_POSITIVE),
-            _ => 0.0,
-        }
+        let (Some((nothing, ..)), 1) = (nothing, chosen.point.set.len()) else {
+            return Ok(0.0);
+        };
+        let without = discrepancy::simulated(&self.machine, &self.sharp, &nothing.point)?;
+        let noise = discrepancy::noise(&self.sharp).powi(2);
+        let above = |rms: f64| (rms.powi(2) - noise).max(0.0);
+        let without = above(discrepancy::between(&self.sharp, &without).0);
+        Ok(match above(left_rms) < LITTLE * without {
+            true => 1.0,
+            false => 1.0 - chosen.misfit / nothing.misfit.max(f64::MIN_POSITIVE),
+        })
     }
 
     fn nats(&self, posterior: &Posterior, fit: &Fit) -> f64 {

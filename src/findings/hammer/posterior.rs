@@ -3,8 +3,9 @@
 use super::map::Fit;
 use super::suspect::{Suspect, same};
 
-/// Sets within these nats of the best explain the data as well.
-const TIE: f64 = 3.0;
+/// Sets within these nats of the best explain the data as well. At three, which was the first choice, causes that stood alone at 0.9 to
+/// 0.97 were right in half of 14 files of two generators.
+const TIE: f64 = 4.0;
 
 /// The compared sets with their evidence, best first.
 pub struct Posterior<'a> {
@@ -38,6 +39,12 @@ impl<'a> Posterior<'a> {
     pub fn of(&self, suspect: &Suspect) -> f64 {
         let holding = self.sets.iter().filter(|s| holds(s.0, suspect));
         holding.map(|s| s.2).sum()
+    }
+
+    /// Probability that `suspect` is present in `chosen`, or one of its stand-ins in its place.
+    pub fn needed(&self, chosen: &Fit, suspect: &Suspect) -> f64 {
+        let others = self.alternatives(chosen, suspect);
+        self.of(suspect) + others.iter().map(|(_, p)| p).sum::<f64>()
     }
 
     /// What can stand in for `suspect` in `chosen` as well as it does itself: fits with that cause
