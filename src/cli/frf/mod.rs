@@ -147,10 +147,9 @@ fn settings(args: &FrfArgs) -> Outcome<Settings> {
             true => ForceWindow::Always,
             false => ForceWindow::Never,
         },
-        keep_double: false,
         exponential_end: args.exponential_end,
-        least_rate: None,
         modes: args.modes,
+        ..Settings::default()
     })
 }
 

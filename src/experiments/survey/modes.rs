@@ -1,8 +1,8 @@
 //! The modes of a survey: poles from a few combinations of all responses, shapes from all of them.
 
 use crate::experiments::hammer_frf::{HammerFrf, Settings};
+use crate::experiments::hammer_given;
 use crate::experiments::hammer_modes::{channels, lines};
-use crate::experiments::{hammer_force::ForceWindow, hammer_given};
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::frf_uff::{Given, GivenPair};
 use crate::measurement::hammer::HammerRecord;
@@ -50,12 +50,8 @@ pub fn find(survey: &Survey, to_hz: f64) -> Outcome<SurveyModes> {
     let given = record.given.clone().unwrap_or_default();
     let settings = Settings {
         band_hz: to_hz,
-        to_hz: None,
-        force_window: ForceWindow::Never,
-        keep_double: false,
-        exponential_end: None,
-        least_rate: None,
         modes: true,
+        ..Settings::default()
     };
     let all = hammer_given::frf(record, &given, &settings);
     let lines = lines(&all, to_hz);
