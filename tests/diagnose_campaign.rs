@@ -13,6 +13,32 @@ fn ident(arguments: &[&str], folder: &Path) -> String {
     String::from_utf8(output.unwrap().stdout).unwrap()
 }
 
+/// A robot file with the dampings of the robot that was struck in the example: those of the file are assumed, and two to four times
+/// too small, which is another question than that of these tests.
+fn damped(robot: &str) -> String {
+    let truth = Path::new(env!("CARGO_MANIFEST_DIR")).join("measurements/kr210/truth.toml");
+    let truth: toml::Table = std::fs::read_to_string(truth).unwrap().parse().unwrap();
+    let dampings = truth["hammer"]["damping_Nms_rad"].as_table().unwrap();
+    let mut joint = String::new();
+    let line = |line: &str| {
+        if let Some(name) = line.strip_prefix("name = \"A") {
+            joint = format!("A{}", name.trim_end_matches('"'));
+        }
+        let site = match line.split(" = ").next() {
+            Some("drive") => joint.clone(),
+            Some("tilt") => format!("{joint}-tilt"),
+            _ => return line.to_string(),
+        };
+        let (before, rest) = line.split_once("damping_Nms_rad = ").unwrap();
+        let (_, after) = rest.split_once(',').unwrap();
+        format!(
+            "{before}damping_Nms_rad = {:?},{after}",
+            dampings[&site].as_float().unwrap()
+        )
+    };
+    robot.lines().map(line).collect::<Vec<_>>().join("\n")
+}
+
 /// The example's points and hits, with a model whose A3 bearing is 1.6 times as stiff as the robot's.
 fn campaign(files: &[&str]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
@@ -21,6 +47,7 @@ fn campaign(files: &[&str]) -> tempfile::TempDir {
     let robot = ident(&["robot", "convert", "kr210"], folder.path());
     let stiff = robot.replace("1540000.0", "2464000.0");
     assert_ne!(robot, stiff);
+    let stiff = damped(&stiff);
     std::fs::write(own.join("model.toml"), stiff).unwrap();
     let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("measurements/kr210");
     for file in files {
@@ -43,8 +70,7 @@ fn names(answer: &Value, effect: &str, site: &str) -> bool {
         .any(|c| c["effect"] == effect && c["site"] == site)
 }
 
-/// Whether something is left that cannot be told from a cause at `site`. The example's robot was struck with dampings two to four times
-/// those that the file assumes: which of them stand out most is no question of this test.
+/// Whether something is left that cannot be told from a cause at `site`.
 fn in_a_group(answer: &Value, site: &str) -> bool {
     let groups = answer["cannot_separate"].as_array().unwrap();
     let sites = groups.iter().flat_map(|g| g["sites"].as_array().unwrap());
@@ -63,7 +89,7 @@ fn points_alone_leave_a_group_and_hits_settle_it() {
     let both = campaign(&["workspace.csv", "hammer.csv"]);
     let answer = diagnosed(both.path());
     assert_eq!(answer["verdict"], "explained", "{answer:#}");
-    assert!(!in_a_group(&answer, "A3-tilt"), "{answer:#}");
+    assert_eq!(answer["cannot_separate"].as_array().unwrap().len(), 0);
     let settled = answer["causes"].as_array().unwrap().iter();
     let mut settled = settled.filter(|c| c["file"].as_str().unwrap().ends_with("workspace.csv"));
     let settled = settled.next().unwrap();

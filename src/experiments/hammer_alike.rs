@@ -4,6 +4,8 @@
 use super::hammer_frf::InputFrf;
 use super::hammer_variance::Parts;
 use crate::motion::frf::C64;
+use crate::signal::frf::{Estimator, Line};
+use crate::signal::jackknife::{covariance, left_out};
 use nalgebra::{DMatrix, DVector};
 
 /// The share of the variance of the `hits` of one direction, 0 to 1, that real sums of the FRFs of all directions
@@ -24,30 +26,23 @@ pub fn alike(
     if hits < 2 {
         return 1.0;
     }
-    let weigh = |values: &dyn Fn(usize) -> Vec<C64>| weighed(parts, values);
-    let at = |input: &InputFrf, output: usize| -> Vec<C64> {
-        let sums = &input.sums.lines[output];
-        lines.iter().map(|k| sums[*k].h1()).collect()
-    };
-    let along: Vec<DVector<f64>> = inputs.iter().map(|i| weigh(&|o| at(i, o))).collect();
-    let along = DMatrix::from_columns(&along);
-    let without = |hit: usize, output: usize| {
-        let one = |k: &usize| {
-            let spectra = &input.hits[hit];
-            let (f, x) = (spectra.force[*k], spectra.responses[output][*k]);
-            input.sums.lines[output][*k].without(f, x).h1()
-        };
-        lines.iter().map(one).collect()
-    };
-    let moved: Vec<DVector<f64>> = (0..hits).map(|hit| weigh(&|o| without(hit, o))).collect();
-    let mean = moved.iter().sum::<DVector<f64>>() / hits as f64;
-    let directions = along.qr().q();
-    let by_hit = |moved: &DVector<f64>| directions.tr_mul(&(moved - &mean)).norm_squared();
-    let jackknife = (hits - 1) as f64 / hits as f64;
-    let taken = jackknife * moved.iter().map(by_hit).sum::<f64>();
+    let weighed = |values: Vec<Vec<C64>>| weighed(parts, &values);
+    let along = inputs.iter().map(|input| {
+        let of = |sums: &[Line]| lines.iter().map(|k| sums[*k].h1()).collect();
+        weighed(parts.iter().map(|p| of(&input.sums.lines[p.0])).collect())
+    });
+    let directions = DMatrix::from_columns(&along.collect::<Vec<_>>()).qr().q();
+    let each = parts.iter();
+    let each = each.map(|p| left_out(&input.sums, &input.hits, p.0, Estimator::H1, lines));
+    let each: Vec<Vec<Vec<C64>>> = each.collect();
+    let moved = (0..hits).map(|hit| {
+        let own = each.iter().map(|outputs| outputs[hit].clone());
+        directions.tr_mul(&weighed(own.collect()))
+    });
+    let taken = covariance(&moved.collect::<Vec<_>>()).trace();
     let chance = directions.ncols() as f64 * correlated;
-    let each = parts.iter().flat_map(|p| &p.1);
-    let all: f64 = each.map(|p| 2.0 * p.hits / p.sum()).sum();
+    let scatter = parts.iter().flat_map(|p| &p.1);
+    let all: f64 = scatter.map(|p| 2.0 * p.hits / p.sum()).sum();
     let share = (taken - chance) / all.max(f64::MIN_POSITIVE);
     match share.is_nan() {
         // a line without force
@@ -56,10 +51,10 @@ pub fn alike(
     }
 }
 
-/// Values of every output, line by line, real parts and imaginary ones, in standard deviations of `parts`.
-fn weighed(parts: &[(usize, Vec<Parts>)], values: &dyn Fn(usize) -> Vec<C64>) -> DVector<f64> {
-    let rows = parts.iter().flat_map(|(output, parts)| {
-        let both = values(*output).into_iter().zip(parts);
+/// The `values` of every output, line by line, real parts and imaginary ones, in standard deviations of `parts`.
+fn weighed(parts: &[(usize, Vec<Parts>)], values: &[Vec<C64>]) -> DVector<f64> {
+    let rows = parts.iter().zip(values).flat_map(|((_, parts), values)| {
+        let both = values.iter().zip(parts);
         both.flat_map(|(value, part)| {
             let unit = (2.0 / part.sum().max(f64::MIN_POSITIVE)).sqrt();
             [value.re * unit, value.im * unit]

@@ -4,8 +4,9 @@ use super::hammer_frf::Settings;
 use super::hammer_screen::ScreenedHit;
 use crate::signal::window::Exponential;
 
-/// What a window that leaves nothing of a record cut off leaves of its noise, and of its response: a decay that is cut off
-/// at more than this shows between the modes, where a lightly damped robot hardly answers.
+/// What a window leaves at the end of a record of its noise, and of the response. Of a mode of 7 Hz damped by 0.8 % in a record of two
+/// seconds, cut off at 4e-4, 0.04 % of the root mean square of its FRF stand beside the mode, a fifth of what a diagnosis puts up
+/// with there (`findings/hammer/data`); cut off at 5e-3, which a hundredth leaves, 0.4 %.
 const LEFT: [f64; 2] = [0.01, 4e-4];
 
 /// The window asked for, of records of `length_s` that hold one of `recorded` (1/s) already.

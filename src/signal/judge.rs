@@ -20,7 +20,9 @@ pub const FORCE_N: f64 = 3e5;
 /// Acceleration beyond that of shock accelerometers (10 000 g), m/s².
 const ACCELERATION: f64 = 1e5;
 
-/// Where a window is taken out of a force: so many samples around its peak; and the digit that is left of it, as a share of the peak.
+/// A window is taken out of a force over so many samples on either side of its peak, for it would blow up the noise at the end of a
+/// record; beyond them a plateau falls so slowly that it stays one. What is left then of the digits of a file, as a share of the peak: a
+/// hundredth of a newton in a hit of a hundred, and far from the two hundredths that a smooth peak may be rounded to (`clipping`).
 const NEAR: f64 = 64.0;
 const DIGIT: f64 = 1e-4;
 

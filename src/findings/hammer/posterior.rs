@@ -4,7 +4,7 @@ use super::map::Fit;
 use super::suspect::{Suspect, same};
 
 /// Sets within these nats of the best explain the data as well. At three, which was the first choice, causes that stood alone at 0.9 to
-/// 0.97 were right in half of 14 files of two generators.
+/// 0.97 were right in half of 14 files of two generators; at four 0.982 stands alone. No other value was tried.
 const TIE: f64 = 4.0;
 
 /// The compared sets with their evidence, best first.
