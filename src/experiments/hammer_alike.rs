@@ -124,12 +124,13 @@ mod tests {
         alike(&inputs, 0, &parts, &lines, 1.0)
     }
 
-    /// Gains and angles are alike on all lines, a force that is read with noise is not, and half of either is half.
+    /// Gains and angles are alike on all lines, a force that is read with noise is not, and half of either is half. They are
+    /// large beside the least deviation of a line, which nothing shows to be alike.
     #[test]
     fn what_is_alike_on_all_lines_is_told_from_what_is_not() {
-        let gain = share(|random, _| [0.02 * random.normal(), 0.0, 1e-4]);
+        let gain = share(|random, _| [0.05 * random.normal(), 0.0, 1e-4]);
         assert!(gain > 0.9, "{gain}");
-        let angle = share(|random, _| [0.0, 0.02 * random.normal(), 1e-4]);
+        let angle = share(|random, _| [0.0, 0.05 * random.normal(), 1e-4]);
         assert!(angle > 0.8, "{angle}");
         let noise = share(|_, _| [0.0, 0.0, 0.02]);
         assert!(noise < 0.1, "{noise}");
