@@ -38,13 +38,21 @@ pub struct Found {
     pub(super) wider: Option<(Vec<Blamed>, Vec<f64>)>,
     /// Evidence of every set that was compared, over that of no cause, no prior in it: (effect and site of
     /// each cause, ln E).
-    pub evidence: Vec<(Vec<(&'static str, String)>, f64)>,
+    pub evidence: Vec<(Names, f64)>,
+    /// ln E of no cause: what evidence of several statements is compared by.
+    pub(super) nothing: f64,
 }
+
+/// Effects with their sites.
+pub(super) type Names = Vec<(&'static str, String)>;
+
+/// Nats by which sets of a statement are worth more than its straight lines say, or less.
+pub(super) type Raised = [(Names, f64)];
 
 /// Diagnoses.
 pub fn diagnose(experiment: &dyn Experiment, judgement: &Judgement) -> Found {
     let first = stated(experiment, &[], &[]);
-    let found = about(experiment, (&first, &first.reading), judgement);
+    let found = about(experiment, (&first, &first.reading), &[], judgement);
     match experiment.is_linear() || found.lead.is_empty() {
         true => found,
         false => rounds::settled(experiment, (first, found), judgement),
@@ -73,10 +81,12 @@ pub(super) fn shown(mut statement: Statement) -> Statement {
 pub(super) fn about(
     experiment: &dyn Experiment,
     (statement, present): (&Statement, &[f64]),
+    raised: &Raised,
     judgement: &Judgement,
 ) -> Found {
     let mut bank = Bank::new(statement);
-    let compared = search(&mut bank, judgement);
+    let mut compared = search(&mut bank, judgement);
+    raise(&bank, &mut compared, raised);
     let named = |s: &&Scored| s.suspects.iter().all(|s| bank.suspects[*s].named);
     let evidence = compared
         .iter()
@@ -90,6 +100,7 @@ pub(super) fn about(
     let mut posterior = Posterior::of(sets, judgement.exponent(nats));
     let span = Span::of(statement);
     let nothing = nothing(&posterior).fit;
+    let base = nothing.posterior.ln_evidence;
     let weighing = Weighing::new(statement, &bank, span.as_ref(), &nothing, judgement);
     let picked = picked(experiment, &weighing, &mut posterior, story.as_ref());
     // where laws are only nearly right the spring itself is fitted, not stated: its gains are those that decided
@@ -152,7 +163,23 @@ pub(super) fn about(
         lead,
         wider,
         evidence,
+        nothing: base,
     }
+}
+
+/// Sets with what they are worth more, best first again.
+fn raise(bank: &Bank, compared: &mut [Scored], raised: &Raised) {
+    for set in compared.iter_mut() {
+        let own = places(bank, set);
+        let more = raised.iter().find(|(names, _)| *names == own);
+        set.score += more.map_or(0.0, |(_, by)| *by);
+    }
+    compared.sort_by(|a, b| b.score.total_cmp(&a.score));
+}
+
+fn places(bank: &Bank, set: &Scored) -> Names {
+    let own = set.suspects.iter().map(|s| &bank.suspects[*s]);
+    own.map(|s| (s.effect, s.site.clone())).collect()
 }
 
 /// The best set of causes of the library.
@@ -167,18 +194,12 @@ fn worth(bank: &Bank, fit: &Fit) -> f64 {
     0.5 * rows * explained(bank, fit).powi(2) / fit.posterior.noise_variance
 }
 
-fn evidence_of(
-    bank: &Bank,
-    set: &Scored,
-    judgement: &Judgement,
-) -> (Vec<(&'static str, String)>, f64) {
-    let own = set.suspects.iter().map(|s| &bank.suspects[*s]);
-    let places = own.map(|s| (s.effect, s.site.clone())).collect();
+fn evidence_of(bank: &Bank, set: &Scored, judgement: &Judgement) -> (Names, f64) {
     // the shapes' and the amounts' prices belong to the evidence; the odds of names do not
     let names = set.suspects.len() as f64;
     let shares: f64 = set.suspects.iter().map(|s| bank.suspects[*s].share).sum();
     let odds = judgement.name * names + judgement.companion * (names - 1.0).max(0.0) - shares;
-    (places, set.score + odds)
+    (places(bank, set), set.score + odds)
 }
 
 fn blamed(bank: &Bank, fit: &Fit) -> Vec<Blamed> {

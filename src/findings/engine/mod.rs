@@ -27,6 +27,7 @@ pub mod judgement;
 mod leaves;
 pub mod materiality;
 mod nuisances;
+mod peers;
 mod picked;
 pub mod posterior;
 pub mod rest;

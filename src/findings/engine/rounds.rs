@@ -1,8 +1,9 @@
 //! Kinds that are not linear: what was found is stated anew until it settles, and then without each of its causes.
 
-use super::diagnosis::{Found, about, shown, stated};
+use super::diagnosis::{Found, Names, Raised, about, shown, stated};
 use super::judgement::Judgement;
 use super::materiality::in_noise;
+use super::peers::beside_peers;
 use super::statement::{Blamed, Experiment, Statement, Suspect};
 use crate::findings::answer::{Discrepancy, Verdict};
 use crate::ground::stats::rms;
@@ -26,7 +27,7 @@ const OTHERS: usize = 4;
 const WIDER: usize = 3;
 
 /// What every round is asked of.
-struct Course<'a> {
+pub(super) struct Course<'a> {
     experiment: &'a dyn Experiment,
     judgement: &'a Judgement,
     /// The reading of the first statement, about nothing.
@@ -34,7 +35,7 @@ struct Course<'a> {
 }
 
 impl Course<'_> {
-    fn stated(&self, blamed: &[Blamed], uncertain: &[f64]) -> Statement {
+    pub fn stated(&self, blamed: &[Blamed], uncertain: &[f64]) -> Statement {
         stated(self.experiment, blamed, uncertain)
     }
 
@@ -42,8 +43,13 @@ impl Course<'_> {
         shown(self.experiment.state_among(blamed, uncertain, names))
     }
 
-    fn about(&self, statement: &Statement) -> Found {
-        about(self.experiment, (statement, &self.present), self.judgement)
+    pub fn about(&self, statement: &Statement) -> Found {
+        self.about_raised(statement, &[])
+    }
+
+    pub fn about_raised(&self, statement: &Statement, raised: &Raised) -> Found {
+        let statement = (statement, &self.present[..]);
+        about(self.experiment, statement, raised, self.judgement)
     }
 }
 
@@ -68,6 +74,7 @@ pub(super) fn settled(
         best = simpler;
     }
     best = whole(&course, &best).unwrap_or(best);
+    best = beside_peers(&course, &mut first, best);
     // what is missed is that of the simulation as it was; the noise is what stays beside what was found
     let noise_rms = best.answer.discrepancy.noise_rms;
     best.missed = told.missed;
@@ -127,10 +134,7 @@ fn whole(course: &Course, best: &Found) -> Option<Found> {
     None
 }
 
-/// Effects with their sites.
-type Names = Vec<(&'static str, String)>;
-
-fn names(causes: &[Blamed]) -> Names {
+pub(super) fn names(causes: &[Blamed]) -> Names {
     causes.iter().map(|c| (c.effect, c.site.clone())).collect()
 }
 
@@ -153,12 +157,15 @@ fn others(course: &Course, (first, told): (&mut Statement, &Found), best: &Found
     })
 }
 
-/// Whether what was found does more beyond first order than the odds of causes can bear that were compared by straight lines.
 fn bends(course: &Course, first: &Statement, best: &Found) -> bool {
-    let again = course.stated(&best.blamed, &best.uncertain);
+    bent(first, &course.stated(&best.blamed, &best.uncertain)) > BETTER
+}
+
+/// Nats of what the causes of a statement do beyond first order.
+pub(super) fn bent(first: &Statement, again: &Statement) -> f64 {
     let beyond = first.reading.iter().zip(&again.reading);
     let beyond: Vec<f64> = beyond.map(|(a, b)| a - b).collect();
-    0.5 * squares(&beyond, first) > BETTER
+    0.5 * squares(&beyond, first)
 }
 
 /// Squares of values over the rows, in noise deviations of a statement.
@@ -223,7 +230,11 @@ fn again(course: &Course, alone: &Found) -> Found {
 }
 
 /// Something asked of a statement that has only some of its suspects.
-fn only<T>(statement: &mut Statement, names: &Names, ask: impl Fn(&Statement) -> T) -> T {
+pub(super) fn only<T>(
+    statement: &mut Statement,
+    names: &Names,
+    ask: impl Fn(&Statement) -> T,
+) -> T {
     let is_one = |s: &&Suspect| names.iter().any(|n| n.0 == s.effect && n.1 == s.site);
     let own = statement.suspects.iter().filter(is_one).cloned().collect();
     let all = std::mem::replace(&mut statement.suspects, own);
@@ -233,7 +244,7 @@ fn only<T>(statement: &mut Statement, names: &Names, ask: impl Fn(&Statement) ->
 }
 
 /// These causes alone, fitted again until they arrive. None where one of them falls.
-fn refitted(course: &Course, (names, mut found): (&Names, Found)) -> Option<Found> {
+pub(super) fn refitted(course: &Course, (names, mut found): (&Names, Found)) -> Option<Found> {
     for _ in 0..ROUNDS {
         if found.blamed.len() < names.len() {
             return None;

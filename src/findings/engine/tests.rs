@@ -26,6 +26,13 @@ struct Toy {
     reading: Vec<f64>,
     causes: fn(usize) -> Causes,
     nuisances: Vec<Nuisance>,
+    /// What the square of an amount of a cause adds of [`bend`].
+    bends: Option<fn(&str) -> f64>,
+}
+
+/// What causes do beyond first order: little in every row, four squares in all of 200.
+fn bend(row: usize) -> f64 {
+    0.2 * (0.7 * row as f64).sin()
 }
 
 impl Toy {
@@ -44,6 +51,7 @@ impl Toy {
                 column: (0..rows).map(nuisance).collect(),
                 spread: 0.5,
             }],
+            bends: None,
         }
     }
 
@@ -67,7 +75,13 @@ impl Experiment for Toy {
         "m"
     }
 
-    fn state(&self, _: &[Blamed]) -> Statement {
+    fn is_linear(&self) -> bool {
+        self.bends.is_none()
+    }
+
+    fn state(&self, about: &[Blamed]) -> Statement {
+        let square = |b: &Blamed| self.bends.map_or(0.0, |f| f(b.effect)) * b.amounts[0].powi(2);
+        let beyond: f64 = about.iter().map(square).sum();
         let rows = self.reading.len();
         let suspect = |(effect, members): (&'static str, Vec<Member>)| Suspect {
             effect,
@@ -84,7 +98,9 @@ impl Experiment for Toy {
             (std::f64::consts::PI * k as f64 * (i as f64 + 0.5) / rows as f64).cos() / k as f64
         };
         Statement {
-            reading: self.reading.clone(),
+            reading: (0..rows)
+                .map(|i| self.reading[i] - beyond * bend(i))
+                .collect(),
             noise: Box::new(White {
                 spread: vec![1.0; rows],
                 rows: 30.0,
@@ -210,5 +226,32 @@ fn a_cause_stays_where_all_that_is_uncertain_would_have_to_stand_in_for_it() {
         let mut sound = Toy::new(seed, 6000, base, |_| 0.9);
         sound.nuisances.extend((0..6).map(|k| piece(k, 0.72)));
         assert_eq!(sound.names(), (vec![], Verdict::Sufficient));
+    }
+}
+
+fn bent(rows: usize) -> Causes {
+    let of = |more: f64| {
+        let column = |i: usize| 3.0 * (i as f64 / 15.0).sin() + more * bend(i);
+        vec![Member::given((0..rows).map(column).collect(), 1.0)]
+    };
+    vec![("drive", of(0.8)), ("tilt", of(0.0))]
+}
+
+/// Two of the drive and two of the tilt do the same; the straight line of the drive is the nearer one. The tilt is not ruled out
+/// by its own straight line about the drive.
+#[test]
+fn a_rival_is_weighed_where_it_has_arrived() {
+    for seed in 1..5 {
+        let hidden = |i: usize| 6.0 * (i as f64 / 15.0).sin() + 4.0 * bend(i);
+        let mut toy = Toy::new(seed, 200, bent, hidden);
+        toy.bends = Some(|effect| if effect == "drive" { 0.6 } else { 1.0 });
+        let found = diagnose(&toy, &Judgement::default());
+        let groups: Vec<usize> = found
+            .answer
+            .groups
+            .iter()
+            .map(|g| g.effects.len())
+            .collect();
+        assert_eq!(groups, [2], "seed {seed}: {:?}", found.answer.candidates);
     }
 }

@@ -1,7 +1,10 @@
 //! The part milled again with what was found: what that changes beyond first order.
 
 use super::tried::{shifted, still};
-use super::{Case, backlash, cutting_coefficients, robot, thermal_growth, tool_radius, uncertain};
+use super::{
+    Case, backlash, cutting_coefficients, robot, thermal_growth, tool_radius, uncertain,
+    workpiece_offset, workpiece_rotation,
+};
 use crate::findings::engine::{Blamed, Nuisance};
 use crate::ground::spatial::{V3, add};
 use crate::process::setup::Setup;
@@ -72,5 +75,11 @@ impl Case {
 
 /// Where a cause moves the tool before the cut answers.
 fn moves(case: &Case, blamed: &Blamed) -> Option<Vec<V3>> {
-    thermal_growth::moves(case, blamed).or_else(|| backlash::moves(case, blamed))
+    let own = [
+        thermal_growth::moves,
+        backlash::moves,
+        workpiece_offset::moves,
+        workpiece_rotation::moves,
+    ];
+    own.iter().find_map(|moves| moves(case, blamed))
 }

@@ -119,17 +119,9 @@ impl Case {
 
     /// Waves over path and time, and the simulated deviation changing along the path.
     fn span(&self) -> Vec<Vec<f64>> {
-        let over = |of: fn(&super::Station) -> f64| table::unit_range(&self.column(|s, _| of(s)));
-        let path = table::waves(&over(|s| s.s_m), WAVES[0]);
-        let time = table::waves(&over(|s| s.time_s), WAVES[1]);
-        let mut span = Vec::new();
-        for wave in path.iter().chain(&time) {
-            for left in [true, false] {
-                let own = self.rows.iter().zip(wave);
-                let column = own.map(|(row, w)| if row.left == left { *w } else { 0.0 });
-                span.push(column.collect::<Vec<f64>>());
-            }
-        }
+        let mut span = self.waves_across(WAVES[0]);
+        let time = table::unit_range(&self.column(|s, _| s.time_s));
+        span.extend(self.either_way(&table::waves(&time, WAVES[1])));
         let sizes = largest(&self.simulated);
         if sizes > 0.0 {
             let missed = missed(self).into_iter();
@@ -137,6 +129,23 @@ impl Case {
         }
         span.retain(|column| column.iter().any(|x| *x != 0.0));
         span
+    }
+
+    /// Waves over the path, in either direction across the feed.
+    pub(super) fn waves_across(&self, count: usize) -> Vec<Vec<f64>> {
+        let path = table::unit_range(&self.column(|s, _| s.s_m));
+        self.either_way(&table::waves(&path, count))
+    }
+
+    /// Columns of one direction across the feed, and of the other.
+    fn either_way(&self, columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let one = |column: &Vec<f64>, left: bool| {
+            let own = self.rows.iter().zip(column);
+            own.map(|(row, c)| if row.left == left { *c } else { 0.0 })
+                .collect()
+        };
+        let each = columns.iter();
+        each.flat_map(|c| [one(c, true), one(c, false)]).collect()
     }
 
     /// Stretches of the path, then places here and there.

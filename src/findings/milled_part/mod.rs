@@ -104,7 +104,7 @@ impl Case {
             .collect();
         let own = rows.iter().zip(&simulated);
         let missed = own.map(|(row, s)| row.measured - s).collect();
-        let probe = test.facts.probe_noise.unwrap_or(PROBE);
+        let probe = probe(&test);
         let trial = setup.coarser(&planned.job, COARSER)?;
         let tried = tried(&trial, &stations)?;
         let coefficients = tried.coefficients.iter();
@@ -127,6 +127,11 @@ impl Case {
         })
     }
 
+    /// Standard deviation of a probed place, m.
+    fn probe(&self) -> f64 {
+        probe(&self.test)
+    }
+
     /// A column over all rows.
     fn column(&self, of: impl Fn(&Station, &Row) -> f64) -> Vec<f64> {
         let each = self.rows.iter();
@@ -145,6 +150,10 @@ impl Case {
         let answered: Vec<V3> = each.map(|(m, answer)| rotate(answer, *m)).collect();
         self.seen(&answered)
     }
+}
+
+fn probe(test: &PartTest) -> f64 {
+    test.facts.probe_noise.unwrap_or(PROBE)
 }
 
 fn seen(rows: &[Row], moved: &[V3]) -> Vec<f64> {

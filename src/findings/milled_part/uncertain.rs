@@ -19,6 +19,8 @@ pub enum Known {
     Datum,
     /// What the laws of the cut do not know, here and there along the path, as a share of the simulated deviation.
     Law,
+    /// What surface and probe are off alike at neighbouring places, in deviations of the probe.
+    Form,
 }
 
 /// Standard deviation of a datum that states none, m.
@@ -46,7 +48,8 @@ pub(super) fn uncertain(case: &Case) -> Vec<(Known, Nuisance)> {
         let column = case.column(|_, row| row.across[k]);
         (Known::Datum, Nuisance { column, spread })
     });
-    let all = springs.chain(coefficients).chain(datum).chain(laws(case));
+    let all = springs.chain(coefficients).chain(datum);
+    let all = all.chain(laws(case)).chain(forms(case));
     all.filter(|(_, n)| n.column.iter().any(|x| x.abs() > 1e-12))
         .collect()
 }
@@ -72,12 +75,27 @@ fn laws(case: &Case) -> impl Iterator<Item = (Known, Nuisance)> {
     missed(case).into_iter().map(move |m| (Known::Law, law(m)))
 }
 
+/// Waves over the path of a surface and of a probe that are not quite true, and how far, in deviations of the probe: neighbours
+/// are off alike, which many readings do not average out. A choice, no measurement: together they are two fifths of a deviation.
+const FORMS: (usize, f64) = (8, 0.2);
+
+/// Each of them, in either direction across the feed.
+fn forms(case: &Case) -> impl Iterator<Item = (Known, Nuisance)> {
+    let size = FORMS.1 * case.probe();
+    let waves = case.waves_across(FORMS.0).into_iter().enumerate();
+    waves.map(move |(i, column)| {
+        // `table::waves` are the smaller the shorter they are: these are alike
+        let spread = size * (i / 2 + 1) as f64;
+        (Known::Form, Nuisance { column, spread })
+    })
+}
+
 /// Puts an amount of it in place; false where that changes neither robot nor cut.
 pub(super) fn put(known: &Known, amount: f64, setup: &mut Setup) -> bool {
     match known {
         Known::Spring(site) => soften(&mut setup.robot, site, amount),
         Known::Coefficient(k) => setup.material.coefficients[*k] *= (1.0 + amount).max(0.05),
-        Known::Datum | Known::Law => return false,
+        Known::Datum | Known::Law | Known::Form => return false,
     }
     true
 }

@@ -1,8 +1,9 @@
 //! The workpiece stands elsewhere than the job says.
 
 use super::Case;
-use crate::findings::engine::Member;
+use crate::findings::engine::{Blamed, Member};
 use crate::findings::table::{Effect, Place, together};
+use crate::ground::spatial::{IDENTITY, V3, add, scale};
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "workpiece_offset",
@@ -21,11 +22,23 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     would_tell: "probe the datum faces of the workpiece before the cut",
 };
 
+/// Where the datum alone was probed elsewhere, and where the block stands elsewhere, too: the cut is deeper there.
 fn members(case: &Case) -> Vec<Member> {
-    vec![together(
-        (0..3)
-            .map(|k| case.column(|_, row| row.across[k]))
-            .collect(),
-        &[-1.0],
-    )]
+    let found = (0..3).map(|k| case.column(|_, row| row.across[k]));
+    let stands = (0..3).map(|k| case.answered(&vec![IDENTITY[k]; case.stations.len()]));
+    vec![
+        together(found.collect(), &[-1.0, 0.0]),
+        together(stands.collect(), &[-1.0, CUT]),
+    ]
+}
+
+/// Marks the form in which the cut answers.
+pub(super) const CUT: f64 = 1.0;
+
+/// Where the tool goes at every station, m, if this is to blame and moves it before the cut answers.
+pub(super) fn moves(case: &Case, blamed: &Blamed) -> Option<Vec<V3>> {
+    let own = blamed.effect == EFFECT.name && blamed.shape.last() == Some(&CUT);
+    let whole = (0..3).zip(&blamed.amounts);
+    let whole = whole.fold([0.0; 3], |sum, (k, a)| add(sum, scale(*a, IDENTITY[k])));
+    own.then(|| vec![whole; case.stations.len()])
 }

@@ -1,9 +1,10 @@
 //! The workpiece is turned against the frame of the job.
 
 use super::Case;
-use crate::findings::engine::Member;
+use super::workpiece_offset::CUT;
+use crate::findings::engine::{Blamed, Member};
 use crate::findings::table::{Effect, Place, together};
-use crate::ground::spatial::{V3, add, cross, dot, scale, sub};
+use crate::ground::spatial::{IDENTITY, V3, add, cross, scale, sub};
 use crate::measurement::job::Stock;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
@@ -27,20 +28,46 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 };
 
 /// About z alone, and about all axes. Nobody states what stayed where it was: what was probed (its middle: an alignment to
-/// it), the block (clamped by its middle), or the frame of the job (its orientation is wrong).
+/// it), the block (clamped by its middle), or the frame of the job (its orientation is wrong); nor whether the block is
+/// turned, too, and cut elsewhere.
 fn members(case: &Case) -> Vec<Member> {
-    let about = |k: usize, still: V3| {
-        let axis: V3 = std::array::from_fn(|i| f64::from(u8::from(i == k)));
-        case.column(|s, row| dot(row.across, cross(axis, sub(s.tip, still))))
+    let member = |pivot: usize, still: V3, axes: &[usize], cut: f64| {
+        let about = |k: &usize| {
+            let turned = turned(case, still, IDENTITY[*k]);
+            match cut == CUT {
+                true => case.answered(&turned),
+                false => case.seen(&turned),
+            }
+        };
+        together(axes.iter().map(about).collect(), &[-1.0, pivot as f64, cut])
     };
-    let member = |(axes, still): (&[usize], V3)| {
-        together(axes.iter().map(|k| about(*k, still)).collect(), &[-1.0])
-    };
+    let member = &member;
     let forms: [&[usize]; 2] = [&[2], &[0, 1, 2]];
-    let places = pivots(case).into_iter();
+    let places = pivots(case).into_iter().enumerate();
     places
-        .flat_map(|still| forms.map(|axes| member((axes, still))))
+        .flat_map(|(pivot, still)| {
+            let forms = forms.into_iter();
+            forms.flat_map(move |axes| [0.0, CUT].map(|cut| member(pivot, still, axes, cut)))
+        })
         .collect()
+}
+
+/// Where every station goes by a turn about a pivot that stands still, m.
+fn turned(case: &Case, still: V3, turn: V3) -> Vec<V3> {
+    let each = case.stations.iter();
+    each.map(|s| cross(turn, sub(s.tip, still))).collect()
+}
+
+/// Where the tool goes at every station, m, if this is to blame and moves it before the cut answers.
+pub(super) fn moves(case: &Case, blamed: &Blamed) -> Option<Vec<V3>> {
+    let own = blamed.effect == EFFECT.name && blamed.shape.last() == Some(&CUT);
+    let still = *pivots(case).get(*blamed.shape.get(1).filter(|_| own)? as usize)?;
+    let turn = match blamed.amounts[..] {
+        [z] => [0.0, 0.0, z],
+        [x, y, z] => [x, y, z],
+        _ => return None,
+    };
+    Some(turned(case, still, turn))
 }
 
 /// Where a workpiece may be held while it is turned, m.
