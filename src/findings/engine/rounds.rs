@@ -74,7 +74,9 @@ pub(super) fn settled(
         best = simpler;
     }
     best = whole(&course, &best).unwrap_or(best);
-    best = beside_peers(&course, &mut first, best);
+    if experiment.is_comparable() {
+        best = beside_peers(&course, &mut first, best);
+    }
     // what is missed is that of the simulation as it was; the noise is what stays beside what was found
     let noise_rms = best.answer.discrepancy.noise_rms;
     best.missed = told.missed;

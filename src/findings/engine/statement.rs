@@ -242,6 +242,11 @@ pub trait Experiment: Sync {
     fn is_linear(&self) -> bool {
         true
     }
+    /// Whether statements about different causes differ in their readings alone, so that evidence of several compares
+    /// (`engine/peers`).
+    fn is_comparable(&self) -> bool {
+        false
+    }
     /// Whether a statement about what was found says the same as the one before, so that nobody need look again.
     fn is_settled(&self, _before: &Statement, _after: &Statement) -> bool {
         false

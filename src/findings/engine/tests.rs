@@ -79,6 +79,10 @@ impl Experiment for Toy {
         self.bends.is_none()
     }
 
+    fn is_comparable(&self) -> bool {
+        true
+    }
+
     fn state(&self, about: &[Blamed]) -> Statement {
         let square = |b: &Blamed| self.bends.map_or(0.0, |f| f(b.effect)) * b.amounts[0].powi(2);
         let beyond: f64 = about.iter().map(square).sum();

@@ -25,6 +25,10 @@ impl Experiment for Case {
         false
     }
 
+    fn is_comparable(&self) -> bool {
+        true
+    }
+
     fn state(&self, about: &[Blamed]) -> Statement {
         self.state_beside(about, &[])
     }
