@@ -13,7 +13,7 @@ use crate::findings::gain::Gain;
 use nalgebra::DVector;
 
 /// Sets below the best that matters by more than this are not tried, nats.
-const HOPELESS: f64 = 60.0;
+pub(super) const HOPELESS: f64 = 60.0;
 
 /// Sets whose every cause matters; the empty one always does. What is hopeless is measured by the best set
 /// that matters: one with a further cause too small to be named may lead by what laws miss of large ones.

@@ -169,6 +169,9 @@ pub(super) fn about(
 
 /// Sets with what they are worth more, best first again.
 fn raise(bank: &Bank, compared: &mut [Scored], raised: &Raised) {
+    if raised.is_empty() {
+        return;
+    }
     for set in compared.iter_mut() {
         let own = places(bank, set);
         let more = raised.iter().find(|(names, _)| *names == own);

@@ -178,7 +178,7 @@ fn squares(values: &[f64], statement: &Statement) -> f64 {
 
 /// As many causes, of which what they leave is so much more probable, nats: odds of twenty to one, as an interval of 95 % has
 /// them. A choice, no measurement; no other number was tried.
-const BETTER: f64 = 3.0;
+pub(super) const BETTER: f64 = 3.0;
 
 /// What is found from causes that were fitted alone, if that takes no more causes and leaves less; `first`: whose noise they
 /// are seen in.

@@ -123,7 +123,7 @@ impl Case {
 
     /// Waves over path and time, and the simulated deviation changing along the path.
     fn span(&self) -> Vec<Vec<f64>> {
-        let mut span = self.waves_across(WAVES[0]);
+        let mut span = self.either_way(&self.waves(WAVES[0]));
         let time = table::unit_range(&self.column(|s, _| s.time_s));
         span.extend(self.either_way(&table::waves(&time, WAVES[1])));
         let sizes = largest(&self.simulated);
@@ -135,14 +135,13 @@ impl Case {
         span
     }
 
-    /// Waves over the path, in either direction across the feed.
-    pub(super) fn waves_across(&self, count: usize) -> Vec<Vec<f64>> {
-        let path = table::unit_range(&self.column(|s, _| s.s_m));
-        self.either_way(&table::waves(&path, count))
+    /// Waves over the path, the smaller the shorter they are ([`table::waves`]).
+    pub(super) fn waves(&self, count: usize) -> Vec<Vec<f64>> {
+        table::waves(&table::unit_range(&self.column(|s, _| s.s_m)), count)
     }
 
     /// Columns of one direction across the feed, and of the other.
-    fn either_way(&self, columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    pub(super) fn either_way(&self, columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let one = |column: &Vec<f64>, left: bool| {
             let own = self.rows.iter().zip(column);
             own.map(|(row, c)| if row.left == left { *c } else { 0.0 })

@@ -5,7 +5,6 @@ use super::stations::LAW;
 use crate::causes::places::soften;
 use crate::findings::engine::Nuisance;
 use crate::findings::physics;
-use crate::findings::table;
 use crate::process::setup::Setup;
 
 /// A number that is merely uncertain.
@@ -59,12 +58,11 @@ const WAVES: usize = 4;
 
 /// The simulated deviation times each of them, m.
 pub(super) fn missed(case: &Case) -> Vec<Vec<f64>> {
-    let path = table::unit_range(&case.column(|s, _| s.s_m));
     let times = |wave: &Vec<f64>| {
         let each = wave.iter().zip(&case.simulated);
         each.map(|(w, s)| w * s).collect()
     };
-    table::waves(&path, WAVES).iter().map(times).collect()
+    case.waves(WAVES).iter().map(times).collect()
 }
 
 fn laws(case: &Case) -> impl Iterator<Item = (Known, Nuisance)> {
@@ -79,15 +77,18 @@ fn laws(case: &Case) -> impl Iterator<Item = (Known, Nuisance)> {
 /// are off alike, which many readings do not average out. A choice, no measurement: together they are two fifths of a deviation.
 const FORMS: (usize, f64) = (8, 0.2);
 
-/// Each of them, in either direction across the feed.
+/// Each of them in either direction across the feed, short ones as large as long ones.
 fn forms(case: &Case) -> impl Iterator<Item = (Known, Nuisance)> {
-    let size = FORMS.1 * case.probe();
-    let waves = case.waves_across(FORMS.0).into_iter().enumerate();
-    waves.map(move |(i, column)| {
-        // `table::waves` are the smaller the shorter they are: these are alike
-        let spread = size * (i / 2 + 1) as f64;
-        (Known::Form, Nuisance { column, spread })
-    })
+    let spread = FORMS.1 * case.probe();
+    let alike = |(wave, k): (Vec<f64>, u8)| wave.iter().map(|w| f64::from(k) * w).collect();
+    let waves: Vec<Vec<f64>> = case
+        .waves(FORMS.0)
+        .into_iter()
+        .zip(1..)
+        .map(alike)
+        .collect();
+    let each = case.either_way(&waves).into_iter();
+    each.map(move |column| (Known::Form, Nuisance { column, spread }))
 }
 
 /// Puts an amount of it in place; false where that changes neither robot nor cut.

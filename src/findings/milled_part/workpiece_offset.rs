@@ -3,7 +3,7 @@
 use super::Case;
 use crate::findings::engine::{Blamed, Member};
 use crate::findings::table::{Effect, Place, together};
-use crate::ground::spatial::{IDENTITY, V3, add, scale};
+use crate::ground::spatial::{IDENTITY, V3};
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "workpiece_offset",
@@ -38,7 +38,6 @@ pub(super) const CUT: f64 = 1.0;
 /// Where the tool goes at every station, m, if this is to blame and moves it before the cut answers.
 pub(super) fn moves(case: &Case, blamed: &Blamed) -> Option<Vec<V3>> {
     let own = blamed.effect == EFFECT.name && blamed.shape.last() == Some(&CUT);
-    let whole = (0..3).zip(&blamed.amounts);
-    let whole = whole.fold([0.0; 3], |sum, (k, a)| add(sum, scale(*a, IDENTITY[k])));
-    own.then(|| vec![whole; case.stations.len()])
+    let whole: V3 = blamed.amounts[..].try_into().ok().filter(|_| own)?;
+    Some(vec![whole; case.stations.len()])
 }

@@ -60,8 +60,10 @@ fn turned(case: &Case, still: V3, turn: V3) -> Vec<V3> {
 
 /// Where the tool goes at every station, m, if this is to blame and moves it before the cut answers.
 pub(super) fn moves(case: &Case, blamed: &Blamed) -> Option<Vec<V3>> {
-    let own = blamed.effect == EFFECT.name && blamed.shape.last() == Some(&CUT);
-    let still = *pivots(case).get(*blamed.shape.get(1).filter(|_| own)? as usize)?;
+    if blamed.effect != EFFECT.name || blamed.shape.last() != Some(&CUT) {
+        return None;
+    }
+    let still = *pivots(case).get(blamed.shape[1] as usize)?;
     let turn = match blamed.amounts[..] {
         [z] => [0.0, 0.0, z],
         [x, y, z] => [x, y, z],
