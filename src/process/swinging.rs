@@ -40,6 +40,8 @@ pub struct Swinging {
     turned: f64,
     energy: Energy,
     at_first: f64,
+    /// Power of the dampers in this state, W.
+    lost: f64,
 }
 
 /// Joint motion beyond which the modes are computed anew, rad.
@@ -70,6 +72,7 @@ impl Swinging {
         Ok(Self {
             calibrated: fine.tool(&state),
             at_first: fine.stored(&state) + loose.stored(),
+            lost: fine.damped(&state),
             near: loose.ports(&modal, &fine),
             far: loose.ports(&modal, &coarse),
             loose,
@@ -115,6 +118,7 @@ impl Swinging {
         self.pose.clone_from(&moment.joints);
         // the drives that turn the robot to its new pose do this work
         self.energy.work += self.fine.stored(&self.state) - before;
+        self.lost = self.fine.damped(&self.state);
         Ok(())
     }
 
@@ -162,8 +166,9 @@ impl Swinging {
             .map(|(r, (a, b))| r * (a - b))
             .sum();
         self.energy.work += dot(force, moved) + held;
-        let damped = fine.damped(&self.state) + fine.damped(&self.next);
-        self.energy.damped += 0.5 * step_s * damped;
+        let lost = fine.damped(&self.next);
+        self.energy.damped += 0.5 * step_s * (self.lost + lost);
+        self.lost = lost;
         std::mem::swap(&mut self.state, &mut self.next);
     }
 

@@ -1,7 +1,7 @@
 //! How the tip of the tool swings on the elastic robot at a pose, seen from the cut.
 
 use super::pose::Carrier;
-use crate::cutting::dexel::engagement::Frame;
+use crate::cutting::dexel::frame::Frame;
 use crate::cutting::stability::TipMode;
 use crate::ground::problem::Outcome;
 use crate::ground::spatial::{V3, cross, dot, norm, rotate};

@@ -2,7 +2,7 @@
 //! their trochoids and itself. The tool may have gone any way meanwhile; within the way of one tooth its
 //! motion counts as straight, as in [`crate::cutting::chip`], which is the steady cut of the same geometry.
 
-use crate::cutting::dexel::engagement::positive_mean;
+use crate::cutting::dexel::cells::positive_mean;
 use crate::cutting::law::Direction;
 use crate::ground::spatial::{V3, dot};
 use std::f64::consts::TAU;

@@ -2,7 +2,7 @@
 
 use super::Cutter;
 use super::bite::{Bite, MOST_WAYS};
-use crate::cutting::dexel::engagement::Frame;
+use crate::cutting::dexel::frame::Frame;
 use crate::ground::spatial::{M3, V3, add, dot, norm, scale};
 use std::f64::consts::TAU;
 

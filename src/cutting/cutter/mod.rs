@@ -13,7 +13,8 @@ mod tests;
 
 pub use load::Load;
 
-use super::dexel::engagement::{Engagement, Frame};
+use super::dexel::engagement::Engagement;
+use super::dexel::frame::Frame;
 use super::dexel::{Solid, Stock, rings};
 use super::law::Material;
 use super::tool::Tool;

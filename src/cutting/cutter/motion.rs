@@ -2,7 +2,8 @@
 
 use super::Cutter;
 use crate::cutting::dexel::Solid;
-use crate::cutting::dexel::engagement::{APART, Frame};
+use crate::cutting::dexel::engagement::APART;
+use crate::cutting::dexel::frame::Frame;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{V3, add, norm, scale, sub, unit};
 

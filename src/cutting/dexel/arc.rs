@@ -1,6 +1,6 @@
 //! Which part of a circle about the tool a place takes away at which the tool stood a little before.
 
-use super::engagement::Frame;
+use super::frame::Frame;
 use super::solid::Solid;
 use crate::ground::spatial::{V3, dot, norm, sub};
 

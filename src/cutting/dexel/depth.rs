@@ -23,8 +23,8 @@ const LEAST: f64 = 1e-3;
 #[inline]
 fn view(grid: &Grid, point: V3, cap: f64) -> View {
     let [w, u, v] = grid.axes;
-    let (i, s) = cell(point[u] - grid.min[u], grid.width[0]);
-    let (j, t) = cell(point[v] - grid.min[v], grid.width[1]);
+    let (i, s) = cell(point[u] - grid.min[u], grid.density[0]);
+    let (j, t) = cell(point[v] - grid.min[v], grid.density[1]);
     let at = |i: i64, j: i64| border(grid, i, j, point[w], cap);
     let four = [at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)];
     let weights = [(1.0 - s) * (1.0 - t), s * (1.0 - t), (1.0 - s) * t, s * t];
@@ -40,15 +40,15 @@ fn view(grid: &Grid, point: V3, cap: f64) -> View {
         }
     }
     if four[0].1 != 0.0 && four.iter().all(|f| f.1 == four[0].1) {
-        view.plane = Some(plane(&four.map(|f| f.0), (s, t), grid.width));
+        view.plane = Some(plane(&four.map(|f| f.0), (s, t), grid.density));
     }
     view
 }
 
 /// Index of the lower of two neighbouring middles, and the share of the way to the upper.
 #[inline]
-fn cell(from: f64, width: f64) -> (i64, f64) {
-    let x = from / width - 0.5;
+fn cell(from: f64, density: f64) -> (i64, f64) {
+    let x = from * density - 0.5;
     // the next whole number below: rounding by conversion costs a third of a call
     let whole = x as i64;
     let low = whole - i64::from(whole as f64 > x);
@@ -57,23 +57,28 @@ fn cell(from: f64, width: f64) -> (i64, f64) {
 
 #[inline]
 fn border(grid: &Grid, i: i64, j: i64, at: f64, cap: f64) -> (f64, f64) {
-    let inside = i >= 0 && j >= 0 && (i as usize) < grid.count[0] && (j as usize) < grid.count[1];
-    match inside {
-        true => grid.rays[j as usize * grid.count[0] + i as usize].border(at, cap),
+    // what lies below zero comes out far above the count
+    let (i, j) = (i as usize, j as usize);
+    match i < grid.count[0] && j < grid.count[1] {
+        true => grid.rays[j * grid.count[0] + i].border(at, cap),
         false => (-cap, 0.0),
     }
 }
 
 /// Distance across the surface that four distances along the rays span, and its squared slope.
 #[inline]
-fn plane(four: &[f64; 4], (s, t): (f64, f64), width: [f64; 2]) -> (f64, f64) {
+fn plane(four: &[f64; 4], (s, t): (f64, f64), density: [f64; 2]) -> (f64, f64) {
     let [a, b, c, d] = *four;
     let (low, high) = (a + s * (b - a), c + s * (d - c));
-    let along = ((b - a) * (1.0 - t) + (d - c) * t) / width[0];
-    let across = (high - low) / width[1];
+    let along = ((b - a) * (1.0 - t) + (d - c) * t) * density[0];
+    let across = (high - low) * density[1];
     let square = along * along + across * across;
     ((low + t * (high - low)) / (1.0 + square).sqrt(), square)
 }
+
+/// Directions in the order in which they are asked: most tools stand along z, and most points near what they cut see its upper face or
+/// its floor straight across.
+const ASKED: [usize; 3] = [2, 0, 1];
 
 /// One depth from the three directions, m: positive in material, at most `cap`. A direction that sees a
 /// surface straight across it has said all: the others are not asked.
@@ -83,9 +88,9 @@ fn plane(four: &[f64; 4], (s, t): (f64, f64), width: [f64; 2]) -> (f64, f64) {
 /// air, the farthest where the rest is material.
 pub(super) fn depth(grids: &[Grid; 3], point: V3, cap: f64) -> f64 {
     let mut views = [View::default(); 3];
-    for (one, grid) in views.iter_mut().zip(grids) {
-        *one = view(grid, point, cap);
-        if let Some((distance, 0.0)) = one.plane {
+    for k in ASKED {
+        views[k] = view(&grids[k], point, cap);
+        if let Some((distance, 0.0)) = views[k].plane {
             return distance.clamp(-cap, cap);
         }
     }

@@ -5,48 +5,15 @@
 //! every cell of ring and angle the depth at its corners says which share of it is in.
 
 use super::arc::{Arc, TOUCH, taken};
+use super::cells::{column, inside, positive_mean};
 use super::crossing::straightened;
+use super::frame::Frame;
+use super::heading::Heading;
 use super::rings::Ring;
 use super::solid::Solid;
 use super::stock::Stock;
-use crate::ground::spatial::{V3, add, cross, dot, normals, scale, unit};
+use crate::ground::spatial::{V3, add, dot, scale};
 use std::f64::consts::TAU;
-
-/// Directions across the axis from which angles count: φ from `y` towards `x`, as seen from the
-/// spindle clockwise.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Frame {
-    /// φ = 90°.
-    pub x: V3,
-    /// φ = 0.
-    pub y: V3,
-    /// The axis, into the spindle.
-    pub z: V3,
-}
-
-impl Frame {
-    /// The frame whose x lies nearest to `forward`.
-    pub fn towards(forward: V3, z: V3) -> Self {
-        let flat = |v: V3| unit(add(v, scale(-dot(v, z), z)));
-        let x = flat(forward).unwrap_or_else(|| normals(z).0);
-        Self {
-            x,
-            y: cross(z, x),
-            z,
-        }
-    }
-
-    /// Outward direction at tooth angle φ, given as [sin φ, cos φ].
-    #[inline]
-    pub fn outward(&self, [sin, cos]: [f64; 2]) -> V3 {
-        [0, 1, 2].map(|k| sin * self.x[k] + cos * self.y[k])
-    }
-
-    /// A vector of this frame in the workpiece frame.
-    pub fn out(&self, v: V3) -> V3 {
-        [0, 1, 2].map(|k| v[0] * self.x[k] + v[1] * self.y[k] + v[2] * self.z[k])
-    }
-}
 
 /// Shares of cells in material.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,6 +23,7 @@ pub struct Engagement {
     angles: usize,
     rings: Vec<Ring>,
     directions: Vec<[f64; 2]>,
+    heading: Heading,
     share: Vec<f64>,
     /// Rings below this one may be in material.
     used: usize,
@@ -84,6 +52,7 @@ impl Engagement {
             columns: vec![[0.0; 2]; rings.len() * angles],
             touched: TOUCH,
             directions: (0..angles).map(direction).collect(),
+            heading: Heading::default(),
             rings,
             used: 0,
             arcs: Vec::new(),
@@ -139,59 +108,59 @@ impl Engagement {
         let widest = self.rings.iter().map(|r| r.circles[1][0]);
         let apart = APART * stock.spacing();
         self.touched = TOUCH + apart * apart / (8.0 * widest.fold(apart, f64::max));
-        let way = unit(way).unwrap_or([0.0; 3]);
-        for line in 0..=used.min(self.rings.len()) {
-            if used > 0 {
-                self.sound(stock, tip, way, latest, line);
-            }
+        self.heading.turn(&self.frame, &self.directions, way);
+        if used == 0 {
+            return;
+        }
+        for line in 0..=used {
+            self.sound(stock, tip, latest, line);
         }
         for i in 0..used {
-            self.straighten(stock, tip, latest, i);
-            self.divide(i, way);
+            if self.heading.may_lead(&self.rings[i]) {
+                self.straighten(stock, tip, latest, i);
+                self.divide(i);
+            }
         }
     }
 
     /// Depths around circle `line`.
-    fn sound(&mut self, stock: &Stock, tip: V3, way: V3, latest: &[Solid], line: usize) {
+    fn sound(&mut self, stock: &Stock, tip: V3, latest: &[Solid], line: usize) {
         let lower = line.saturating_sub(1);
         let ring = &self.rings[lower];
+        let next = self.rings.get(line).unwrap_or(ring);
+        let nodes = &mut self.nodes[line * self.angles..(line + 1) * self.angles];
+        nodes.fill(GONE);
+        if !self.heading.may_lead(ring) && !self.heading.may_lead(next) {
+            return;
+        }
         let [radius, height] = ring.circles[usize::from(line > 0)];
         let centre = add(tip, scale(height, self.frame.z));
-        let next = self.rings.get(line).unwrap_or(ring);
         self.arcs.clear();
         let arcs = latest
             .iter()
             .map(|s| Arc::of(s, &self.frame, centre, radius));
         self.arcs.extend(arcs);
-        for k in 0..self.angles {
-            let direction = self.directions[k];
-            let out = self.frame.outward(direction);
-            let moving = faces(ring, out, self.frame.z, way) || faces(next, out, self.frame.z, way);
-            self.nodes[line * self.angles + k] = match moving {
-                false => GONE,
-                true => {
-                    let point = add(centre, scale(radius, out));
-                    match taken(&self.arcs, latest, direction, point) {
-                        true => GONE,
-                        false => stock.depth(point) - self.touched,
-                    }
+        for (k, node) in nodes.iter_mut().enumerate() {
+            if self.heading.nears(ring, k) || self.heading.nears(next, k) {
+                let point = add(centre, scale(radius, self.heading.outward(k)));
+                if !taken(&self.arcs, latest, self.directions[k], point) {
+                    *node = stock.depth(point) - self.touched;
                 }
-            };
+            }
         }
     }
 
-    /// Depths along the meridians of ring i.
+    /// Depths along the meridians of ring i, where it goes forward.
     fn straighten(&mut self, stock: &Stock, tip: V3, latest: &[Solid], i: usize) {
         let n = self.angles;
         let ring = &self.rings[i];
         let [[r0, h0], [r1, h1]] = ring.circles;
-        for k in 0..n {
+        for k in (0..n).filter(|k| self.heading.leads(ring, *k)) {
             let ends = [self.nodes[i * n + k], self.nodes[(i + 1) * n + k]];
             let crosses = (ends[0] > 0.0) != (ends[1] > 0.0);
-            let out = self.frame.outward(self.directions[k]);
             let at = |t: f64| {
                 let centre = add(tip, scale(h0 + t * (h1 - h0), self.frame.z));
-                let point = add(centre, scale(r0 + t * (r1 - r0), out));
+                let point = add(centre, scale(r0 + t * (r1 - r0), self.heading.outward(k)));
                 match latest.iter().any(|s| s.holds(point, TOUCH)) {
                     true => GONE,
                     false => stock.depth(point) - self.touched,
@@ -205,22 +174,24 @@ impl Engagement {
     }
 
     /// Shares of the cells of ring i from the depths at their corners.
-    fn divide(&mut self, i: usize, way: V3) {
+    fn divide(&mut self, i: usize) {
         let n = self.angles;
-        for k in 0..n {
-            let next = (k + 1) % n;
-            let [[a, c], [b, d]] = [k, next].map(|k| self.columns[i * n + k]);
-            let out = self.frame.outward(self.directions[k]);
-            let after = self.frame.outward(self.directions[next]);
-            let z = self.frame.z;
-            let ring = &self.rings[i];
-            self.share[i * n + k] = match (facing(ring, out, z, way), facing(ring, after, z, way)) {
+        let ring = &self.rings[i];
+        let [columns, share] = [0, 1].map(|_| i * n..(i + 1) * n);
+        let columns = &self.columns[columns];
+        let mut leads = self.heading.leads(ring, 0);
+        for (k, share) in self.share[share].iter_mut().enumerate() {
+            let next = if k + 1 == n { 0 } else { k + 1 };
+            let follows = self.heading.leads(ring, next);
+            let [[a, c], [b, d]] = [columns[k], columns[next]];
+            *share = match (leads, follows) {
                 // behind the front there is nothing to cut, whatever the depths say
                 (false, false) => 0.0,
                 (true, false) => column(a, c),
                 (false, true) => column(b, d),
                 (true, true) => 0.5 * (inside(a, b, c) + inside(d, c, b)),
             };
+            leads = follows;
         }
     }
 
@@ -248,63 +219,7 @@ impl Engagement {
     }
 }
 
-/// Mean of the positive part of a straight line from a to b.
-pub fn positive_mean(a: f64, b: f64) -> f64 {
-    match (a > 0.0, b > 0.0) {
-        (true, true) => 0.5 * (a + b),
-        (false, false) => 0.0,
-        _ => {
-            let high = a.max(b);
-            0.5 * high * high / (a - b).abs()
-        }
-    }
-}
-
 /// Distance of the places that stand for the tool's way, in spacings of the rays.
 pub const APART: f64 = 0.5;
 /// Depth of a place that is air whatever the stock says, m.
 const GONE: f64 = -1.0;
-/// Nearly along or into the motion: within a few degrees of the border.
-const ALMOST: f64 = -0.12;
-/// Along the motion, but for rounding.
-const LEVEL: f64 = 1e-12;
-
-fn faces(ring: &Ring, out: V3, z: V3, way: V3) -> bool {
-    let [sin, cos] = ring.disc.normal;
-    sin * dot(out, way) - cos * dot(z, way) > ALMOST * sin + LEVEL
-}
-
-/// Into the motion, or along it.
-fn facing(ring: &Ring, out: V3, z: V3, way: V3) -> bool {
-    let [sin, cos] = ring.disc.normal;
-    sin * dot(out, way) - cos * dot(z, way) > -LEVEL * sin
-}
-
-/// Share of a line between two depths that is in.
-fn column(a: f64, b: f64) -> f64 {
-    match (a > 0.0, b > 0.0) {
-        (true, true) => 1.0,
-        (false, false) => 0.0,
-        _ => a.max(b) / (a - b).abs(),
-    }
-}
-
-/// Share of a triangle that is in, the depth linear over it.
-fn inside(a: f64, b: f64, c: f64) -> f64 {
-    let positive = [a, b, c].iter().filter(|x| **x > 0.0).count();
-    match positive {
-        3 => 1.0,
-        0 => 0.0,
-        _ => {
-            // the corner that stands alone, and the two others
-            let alone = |x: f64| (x > 0.0) == (positive == 1);
-            let (one, two, three) = match (alone(a), alone(b)) {
-                (true, _) => (a, b, c),
-                (_, true) => (b, c, a),
-                _ => (c, a, b),
-            };
-            let cut = one / (one - two) * (one / (one - three));
-            if positive == 1 { cut } else { 1.0 - cut }
-        }
-    }
-}

@@ -15,6 +15,8 @@ pub(super) struct Grid {
     pub reach: [f64; 2],
     /// Width of the cells across, m.
     pub width: [f64; 2],
+    /// Cells per metre across.
+    pub density: [f64; 2],
     /// Number of rays across.
     pub count: [usize; 2],
     /// The rays, the first of the axes across running fastest.
@@ -34,6 +36,7 @@ impl Grid {
             min,
             reach: [min[axis], max[axis]],
             width: [0, 1].map(|k| extent[k] / count[k] as f64),
+            density: [0, 1].map(|k| count[k] as f64 / extent[k]),
             count,
             rays: vec![Ray::new(&[]); count[0] * count[1]],
             taken: None,

@@ -3,10 +3,13 @@
 //! (source 004, 11.2.2; Benouamer and Michelucci 1997).
 
 mod arc;
+pub mod cells;
 mod crossing;
 mod depth;
 pub mod engagement;
+pub mod frame;
 mod grid;
+mod heading;
 mod mesh;
 mod ray;
 pub mod rings;
