@@ -90,7 +90,7 @@ impl Setup {
             let own = (&robot.elastic[..added.first], robot.dof());
             let hinges = before(own, &chain, cube).map_err(|p| p.at_key(&test.path, "cubes"))?;
             Ok(Seat {
-                hinges: hinges + bends_before((robot, added), &chain, &work, (cube, hinges)),
+                hinges: hinges + bends_before((robot, added), &chain, (&work, tcp), (cube, hinges)),
                 at: cube.centre,
             })
         };

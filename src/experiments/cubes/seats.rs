@@ -1,7 +1,7 @@
 //! On which side of the hinges of its link a cube sits.
 
 use crate::ground::problem::{Outcome, Problem};
-use crate::ground::spatial::{dot, sub};
+use crate::ground::spatial::{V3, dot, sub};
 use crate::measurement::cubes::Cube;
 use crate::motion::kinematics::hinge_point;
 use crate::motion::{Chain, Work};
@@ -65,12 +65,17 @@ pub struct AddedAxes {
     pub is_floor: bool,
 }
 
+/// Share of the way from the flange to the tool centre point beyond which a cube sits on the tool: no robot file without a spring
+/// there has a name for `beyond`. Half way: a choice.
+const ON_TOOL: f64 = 0.5;
+
 /// Bends within the link of a cube that lie nearer along the link than it, where they are no part of the robot file.
-/// A cube before an axis of the file lies before them too. Cubes of the foundation have all of its own before them, or none.
+/// A cube before an axis of the file lies before them too. Cubes of the foundation have all of its own before them, or none;
+/// those of the tool sit behind its bends. `tcp`: the tool centre point, base frame, m.
 pub(super) fn bends_before(
     (robot, added): (&Robot, AddedAxes),
     chain: &Chain,
-    work: &Work,
+    (work, tcp): (&Work, V3),
     (cube, from): (&Cube, usize),
 ) -> usize {
     let own = |axes: &[ElasticAxis]| axes.iter().filter(|a| a.after == cube.after).count();
@@ -79,13 +84,21 @@ pub(super) fn bends_before(
         let moves = !added.is_floor && from >= own(known);
         return if moves { own(unknown) } else { 0 };
     }
-    let Some([near, far, ..]) = chain.drives.get(cube.after - 1..) else {
-        return 0;
+    let bends = own(unknown);
+    let (near, way) = match chain.drives.get(cube.after - 1..) {
+        Some([near, far, ..]) => (near, sub(hinge_point(work, *far), hinge_point(work, *near))),
+        Some([near]) if bends > 0 && from < chain.len() => {
+            (near, sub(tcp, hinge_point(work, from)))
+        }
+        _ => return 0,
     };
     if from <= *near + own(known) {
         return 0;
     }
-    let along = sub(hinge_point(work, *far), hinge_point(work, *near));
-    let is_behind = |hinge: &usize| dot(along, sub(cube.centre, hinge_point(work, *hinge))) > 0.0;
-    (from..from + own(unknown)).take_while(is_behind).count()
+    let least = match cube.after == robot.dof() {
+        true => ON_TOOL * dot(way, way),
+        false => 0.0,
+    };
+    let is_behind = |hinge: &usize| dot(way, sub(cube.centre, hinge_point(work, *hinge))) > least;
+    (from..from + bends).take_while(is_behind).count()
 }

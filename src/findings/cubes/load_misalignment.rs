@@ -9,7 +9,8 @@ use crate::inference::gaussian::Size;
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "load_misalignment",
     summary: "The load points elsewhere than it is said to, in the base frame.",
-    mechanism: "load",
+    // beside a gain it turns what that multiplies: exact both, neither mends the other's law
+    mechanism: "direction",
     law_error: 0.0,
     can_be: |_, _| true,
     places: |case| vec![Place::new("sensor", members(case))],
