@@ -283,3 +283,40 @@ fn a_slot_tells_an_offset_and_no_lobes() {
     assert!(has(&answer, "workpiece_offset", ""), "{}", said(&answer));
     assert_eq!(answer.verdict, Verdict::Explained, "{}", said(&answer));
 }
+
+/// A block that stands elsewhere is cut elsewhere, and what that changes is neither harder nor softer material.
+#[test]
+fn a_block_that_stands_elsewhere_is_told_alone() {
+    let offset_mm = [0.25, -0.2, 0.3];
+    let folder = tempfile::tempdir().unwrap();
+    let stated = job(folder.path(), OUTLINE, 3000.0, "");
+    let (_, setup) = ready(&stated);
+    let mut plant = Plant::new(&setup).plus(move |_, _, _, _| scale(1e-3, offset_mm));
+    let block = |corner: V3| format!("{:?}", sub(corner, offset_mm));
+    let [low, high] = [[0.0, 0.0, -12.0], [50.0, 50.0, 0.0]];
+    let text = std::fs::read_to_string(&stated).unwrap();
+    let moved = text
+        .replace(
+            &format!("stock_min_mm = {low:?}"),
+            &format!("stock_min_mm = {}", block(low)),
+        )
+        .replace(
+            &format!("stock_max_mm = {high:?}"),
+            &format!("stock_max_mm = {}", block(high)),
+        );
+    assert_ne!(moved, text);
+    let elsewhere = stated.with_file_name("elsewhere.toml");
+    std::fs::write(&elsewhere, moved).unwrap();
+    plant.setup.stock = ready(&elsewhere).1.stock;
+    let answer = diagnosed(folder.path(), &plant.probed(&setup, 5, ""));
+    assert!(has(&answer, "workpiece_offset", ""), "{}", said(&answer));
+    assert!(
+        answer.causes.len() == 1 && answer.groups.is_empty(),
+        "{}",
+        said(&answer)
+    );
+    assert_eq!(answer.verdict, Verdict::Explained, "{}", said(&answer));
+    for ((axis, told, _), true_mm) in answer.causes[0].parameters.iter().zip(offset_mm) {
+        assert!((1e3 * told - true_mm).abs() < 0.02, "{axis}: {told}");
+    }
+}
