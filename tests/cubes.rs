@@ -530,17 +530,26 @@ fn what_cannot_be_read_is_refused_with_line_and_remedy() {
 
 /// A test of the KR 300 with usual sensors, and what the diagnosis names in it: effect and site.
 fn named(change: &dyn Fn(&str) -> f64, hidden: &Hidden) -> Vec<(String, String)> {
-    let robot = kr300();
+    named_by(kr300(), cubes(), change, hidden)
+}
+
+/// The same by the robot that the file states, and with these cubes.
+fn named_by(
+    stated: Robot,
+    cubes: Vec<Cube>,
+    change: &dyn Fn(&str) -> f64,
+    hidden: &Hidden,
+) -> Vec<(String, String)> {
     let bench = Bench {
         seed: 11,
         degrees: POSE,
         noise: [2e-6, 1e-5],
         frame_mm: 0.005,
         times: 1.0,
-        cubes: cubes(),
+        cubes,
         change,
     };
-    let case = Case::new(bench.read_with(&robot, hidden), robot).unwrap();
+    let case = Case::new(bench.read_with(&kr300(), hidden), stated).unwrap();
     let found = examined(case);
     let causes = found.answer().causes.iter();
     causes
@@ -655,4 +664,39 @@ fn a_wrong_load_is_named() {
     let found = named(&|_| 1.0, &turned);
     assert_eq!(found.len(), 1, "{found:?}");
     assert_eq!(found[0].0, "load_misalignment", "{found:?}");
+}
+
+/// A robot file without a spring beyond the flange has no name for `beyond`: a cube at the tool centre point sits on the tool.
+#[test]
+fn a_sensor_that_gives_way_and_is_not_stated_is_a_soft_tool() {
+    let mut stated = kr300();
+    stated.elastic.retain(|axis| axis.after < 6);
+    let mut cubes = cubes();
+    cubes.pop();
+    let tip = Cube("tip", Some("sensor-z"), 6, None, stated.tool.tcp);
+    cubes.push(tip);
+    let found = named_by(stated, cubes, &|_| 1.0, &NOTHING);
+    only(&found, "tool_compliance", "tool");
+}
+
+#[test]
+fn a_load_that_reads_wrong_and_points_elsewhere_is_named_as_both() {
+    let both = Hidden {
+        load: |[a, b, c, d, e, f]| {
+            let (s, k) = 0.012_f64.sin_cos();
+            [
+                a,
+                k * b - s * c,
+                s * b + k * c,
+                d,
+                k * e - s * f,
+                s * e + k * f,
+            ]
+            .map(|x| 1.2 * x)
+        },
+        ..NOTHING
+    };
+    let mut found: Vec<String> = named(&|_| 1.0, &both).into_iter().map(|c| c.0).collect();
+    found.sort();
+    assert_eq!(found, ["force_gain", "load_misalignment"]);
 }

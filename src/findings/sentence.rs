@@ -136,10 +136,10 @@ fn of_cause(cause: &Cause, numbered: &str, unit: &str) -> String {
     )
 }
 
-/// Share of the largest amount of a unit below which an amount does not stand for its cause.
-const SLIGHT: f64 = 0.1;
+/// Share of the largest amount of a unit below which an amount is zero but for rounding.
+const ROUNDING: f64 = 1e-9;
 
-/// How large it is: its first amount that is not slight beside the others, which says nothing where another amount acts.
+/// How large it is: its first amount that is not zero, for zero says nothing where another amount acts.
 fn size_of(cause: &Cause) -> Option<String> {
     let first = cause.parameters.first()?;
     if let ((name, 0.0, unit), Some(limit)) = (first, cause.limit()) {
@@ -151,7 +151,7 @@ fn size_of(cause: &Cause) -> Option<String> {
         same.fold(0.0_f64, |most, p| most.max(p.1.abs()))
     };
     let mut amounts = cause.parameters.iter();
-    let acting = amounts.find(|p| p.1 != 0.0 && p.1.abs() >= SLIGHT * most(p.2));
+    let acting = amounts.find(|p| p.1 != 0.0 && p.1.abs() > ROUNDING * most(p.2));
     let (name, value, unit) = acting.unwrap_or(first);
     let within = cause.interval(name).map(|[low, high]| {
         let ends = [low, high].map(|end| amount(end, unit));

@@ -108,10 +108,10 @@ impl Engagement {
         let widest = self.rings.iter().map(|r| r.circles[1][0]);
         let apart = APART * stock.spacing();
         self.touched = TOUCH + apart * apart / (8.0 * widest.fold(apart, f64::max));
-        self.heading.turn(&self.frame, &self.directions, way);
         if used == 0 {
             return;
         }
+        self.heading.turn(&self.frame, &self.directions, way);
         for line in 0..=used {
             self.sound(stock, tip, latest, line);
         }
@@ -177,10 +177,10 @@ impl Engagement {
     fn divide(&mut self, i: usize) {
         let n = self.angles;
         let ring = &self.rings[i];
-        let [columns, share] = [0, 1].map(|_| i * n..(i + 1) * n);
-        let columns = &self.columns[columns];
+        let columns = &self.columns[i * n..(i + 1) * n];
+        let shares = &mut self.share[i * n..(i + 1) * n];
         let mut leads = self.heading.leads(ring, 0);
-        for (k, share) in self.share[share].iter_mut().enumerate() {
+        for (k, share) in shares.iter_mut().enumerate() {
             let next = if k + 1 == n { 0 } else { k + 1 };
             let follows = self.heading.leads(ring, next);
             let [[a, c], [b, d]] = [columns[k], columns[next]];

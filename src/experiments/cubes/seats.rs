@@ -85,20 +85,19 @@ pub(super) fn bends_before(
         return if moves { own(unknown) } else { 0 };
     }
     let bends = own(unknown);
-    let (near, way) = match chain.drives.get(cube.after - 1..) {
-        Some([near, far, ..]) => (near, sub(hinge_point(work, *far), hinge_point(work, *near))),
-        Some([near]) if bends > 0 && from < chain.len() => {
-            (near, sub(tcp, hinge_point(work, from)))
+    let place = |hinge: usize| hinge_point(work, hinge);
+    let (near, way, least) = match chain.drives.get(cube.after - 1..) {
+        Some([near, far, ..]) => (near, sub(place(*far), place(*near)), 0.0),
+        Some([near]) if bends > 0 => {
+            let way = sub(tcp, place(from));
+            let least = if own(known) > 0 { 0.0 } else { ON_TOOL };
+            (near, way, least * dot(way, way))
         }
         _ => return 0,
     };
     if from <= *near + own(known) {
         return 0;
     }
-    let least = match cube.after == robot.dof() {
-        true => ON_TOOL * dot(way, way),
-        false => 0.0,
-    };
-    let is_behind = |hinge: &usize| dot(way, sub(cube.centre, hinge_point(work, *hinge))) > least;
+    let is_behind = |hinge: &usize| dot(way, sub(cube.centre, place(*hinge))) > least;
     (from..from + bends).take_while(is_behind).count()
 }
