@@ -22,6 +22,7 @@ mod sensor_offset;
 mod sensor_resonance;
 mod setting;
 mod spindle_speed;
+mod standing;
 mod start;
 mod thermal_drift;
 mod tremor;
