@@ -73,10 +73,12 @@ impl Anew {
     fn of(case: &Case, blamed: &[Blamed]) -> Self {
         let Standing {
             case: all,
+            blamed,
             turned,
             followed,
             ..
         } = Standing::of(case, blamed);
+        let blamed = &blamed[..];
         let mut names: Vec<&'static str> = blamed
             .iter()
             .filter(|b| is_in_place(b))

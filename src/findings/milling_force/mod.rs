@@ -12,6 +12,7 @@ mod engagement;
 mod experiment;
 mod force_gain;
 mod lines;
+mod loose;
 mod noise;
 mod patterns;
 mod revolution;

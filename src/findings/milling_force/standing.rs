@@ -1,10 +1,12 @@
 //! Where all that is merely uncertain stands beside what was found: angles of the teeth, coefficients, widths and the bandwidth move to
-//! where they fit best, step by step, and no step is taken that leaves more.
+//! where they fit best, step by step, and no step is taken that leaves more. Causes of the process of one amount move with them.
 
-use super::aim::Loose;
+use super::aim::Aim;
 use super::anew::combined;
 use super::direction::Direction;
-use super::{Case, EFFECTS, runout, sensor_resonance};
+use super::loose::Loose;
+use super::setting::PROCESS;
+use super::{Case, EFFECTS, runout, sensor_resonance, spindle_speed};
 use crate::experiments::milling_force::RUNOUT;
 use crate::findings::engine::Blamed;
 
@@ -12,6 +14,8 @@ use crate::findings::engine::Blamed;
 pub(super) struct Standing {
     /// The case there.
     pub case: Case,
+    /// The causes there.
+    pub blamed: Vec<Blamed>,
     /// All that moved, in the vector.
     pub turned: Vec<f64>,
     /// Of it the coefficients, widths and the bandwidth that stand elsewhere than stated.
@@ -24,6 +28,8 @@ pub(super) struct Standing {
 
 /// Where what is uncertain goes: angles from here, all else from where it is stated.
 struct Way {
+    /// By how much the amount of every cause grows.
+    grown: Vec<f64>,
     turned: Vec<f64>,
     followed: Vec<f64>,
     rest: Vec<f64>,
@@ -32,7 +38,6 @@ struct Way {
 /// What all of it is beside.
 struct Beside<'a> {
     case: &'a Case,
-    blamed: &'a [Blamed],
     /// Places and spreads of what follows.
     followers: Vec<(usize, f64)>,
 }
@@ -64,7 +69,7 @@ impl Standing {
         for (c, angle) in blamed.iter().flat_map(angles) {
             turned[case.places().phase(c)] = *angle;
         }
-        let mut standing = beside.standing(turned, none(), none());
+        let mut standing = beside.standing(blamed.to_vec(), turned, none(), none());
         for step in 0..STEPS {
             let next = match step < ALONE {
                 true => Some(beside.at(&standing, standing.alone(), 1.0)),
@@ -85,8 +90,15 @@ impl Standing {
     /// The first share of the way to the best that leaves less.
     fn lower(&self, beside: &Beside) -> Option<Self> {
         let told = self.case.along(&self.followed);
-        let best = self.case.aim().uncertain(&self.case, -1.0, &told);
-        let step = |share: &f64| beside.at(self, beside.way(&best), *share);
+        let moving = self.blamed.iter().enumerate().filter(|(_, b)| moves(b));
+        let moving: Vec<usize> = moving.map(|(i, _)| i).collect();
+        let of = |i: &usize| Loose::along(&self.blamed[*i].shape[1..]);
+        let loose = [self.case.loose(), moving.iter().map(of).collect()].concat();
+        let aim = Aim::new(&self.case, loose);
+        let (best, amounts) = aim.best(&self.case, -1.0, &told, moving.len());
+        let mut grown = vec![0.0; self.blamed.len()];
+        moving.iter().zip(amounts).for_each(|(i, a)| grown[*i] = a);
+        let step = |share: &f64| beside.at(self, beside.way(&best, &grown), *share);
         let mut steps = SHARES.iter().map(step);
         steps.find(|next| next.left < self.left)
     }
@@ -106,6 +118,7 @@ impl Standing {
             turned[places.phase(c)] = sums[0] / sums[1].max(f64::MIN_POSITIVE);
         }
         Way {
+            grown: vec![0.0; self.blamed.len()],
             turned,
             followed: self.followed.clone(),
             rest: self.rest.clone(),
@@ -114,21 +127,17 @@ impl Standing {
 }
 
 impl<'a> Beside<'a> {
-    fn of(case: &'a Case, blamed: &'a [Blamed]) -> Self {
+    fn of(case: &'a Case, blamed: &[Blamed]) -> Self {
         let followers = match blamed.iter().any(misses_much) {
             true => Vec::new(),
             false => followers(case),
         };
-        Self {
-            case,
-            blamed,
-            followers,
-        }
+        Self { case, followers }
     }
 
     /// The way to what fits best, in the vector; followers go no further than they may. A runout that turns does so to where it
     /// fits, which no slope says.
-    fn way(&self, best: &[f64]) -> Way {
+    fn way(&self, best: &[f64], grown: &[f64]) -> Way {
         let (mut turned, mut followed) = (vec![0.0; best.len()], vec![0.0; best.len()]);
         let mut rest = best.to_vec();
         rest[RUNOUT..RUNOUT + 2].fill(0.0);
@@ -144,6 +153,7 @@ impl<'a> Beside<'a> {
             followed[*at] = std::mem::take(&mut rest[*at]).clamp(-most, most);
         }
         Way {
+            grown: grown.to_vec(),
             turned,
             followed,
             rest,
@@ -167,12 +177,22 @@ impl<'a> Beside<'a> {
             let most = FARTHEST * from.case.turn(c);
             turned[places.phase(c)] = turned[places.phase(c)].clamp(-most, most);
         }
-        turn_runout(self.case, self.blamed, &mut turned);
-        self.standing(turned, followed, rest)
+        let mut blamed = from.blamed.clone();
+        for (cause, more) in blamed.iter_mut().zip(&way.grown) {
+            cause.amounts[0] += share * more;
+        }
+        turn_runout(self.case, &blamed, &mut turned);
+        self.standing(blamed, turned, followed, rest)
     }
 
-    fn standing(&self, turned: Vec<f64>, followed: Vec<f64>, rest: Vec<f64>) -> Standing {
-        let case = combined(self.case, &turned, self.blamed, "");
+    fn standing(
+        &self,
+        blamed: Vec<Blamed>,
+        turned: Vec<f64>,
+        followed: Vec<f64>,
+        rest: Vec<f64>,
+    ) -> Standing {
+        let case = combined(self.case, &turned, &blamed, "");
         let (reading, beside) = (case.reading(), case.along(&rest));
         let rows = reading.iter().zip(&beside).zip(case.spread());
         let left: f64 = rows
@@ -182,11 +202,18 @@ impl<'a> Beside<'a> {
         Standing {
             left: left + far.sum::<f64>(),
             case,
+            blamed,
             turned,
             followed,
             rest,
         }
     }
+}
+
+/// Whether a cause moves with what is uncertain: of the process and of one amount; the speed is in the scenes already.
+fn moves(blamed: &Blamed) -> bool {
+    let is_single = blamed.shape[0] == PROCESS && blamed.amounts.len() == 1;
+    is_single && blamed.effect != spindle_speed::EFFECT.name
 }
 
 /// Places and spreads of what moves alone.
