@@ -38,18 +38,26 @@ pub(super) fn material(
 }
 
 /// A set less what cannot be of its amounts: it stands for something that is uncertain anyway, and nobody is blamed for it.
-pub(super) fn possible(bank: &Bank, posterior: &Posterior, set: Scored) -> Scored {
+pub(super) fn possible(
+    bank: &Bank,
+    posterior: &Posterior,
+    mut set: Scored,
+    judgement: &Judgement,
+) -> Scored {
+    while let Some(at) = impossible(bank, &set) {
+        set = less(bank, posterior, &set, at, judgement);
+    }
+    set
+}
+
+/// The first of a set that cannot be of its amounts.
+fn impossible(bank: &Bank, set: &Scored) -> Option<usize> {
     let amounts = amounts(bank, &set.fit);
     let can_be = |(member, amounts): (&usize, &DVector<f64>)| {
         (bank.suspect(*member).can_be)(&bank.member(*member).shape, amounts.as_slice())
     };
-    let each = set.fit.members.iter().zip(&amounts).map(can_be);
-    let kept = set.suspects.iter().zip(each).filter(|(_, can_be)| *can_be);
-    let suspects: Vec<usize> = kept.map(|(suspect, _)| *suspect).collect();
-    match posterior.set(&suspects) {
-        Some(rest) if suspects.len() < set.suspects.len() => rest.clone(),
-        _ => set,
-    }
+    let mut each = set.fit.members.iter().zip(&amounts);
+    each.position(|own| !can_be(own))
 }
 
 pub(super) fn nothing(posterior: &Posterior) -> Scored {

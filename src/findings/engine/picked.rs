@@ -29,12 +29,12 @@ pub(super) fn picked(
     let real = |posterior: &Posterior, set: &Scored| {
         drop_unreal(statement, bank, posterior, set.clone(), judgement)
     };
-    let mut chosen = possible(bank, posterior, choose(posterior, judgement));
+    let mut chosen = possible(bank, posterior, choose(posterior, judgement), judgement);
     let (mut set, mut gains) = real(posterior, &chosen);
     if loses_to_structure(bank, posterior, &set, weighing.span, judgement) {
         let is_scatter = |set: &Scored| experiment.is_scatter(&weighing.beside(&set.fit).0);
         chosen = plain(posterior, is_scatter)
-            .map(|set| possible(bank, posterior, set))
+            .map(|set| possible(bank, posterior, set, judgement))
             .unwrap_or_else(|| nothing(posterior));
         posterior.keep_up_to(chosen.suspects.len());
         (set, gains) = real(posterior, &chosen);

@@ -85,8 +85,12 @@ impl<S: Weighed> Posterior<S> {
         (self.temper * (set.score() - against.score())).exp()
     }
 
-    /// Who can take the place of one suspect of a set, with the odds against it, best first.
+    /// Who can take the place of one suspect of a set, with the odds against it, best first. Of a set that was not weighed, as what
+    /// is left of one that was: who can in the best that holds it.
     pub fn stand_ins(&self, set: &S, suspect: usize) -> Vec<(usize, f64)> {
+        let holds = |s: &&S| set.suspects().iter().all(|own| s.suspects().contains(own));
+        let weighed = || self.sets.iter().map(|s| &s.0).find(holds);
+        let set = self.set(set.suspects()).or_else(weighed).unwrap_or(set);
         let rest = without(set.suspects(), suspect);
         let swapped = |other: &S| {
             let all = other.suspects();
