@@ -25,6 +25,8 @@ const MOST: usize = 2;
 const NEAR: f64 = 0.6;
 /// Share of the rate of sampling from which a line may be a harmonic folded at half of it: farther beyond, none is high.
 const FOLDED: f64 = 0.375;
+/// Periods within a cut from which an oscillation is told from a spell, as a harder place makes one: a choice; no other number was tried.
+const PERIODS: f64 = 3.0;
 /// Times by which the record is lengthened with zeros.
 const FINER: usize = 4;
 
@@ -56,6 +58,7 @@ fn of_cut(number: usize, fit: &CutFit, cut: &CutSamples, colour: Option<&Colour>
             height: power[i] / typical,
         })
         .filter(|line| line.height > HIGH && between(line.frequency_hz))
+        .filter(|line| line.frequency_hz * length >= PERIODS)
         .collect();
     found.sort_by(|a, b| b.height.total_cmp(&a.height));
     found.truncate(MOST);
