@@ -3,11 +3,20 @@
 //! what is uncertain (a secant): the angle of the tooth and the coefficients move along.
 
 use super::Case;
-use super::loose::Loose;
+use super::setting::Places;
 use crate::ground::products::gram;
 use crate::ground::spatial::{M3, V3, add, rotate, scale};
 use crate::ground::stats::rms;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+/// A direction of the vector that is uncertain although nothing is wrong.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Loose {
+    /// Its places, with how far each goes.
+    pub along: Vec<(usize, f64)>,
+    /// Its standard deviation before the data; infinite: nothing is known.
+    pub spread: f64,
+}
 
 /// The reading and the nuisances in noise deviations.
 pub struct Aim {
@@ -235,24 +244,12 @@ impl Aim {
 
     /// What is uncertain beside an amount of a column, as a vector of all places.
     pub fn uncertain(&self, case: &Case, amount: f64, column: &[f64]) -> Vec<f64> {
-        self.best(case, amount, column, 0).0
-    }
-
-    /// The same of all but the last some of it, and the amounts of these.
-    pub fn best(
-        &self,
-        case: &Case,
-        amount: f64,
-        column: &[f64],
-        last: usize,
-    ) -> (Vec<f64>, Vec<f64>) {
         let left = &self.reading - white(column, &self.spread) * amount;
         let mut to = vec![0.0; case.places().len()];
         let seen = self.seen(&left);
-        let (uncertain, last) = seen.as_slice().split_at(self.loose.len() - last);
-        let each = self.loose.iter().zip(uncertain);
+        let each = self.loose.iter().zip(seen.iter());
         each.for_each(|(l, u)| l.add_to(&mut to, *u));
-        (to, last.to_vec())
+        to
     }
 
     /// How far something goes of which nothing is known: an angle, or a coefficient of its own size.
@@ -262,6 +259,28 @@ impl Aim {
             Some(value) => value.abs(),
             None => TURN,
         }
+    }
+}
+
+impl Loose {
+    /// One place.
+    pub fn place(place: usize, spread: f64) -> Self {
+        Self {
+            along: vec![(place, 1.0)],
+            spread,
+        }
+    }
+
+    /// One unit of it.
+    pub fn direction(&self, places: Places) -> Vec<f64> {
+        let mut to = vec![0.0; places.len()];
+        self.add_to(&mut to, 1.0);
+        to
+    }
+
+    fn add_to(&self, to: &mut [f64], amount: f64) {
+        let each = self.along.iter();
+        each.for_each(|(place, factor)| to[*place] += factor * amount);
     }
 }
 

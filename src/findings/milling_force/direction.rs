@@ -1,8 +1,7 @@
 //! Where a runout points that is stated by its size: nobody states its direction.
 
 use super::Case;
-use super::aim::Aim;
-use super::loose::Loose;
+use super::aim::{Aim, Loose};
 use crate::experiments::milling_force::RUNOUT;
 use std::f64::consts::TAU;
 

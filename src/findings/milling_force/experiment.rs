@@ -1,6 +1,6 @@
 //! The statement of a milling-force file for the engine.
 
-use super::loose::Loose;
+use super::aim::Loose;
 use super::noise::Coloured;
 use super::patterns::PATTERNS;
 use super::{Case, EFFECTS};

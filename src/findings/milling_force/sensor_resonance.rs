@@ -34,11 +34,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     would_tell: "strike the sensor with a hammer while the spindle stands",
 };
 
-/// Shares by which it is brought closer, one after the other ...
+/// Shares by which it is brought closer, one after the other.
 const CLOSER: [f64; 4] = [0.006, 0.003, 0.0015, 0.0007];
-/// ... each as often as it gains, but no oftener than this: the lines of the tooth passing alone leave a sharp resonance some percent
-/// away. A choice for time; no other number was tried.
-const OFTEN: usize = 5;
 /// Steps of the frequency, in these shares.
 const STEPS_ABOUT: [f64; 3] = [-1.0, 0.0, 1.0];
 /// Steps of the damping ratio, in these shares.
@@ -103,7 +100,8 @@ fn member(case: &Case, lines: &Lines, number: usize, ringing: &Ringing) -> Membe
         to = aim.uncertain(case, amount, &column);
         let (own, here) = (revolutions(case, &to), beyond(&to));
         let before = resonance;
-        resonance = closer(case, (axes, highest), resonance, (&own, &here));
+        resonance = closer(case, axes, resonance, &own, &here);
+        resonance.at[0] = resonance.at[0].min(highest);
         column = sum(&added(case, axes, resonance, &own), &here);
         if resonance == before {
             break;
@@ -155,9 +153,10 @@ fn added(
 /// A resonance a little better than this one.
 fn closer(
     case: &Case,
-    (axes, highest_hz): ([bool; 3], f64),
+    axes: [bool; 3],
     resonance: Resonance,
-    (own, here): (&[Revolution], &[f64]),
+    own: &[Revolution],
+    here: &[f64],
 ) -> Resonance {
     let fitness = |resonance: Resonance| {
         case.aim()
@@ -165,35 +164,22 @@ fn closer(
     };
     let mut best = (resonance, fitness(resonance));
     for width in CLOSER {
-        for _ in 0..OFTEN {
-            let before = best.0;
-            for tried in about(before, width).filter(|r| r.at[0] <= highest_hz) {
+        let [hz, damping] = best.0.at;
+        for f in STEPS_ABOUT {
+            for d in SOFTER.iter().filter(|d| f != 0.0 || **d != 0.0) {
+                let damping = (damping * (1.0 + d * width)).clamp(0.002, MOST_DAMPING);
+                let tried = Resonance {
+                    at: [hz * (1.0 + width * f), damping],
+                    ..resonance
+                };
                 let own = fitness(tried);
                 if own > best.1 {
                     best = (tried, own);
                 }
             }
-            if best.0 == before {
-                break;
-            }
         }
     }
     best.0
-}
-
-/// The neighbours of a resonance.
-fn about(resonance: Resonance, width: f64) -> impl Iterator<Item = Resonance> {
-    let [hz, damping] = resonance.at;
-    let steps = STEPS_ABOUT.iter().flat_map(|f| SOFTER.map(|d| (*f, d)));
-    steps
-        .filter(|(f, d)| *f != 0.0 || *d != 0.0)
-        .map(move |(f, d)| Resonance {
-            at: [
-                hz * (1.0 + width * f),
-                (damping * (1.0 + d * width)).clamp(0.002, MOST_DAMPING),
-            ],
-            ..resonance
-        })
 }
 
 fn sum(a: &[f64], b: &[f64]) -> Vec<f64> {
