@@ -15,7 +15,7 @@ pub(super) struct Grid {
     pub reach: [f64; 2],
     /// Width of the cells across, m.
     pub width: [f64; 2],
-    /// Cells per metre across.
+    /// Cells per metre across, the reciprocal of the width: a view multiplies where it would divide.
     pub density: [f64; 2],
     /// Number of rays across.
     pub count: [usize; 2],

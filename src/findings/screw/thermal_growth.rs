@@ -30,8 +30,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 /// Time constants over the length of the record; 0: in proportion to it.
 const CONSTANTS: [f64; 5] = [0.0, 0.07, 0.15, 0.35, 0.8];
 /// Those of a screw whose bodies warm one after the other, fitted together. None so fast that it is a constant but for the first
-/// readings: with 0.03 a lead that is wrong was a growth that others take back. No other
-/// numbers were tried.
+/// readings: with 0.03 a lead that is wrong was a growth that others take back. No other numbers were
+/// tried.
 const TOGETHER: [f64; 3] = [0.1, 0.3, 1.0];
 
 fn members(case: &Case) -> Vec<Member> {
