@@ -5,6 +5,7 @@ use ident::compensation::executed::executed;
 use ident::compensation::method::METHODS;
 use ident::compensation::online::Sensor;
 use ident::compensation::remaining::{Size, remaining};
+use ident::compensation::shifted::shifted;
 use ident::compensation::text::text;
 use ident::compensation::{Correction, Search, Task, search};
 use ident::ground::spatial::{dot, norm, sub};
@@ -29,6 +30,7 @@ fn judged(
         plan: &planned.plan,
         support,
         sensor: Sensor::default(),
+        way_of: &|found| shifted(&planned.plan, found),
     };
     let found = search(method, &task).unwrap();
     let (before, after) = sizes(planned, setup, truth, &found.correction, support);

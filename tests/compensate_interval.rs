@@ -6,12 +6,13 @@ use ident::compensation::limits::certainty;
 use ident::compensation::method::{METHODS, with};
 use ident::compensation::online::Sensor;
 use ident::compensation::remaining::{Size, remaining};
+use ident::compensation::shifted::shifted;
 use ident::compensation::{Task, search};
 use ident::ground::spatial::{norm, scale, sub};
 use ident::ground::stats::Z95;
 use ident::process::Milled;
 use ident::process::setup::{Setup, Support};
-use ident::process::uncertainty::{changes, doubts};
+use ident::process::uncertainty::{Moved, doubts};
 
 /// Relative standard deviation of everything.
 const SPREAD: f64 = 0.1;
@@ -47,6 +48,7 @@ fn the_interval_of_what_is_left_holds_the_truth_and_yes_is_never_wrong() {
         plan: &planned.plan,
         support,
         sensor: Sensor::default(),
+        way_of: &|found| shifted(&planned.plan, found),
     };
     let found = search(&METHODS[0], &task).unwrap();
     let corrected = with(&setup, &planned.plan, &found.correction).unwrap();
@@ -55,7 +57,8 @@ fn the_interval_of_what_is_left_holds_the_truth_and_yes_is_never_wrong() {
     let left = |setup: &Setup| rest(&milled(setup));
     let all = doubts(&setup.robot, &setup, &planned.coefficient_stds());
     let model = milled(&corrected);
-    let said = certainty(&corrected, &setup, support, &all, (&model, &rest(&model))).unwrap();
+    let moved = Moved::of(&corrected, support, &all).unwrap();
+    let said = certainty(&corrected, &setup, &moved, &all, &rest(&model)).unwrap();
     let [low, high] = said.ci95.unwrap();
     let mut largest = Vec::new();
     for seed in 0..plants {
@@ -93,7 +96,8 @@ fn small_doubts_do_what_simulations_say() {
         let setup = known_to(setup.clone(), spread);
         let mut all = doubts(&setup.robot, &setup, &[]);
         all.retain(|doubt| doubt.name == "stiffness");
-        let moved = changes(&setup, Support::Static, &all, &[middle], None).unwrap();
+        let moved = Moved::of(&setup, Support::Static, &all).unwrap();
+        let moved = moved.changes(&setup, &all, &[middle]).unwrap();
         let share = |(moved, doubt): (&Vec<_>, &_)| {
             let doubt: &ident::process::uncertainty::Doubt = doubt;
             scale(1.0 / doubt.rel_std, moved[0])

@@ -39,49 +39,71 @@ const DETUNED: f64 = 0.02;
 /// Places, in standard deviations, at which the average over frequencies is taken.
 const NODES: [f64; 9] = [-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0];
 
-/// What to command so that the tip answers with `wanted` (one vector per [`STEP_S`] from the begin of the
-/// motion, m, workpiece frame).
-///
-/// # Errors
-/// A robot in which nothing is elastic.
-pub fn command(setup: &Setup, chain: &Chain, wanted: &[V3]) -> Outcome<Vec<V3>> {
-    let pieces = wanted.len().div_ceil(PIECE / 2) + 1;
-    let answers = (0..pieces).into_par_iter().map(|i| {
-        let first = (i * PIECE / 2) as i64 - (PIECE / 2) as i64;
-        let own: Vec<V3> = (0..PIECE)
-            .map(|k| {
-                let window = (PI * (k as f64 + 0.5) / PIECE as f64).sin().powi(2);
-                let at = usize::try_from(first + k as i64).ok();
-                let value = at.and_then(|at| wanted.get(at)).copied();
-                value.unwrap_or_default().map(|x| window * x)
-            })
-            .collect();
-        let still = own.iter().flatten().all(|x| *x == 0.0);
-        let answer = (!still)
-            .then(|| piece(setup, chain, first, &own))
-            .transpose();
-        answer.map(|answer| (first, answer))
-    });
-    let answers = answers.collect::<Vec<_>>().into_iter();
-    let mut sum = vec![[0.0; 3]; wanted.len()];
-    for (first, answer) in answers.collect::<Outcome<Vec<_>>>()? {
-        let begin = first - ((PADDED - PIECE) / 2) as i64;
-        for (k, value) in answer.into_iter().flatten().enumerate() {
-            let at = usize::try_from(begin + k as i64).ok();
-            if let Some(place) = at.and_then(|at| sum.get_mut(at)) {
-                (0..3).for_each(|c| place[c] += value[c]);
+/// How a robot answers along a motion, inverted: one list of inverses, bin by bin, per piece of it.
+pub struct Answers(Vec<Vec<Matrix3<C>>>);
+
+impl Answers {
+    /// Along the motion of a job.
+    ///
+    /// # Errors
+    /// A robot in which nothing is elastic.
+    pub fn of(setup: &Setup, chain: &Chain) -> Outcome<Self> {
+        let [begin, end] = setup.way.span();
+        let samples = ((end - begin) / STEP_S).ceil() as usize + 1;
+        let of_piece = |i: usize| {
+            let middle = begin + STEP_S * (first(i) as f64 + 0.5 * PIECE as f64);
+            let joints = setup.way.at(middle.clamp(begin, end)).joints;
+            inverses(setup, chain, &joints)
+        };
+        let pieces: Vec<_> = (0..count(samples)).into_par_iter().map(of_piece).collect();
+        Ok(Self(pieces.into_iter().collect::<Outcome<_>>()?))
+    }
+
+    /// What to command so that the tip answers with `wanted` (one vector per [`STEP_S`] from the begin of the
+    /// motion, m, workpiece frame). The motion may be a little longer or shorter than the one that this is of.
+    pub fn command(&self, wanted: &[V3]) -> Vec<V3> {
+        let pieces = count(wanted.len());
+        let last = self.0.len() - 1;
+        let answer = |i: usize| {
+            let own: Vec<V3> = (0..PIECE)
+                .map(|k| {
+                    let window = (PI * (k as f64 + 0.5) / PIECE as f64).sin().powi(2);
+                    let at = usize::try_from(first(i) + k as i64).ok();
+                    let value = at.and_then(|at| wanted.get(at)).copied();
+                    value.unwrap_or_default().map(|x| window * x)
+                })
+                .collect();
+            let still = own.iter().flatten().all(|x| *x == 0.0);
+            let there = (i * last + pieces / 2) / (pieces - 1).max(1);
+            (!still).then(|| piece(&self.0[there.min(last)], &own))
+        };
+        let answers: Vec<_> = (0..pieces).into_par_iter().map(answer).collect();
+        let mut sum = vec![[0.0; 3]; wanted.len()];
+        for (i, answer) in answers.into_iter().enumerate() {
+            let begin = first(i) - ((PADDED - PIECE) / 2) as i64;
+            for (k, value) in answer.into_iter().flatten().enumerate() {
+                let at = usize::try_from(begin + k as i64).ok();
+                if let Some(place) = at.and_then(|at| sum.get_mut(at)) {
+                    (0..3).for_each(|c| place[c] += value[c]);
+                }
             }
         }
+        sum
     }
-    Ok(sum)
+}
+
+/// Pieces of a motion of so many samples.
+fn count(samples: usize) -> usize {
+    samples.div_ceil(PIECE / 2) + 1
+}
+
+/// First sample of a piece: half of the first one lies before the motion.
+fn first(piece: usize) -> i64 {
+    (piece * PIECE / 2) as i64 - (PIECE / 2) as i64
 }
 
 /// One piece, padded to both sides.
-fn piece(setup: &Setup, chain: &Chain, first: i64, own: &[V3]) -> Outcome<Vec<V3>> {
-    let [begin, end] = setup.way.span();
-    let middle = begin + STEP_S * (first as f64 + 0.5 * PIECE as f64);
-    let joints = setup.way.at(middle.clamp(begin, end)).joints;
-    let inverses = inverses(setup, chain, &joints)?;
+fn piece(inverses: &[Matrix3<C>], own: &[V3]) -> Vec<V3> {
     let mut planner = FftPlanner::new();
     let (forth, back) = (
         planner.plan_fft_forward(PADDED),
@@ -114,9 +136,9 @@ fn piece(setup: &Setup, chain: &Chain, first: i64, own: &[V3]) -> Outcome<Vec<V3
         back.process(signal);
     }
     let scale = 1.0 / PADDED as f64;
-    Ok((0..PADDED)
+    (0..PADDED)
         .map(|k| [0, 1, 2].map(|c| scale * signals[c][k].re))
-        .collect())
+        .collect()
 }
 
 /// Low-passed regularised inverses of T, bin by bin, at joint angles.

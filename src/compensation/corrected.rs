@@ -16,7 +16,7 @@ use crate::path::programs::{Exporter, ProgramFile};
 use crate::process::Planned;
 use crate::process::run::NOTHING_CUT;
 use crate::process::setup::{Setup, Support};
-use crate::process::uncertainty::{self, Doubt};
+use crate::process::uncertainty::{self, Doubt, Moved};
 use std::path::PathBuf;
 
 /// How a job is to be corrected.
@@ -123,12 +123,21 @@ pub fn correct(planned: Planned, request: Request) -> Outcome<Corrected> {
             .map_or(Ok(setup.clone()), |p| of_plant(setup, p))
     };
     let truth = of_plant(&setup)?;
+    let inputs = inputs(&planned, plant.as_ref());
+    let synthetic = planned.toolpath.synthetic || planned.job.synthetic;
+    let written = |found: &Correction| text(&base.plan, found, method.name, &inputs, synthetic);
+    let as_run = |text: &str| executed(base, &corrected_path(&planned), text);
+    let way_of = |found: &Correction| match method.live {
+        true => shifted(&base.plan, found),
+        false => Ok(as_run(&written(found))?.way),
+    };
     let task = Task {
         setup: &setup,
         truth: &truth,
         plan: &base.plan,
         support,
         sensor,
+        way_of: &way_of,
     };
     let uncorrected = of_plant(&drawn)?;
     let (found, first) = rayon::join(
@@ -141,19 +150,8 @@ pub fn correct(planned: Planned, request: Request) -> Outcome<Corrected> {
         return Err(in_job(Problem::new(what, remedy)));
     }
     let found = found.map_err(in_job)?;
-    let inputs = inputs(&planned, plant.as_ref());
-    let synthetic = planned.toolpath.synthetic || planned.job.synthetic;
-    let text = text(
-        &base.plan,
-        &found.correction,
-        method.name,
-        &inputs,
-        synthetic,
-    );
-    let executed = match method.live {
-        true => None,
-        false => Some(executed(base, &corrected_path(&planned), &text)?),
-    };
+    let text = written(&found.correction);
+    let executed = (!method.live).then(|| as_run(&text)).transpose()?;
     let way = match &executed {
         Some(executed) => executed.way.clone(),
         None => shifted(&base.plan, &found.correction).map_err(in_job)?,
@@ -165,20 +163,24 @@ pub fn correct(planned: Planned, request: Request) -> Outcome<Corrected> {
         way: way.clone(),
         ..setup.clone()
     };
-    let (second, _) = corrected(&truth).run(support, |_| {}).map_err(in_job)?;
+    let model = corrected(&setup);
+    let doubts = uncertainty::doubts(&setup.robot, &setup, &planned.coefficient_stds());
+    let run = |setup: &Setup| Ok(setup.run(support, |_| {}).map_err(in_job)?.0);
+    let (runs, moved) = rayon::join(
+        || {
+            let second = run(&corrected(&truth))?;
+            let of_model = plant.as_ref().map(|_| run(&model)).transpose()?;
+            Ok((second, of_model))
+        },
+        || Moved::of(&model, support, &doubts).map_err(in_job),
+    );
+    let ((second, of_model), moved) = (runs?, moved?);
     let before = remaining(&first, &none, &drawn.way);
     let after = remaining(&second, &found.correction, &setup.way);
-    let model = corrected(&setup);
-    let of_model = match &plant {
-        None => None,
-        Some(_) => Some(model.run(support, |_| {}).map_err(in_job)?.0),
-    };
     let expected = of_model.as_ref().unwrap_or(&second);
     let left = remaining(expected, &found.correction, &setup.way);
     let beside = beside(method, &task).map_err(in_job)?;
-    let doubts = uncertainty::doubts(&setup.robot, &setup, &planned.coefficient_stds());
-    let certainty =
-        certainty(&model, &setup, support, &doubts, (expected, &left)).map_err(in_job)?;
+    let certainty = certainty(&model, &setup, &moved, &doubts, &left).map_err(in_job)?;
     let size = Size::of(&after);
     let checked = proof(&planned.plan, &way, &found.correction, &second);
     Ok(Corrected {

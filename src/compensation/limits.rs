@@ -1,11 +1,11 @@
 //! How sure it is what will be left, which number limits that, and what would lower it most.
 
-use super::remaining::{Station, interval};
+use super::draws::Draws;
+use super::remaining::Station;
 use crate::ground::problem::Outcome;
 use crate::ground::spatial::{V3, norm};
-use crate::process::Milled;
-use crate::process::setup::{Setup, Support};
-use crate::process::uncertainty::{self, Doubt};
+use crate::process::setup::Setup;
+use crate::process::uncertainty::{Doubt, Moved};
 use crate::process::way::normal_part;
 
 /// What an uncertain number does to what is left.
@@ -53,9 +53,9 @@ const RANKED: usize = 200;
 pub fn certainty(
     corrected: &Setup,
     drawn: &Setup,
-    support: Support,
+    moved: &Moved,
     doubts: &[Doubt],
-    (milled, left): (&Milled, &[Station]),
+    left: &[Station],
 ) -> Outcome<Certainty> {
     let cutting: Vec<&Station> = left.iter().filter(|s| s.cutting).collect();
     if doubts.is_empty() || cutting.is_empty() {
@@ -63,14 +63,14 @@ pub fn certainty(
     }
     let chosen = thinned(cutting);
     let times: Vec<f64> = chosen.iter().map(|s| s.time_s).collect();
-    let mut changes = uncertainty::changes(corrected, support, doubts, &times, Some(milled))?;
+    let mut changes = moved.changes(corrected, doubts, &times)?;
     for list in &mut changes {
         for (change, station) in list.iter_mut().zip(&chosen) {
             *change = normal_part(*change, drawn.way.feed(station.time_s));
         }
     }
     let left: Vec<V3> = chosen.iter().map(|s| s.left).collect();
-    let likely = interval(&left, &changes);
+    let likely = Draws::of(doubts.len()).interval(&left, &changes, |_| true);
     let (limits, next) = ranked(doubts, &left, &changes);
     Ok(Certainty {
         ci95: likely.map(|l| l.ci95),
@@ -103,11 +103,11 @@ fn ranked(doubts: &[Doubt], left: &[V3], changes: &[Vec<V3>]) -> (Vec<Limit>, Op
         few(left),
         changes.iter().map(|c| few(c)).collect::<Vec<_>>(),
     );
+    let draws = Draws::of(doubts.len());
     let high = |known: &dyn Fn(usize) -> bool| {
-        let kept = (0..doubts.len()).filter(|k| !known(*k));
-        let kept: Vec<Vec<V3>> = kept.map(|k| changes[k].clone()).collect();
         let least = left.iter().map(|v| norm(*v)).fold(0.0, f64::max);
-        interval(&left, &kept).map_or(least, |likely| likely.ci95[1])
+        let likely = draws.interval(&left, &changes, |k| !known(k));
+        likely.map_or(least, |likely| likely.ci95[1])
     };
     let limit = |(k, doubt): (usize, &Doubt)| Limit {
         change_m: changes[k].iter().map(|v| norm(*v)).fold(0.0, f64::max),

@@ -11,7 +11,7 @@ use crate::ground::spatial::V3;
 use crate::planning::Plan;
 use crate::process::run::Outcome as Milled;
 use crate::process::setup::{Setup, Support};
-use crate::process::way::normal_part;
+use crate::process::way::{Way, normal_part};
 
 /// A way to find the correction.
 pub struct Method {
@@ -71,6 +71,8 @@ pub struct Task<'a> {
     pub support: Support,
     /// The force sensor of a correction while cutting.
     pub sensor: Sensor,
+    /// The motion that a corrected program makes.
+    pub way_of: &'a (dyn Fn(&Correction) -> Outcome<Way> + Sync),
 }
 
 /// A correction as it was found.

@@ -8,6 +8,7 @@ pub mod answering;
 pub mod calm;
 pub mod corrected;
 pub mod correction;
+pub mod draws;
 pub mod executed;
 pub mod limits;
 pub mod method;

@@ -1,7 +1,6 @@
 //! What is left of the deviation from the path that was programmed.
 
 use super::correction::Correction;
-use crate::ground::random::Random;
 use crate::ground::spatial::{V3, add, norm};
 use crate::process::run::{Cut, Outcome as Milled};
 use crate::process::way::{Way, normal_part};
@@ -86,46 +85,4 @@ impl Size {
             rms_m: (squares / cutting.len().max(1) as f64).sqrt(),
         }
     }
-}
-
-/// Draws of the uncertain numbers.
-const DRAWS: usize = 4000;
-
-/// How large the largest deviation may be, m.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Likely {
-    /// 95 % interval.
-    pub ci95: [f64; 2],
-    /// In 999 of 1000 cases at most this: what a promise needs.
-    pub at_most: f64,
-}
-
-/// 95 % interval of the largest deviation, m: `changes` holds, per uncertain number, what one standard
-/// deviation of it changes at each station. The largest of many stations is no linear function of them:
-/// it is drawn.
-pub fn interval(left: &[V3], changes: &[Vec<V3>]) -> Option<Likely> {
-    if changes.is_empty() || left.is_empty() {
-        return None;
-    }
-    let mut random = Random::new(1);
-    let mut largest: Vec<f64> = (0..DRAWS)
-        .map(|_| {
-            let z: Vec<f64> = changes.iter().map(|_| random.normal()).collect();
-            let at = |i: usize| {
-                let moved = changes.iter().zip(&z);
-                norm(moved.fold(left[i], |sum, (c, z)| {
-                    [0, 1, 2].map(|k| sum[k] + z * c[i][k])
-                }))
-            };
-            (0..left.len()).map(at).fold(0.0, f64::max)
-        })
-        .collect();
-    largest.sort_by(f64::total_cmp);
-    let at = |share: f64| largest[((DRAWS - 1) as f64 * share).round() as usize];
-    // the largest of many places that are uncertain is rarely as small as where nothing is off
-    let as_told = left.iter().map(|l| norm(*l)).fold(0.0, f64::max);
-    Some(Likely {
-        ci95: [at(0.025).min(as_told), at(0.975)],
-        at_most: at(0.999),
-    })
 }

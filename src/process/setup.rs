@@ -118,22 +118,17 @@ impl Setup {
     }
 
     /// The same job with the cut resolved `times` more coarsely: for runs of which only the difference is asked.
-    ///
-    /// # Errors
-    /// As [`Setup::of`].
-    pub fn coarser(&self, job: &Job, times: f64) -> Outcome<Self> {
+    pub fn coarser(&self, times: f64) -> Self {
         let Fineness { spacing_m, steps } = self.fineness;
         let per_tooth = (steps / self.tool.teeth) as f64 / times;
-        let fineness = Fineness {
-            spacing_m: times * spacing_m,
-            steps: per_tooth.ceil() as usize * self.tool.teeth,
-        };
-        let stock = stock(job, fineness.spacing_m).map_err(|p| p.in_file(&job.path))?;
-        Ok(Self {
-            stock,
-            fineness,
+        Self {
+            stock: self.stock.coarser(times),
+            fineness: Fineness {
+                spacing_m: times * spacing_m,
+                steps: per_tooth.ceil() as usize * self.tool.teeth,
+            },
             ..self.clone()
-        })
+        }
     }
 
     /// The tool beside its stock.

@@ -21,7 +21,7 @@ use crate::process::course;
 use crate::process::recorded::Recorded;
 use crate::process::run::{Cut, Outcome as Milled};
 use crate::process::setup::{Setup, Support};
-use crate::process::uncertainty::{self, Doubt};
+use crate::process::uncertainty::{self, Doubt, Moved};
 use crate::report::folder;
 use clap::{ArgMatches, Args};
 use std::cell::Cell;
@@ -217,8 +217,8 @@ fn worst(setup: &Setup, milled: &Milled, doubts: &[Doubt]) -> Outcome<Option<Wor
     let ci95 = match doubts.is_empty() {
         true => None,
         false => {
-            let changes =
-                uncertainty::changes(setup, Support::Static, doubts, &[cut.time_s], None)?;
+            let moved = Moved::of(setup, Support::Static, doubts)?;
+            let changes = moved.changes(setup, doubts, &[cut.time_s])?;
             let half = Z95 * uncertainty::spread(&changes, 0, cut.deviation);
             Some([(size(&cut) - half).max(0.0), size(&cut) + half])
         }

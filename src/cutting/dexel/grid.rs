@@ -75,6 +75,24 @@ impl Grid {
         index(low)..(index(high) + 1).min(self.count[k])
     }
 
+    /// The same rays fewer: cells `times` as wide, each with the ray nearest to its middle.
+    pub fn coarser(&self, max: V3, times: f64) -> Self {
+        let widest = self.width[0].max(self.width[1]);
+        let mut coarse = Self::new(self.axes[0], self.min, max, times * widest);
+        let near = |k: usize, x: f64| {
+            let cell = (x - self.min[self.axes[k + 1]]) * self.density[k];
+            (cell as usize).min(self.count[k] - 1)
+        };
+        for j in 0..coarse.count[1] {
+            for i in 0..coarse.count[0] {
+                let [u, v] = coarse.place(i, j);
+                let own = &self.rays[near(1, v) * self.count[0] + near(0, u)];
+                coarse.rays[j * coarse.count[0] + i] = own.clone();
+            }
+        }
+        coarse
+    }
+
     /// Takes a solid away.
     pub fn remove(&mut self, solid: &Solid) {
         match solid.upright() {

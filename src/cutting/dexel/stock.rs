@@ -74,6 +74,15 @@ impl Stock {
         })
     }
 
+    /// The same material with its rays `times` as far apart.
+    pub fn coarser(&self, times: f64) -> Self {
+        Self {
+            cap: times * self.cap,
+            grids: [0, 1, 2].map(|k| self.grids[k].coarser(self.max, times)),
+            ..*self
+        }
+    }
+
     /// Lower and upper corner of the stock as it was.
     pub fn bounds(&self) -> (V3, V3) {
         (self.min, self.max)

@@ -105,7 +105,7 @@ impl Case {
         let own = rows.iter().zip(&simulated);
         let missed = own.map(|(row, s)| row.measured - s).collect();
         let probe = probe(&test);
-        let trial = setup.coarser(&planned.job, COARSER)?;
+        let trial = setup.coarser(COARSER);
         let tried = tried(&trial, &stations)?;
         let coefficients = tried.coefficients.iter();
         Ok(Self {
