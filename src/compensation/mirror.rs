@@ -24,8 +24,8 @@ const SETTLED: f64 = 5e-2;
 const GAIN: f64 = 0.03;
 /// ... and after so many of them the best is kept: what is taken back and tried by half takes a few.
 const PATIENCE: usize = 4;
-/// How much more coarsely the cut is resolved while learning: on the example's part the corrections of 1 and of 2 leave the
-/// same, that of 4 a sixth more.
+/// How much more coarsely the cut is resolved while learning: on the example's part nine rounds with 1, 2 and 4 left 0.190, 0.198
+/// and 0.232 mm, and what differs by rounding leaves 0.015 mm more or less.
 const COARSER: f64 = 2.0;
 /// Share of what is left that is taken away at once where masses swing.
 const CAREFUL: f64 = 0.9;

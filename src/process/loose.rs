@@ -13,7 +13,7 @@ use crate::motion::Chain;
 use crate::motion::hinge_law::{HingeLaw, Memory};
 use crate::motion::modes::Modal;
 use crate::motion::statics::springs;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 /// One such joint.
 #[derive(Debug, Clone)]
@@ -51,6 +51,7 @@ struct Work {
     /// Torques c, N·m, and how they change with the deflection.
     torques: Vec<f64>,
     slopes: Vec<f64>,
+    step: Vec<f64>,
 }
 
 /// How the loose joints answer within a step of one length at one pose.
@@ -62,14 +63,17 @@ pub struct Ports {
     gains: Vec<Vec<f64>>,
     /// Deflection of each by a torque of one on each, rad/(N·m).
     answer: DMatrix<f64>,
+    /// How far to go for what is left of the deflections: the inverse of their slope when it was taken last.
+    steps: DMatrix<f64>,
     /// Deflection of each by a force at the tool, rad/N.
     by_force: Vec<V3>,
 }
 
 /// Rounds at most; the laws are chains of straight pieces.
 const ROUNDS: usize = 16;
-/// The first rounds put the torques of the one before in: short steps hardly move a joint. Then by Newton.
-const PLAIN: usize = 4;
+/// The first rounds go by the slopes that were taken last: the laws are chains of straight pieces, on which joints stay for
+/// many steps. Then by Newton.
+const STALE: usize = 2;
 /// A torque this near to its law is met, as a share of the spring's own over the largest deflection.
 const NEAR: f64 = 1e-7;
 /// Static rounds: force and gap settle between each other.
@@ -127,6 +131,7 @@ impl Loose {
         let answer = DMatrix::from_fn(rows.len(), rows.len(), |i, j| along(&rows[i], &gains[j]));
         let by_force = rows.iter().map(|row| oscillator.bent_by_force(row));
         Ports {
+            steps: DMatrix::identity(rows.len(), rows.len()),
             by_force: by_force.collect(),
             rows,
             gains,
@@ -136,7 +141,7 @@ impl Loose {
 
     /// Torques c over a step at whose end the linear robot alone would have `state`, with a force at the tool
     /// still to come.
-    pub fn torques(&mut self, ports: &Ports, state: &[f64], force: V3) -> &[f64] {
+    pub fn torques(&mut self, ports: &mut Ports, state: &[f64], force: V3) -> &[f64] {
         let Self { hinges, work } = self;
         let free = ports.rows.iter().zip(&ports.by_force);
         work.free.clear();
@@ -152,10 +157,13 @@ impl Loose {
             if largest(&work.rest) <= NEAR * largest(&work.with) {
                 break;
             }
-            if round >= PLAIN {
-                ports.newton(&work.slopes, &mut work.rest);
+            if round >= STALE {
+                ports.anew(&work.slopes);
             }
-            let each = work.with.iter_mut().zip(&work.rest);
+            work.step.clear();
+            work.step.resize(work.rest.len(), 0.0);
+            add_product(&ports.steps, &work.rest, &mut work.step);
+            let each = work.with.iter_mut().zip(&work.step);
             each.for_each(|(x, step)| *x += step);
         }
         &self.work.torques
@@ -243,22 +251,27 @@ impl Ports {
 
     /// Adds the deflections under torques.
     fn answered(&self, torques: &[f64], sum: &mut [f64]) {
-        for (j, torque) in torques.iter().enumerate() {
-            let own = self.answer.column(j);
-            let own = sum.iter_mut().zip(own.iter());
-            own.for_each(|(sum, answer)| *sum += answer * torque);
-        }
+        add_product(&self.answer, torques, sum);
     }
 
-    /// Newton's step in the place of what is left of the deflections, rad; with the slopes of the torques.
-    fn newton(&self, slopes: &[f64], rest: &mut [f64]) {
-        let n = rest.len();
+    /// Takes the slopes of the torques anew: what is left of the deflections changes by 1 − A T′ with them.
+    fn anew(&mut self, slopes: &[f64]) {
+        let n = slopes.len();
         let slope = DMatrix::from_fn(n, n, |i, j| {
             f64::from(u8::from(i == j)) - self.answer[(i, j)] * slopes[j]
         });
-        if let Some(step) = slope.lu().solve(&DVector::from_column_slice(rest)) {
-            rest.copy_from_slice(step.as_slice());
+        if let Some(steps) = slope.try_inverse() {
+            self.steps = steps;
         }
+    }
+}
+
+/// Adds a square matrix times a vector.
+fn add_product(matrix: &DMatrix<f64>, vector: &[f64], sum: &mut [f64]) {
+    let columns = matrix.as_slice().chunks_exact(vector.len().max(1));
+    for (column, share) in columns.zip(vector) {
+        let own = sum.iter_mut().zip(column);
+        own.for_each(|(sum, entry)| *sum += entry * share);
     }
 }
 

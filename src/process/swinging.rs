@@ -148,7 +148,10 @@ impl Swinging {
 
     /// Adds to `next` what gaps and contacts do over the step, the force of the cut being still to come.
     fn loosen(&mut self, coarse: bool, to_come: V3) {
-        let ports = if coarse { &self.far } else { &self.near };
+        let ports = match coarse {
+            true => &mut self.far,
+            false => &mut self.near,
+        };
         let torques = self.loose.torques(ports, &self.next, to_come);
         ports.push(&mut self.next, torques);
     }
