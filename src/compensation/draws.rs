@@ -40,49 +40,62 @@ impl Draws {
         }
     }
 
-    /// 95 % interval of the largest deviation, m: `changes` holds, per uncertain number, what one standard
-    /// deviation of it changes at each station; those that are not `kept` are known exactly. The largest of many
-    /// stations is no linear function of them: it is drawn.
-    pub fn interval(
+    /// 95 % interval of the largest deviation, m, once per set of numbers that are known exactly (none where all are):
+    /// `changes` holds, per uncertain number, what one standard deviation of it changes at each station. The
+    /// largest of many stations is no linear function of them: it is drawn.
+    pub fn intervals(
         &self,
         left: &[V3],
         changes: &[Vec<V3>],
-        kept: impl Fn(usize) -> bool,
-    ) -> Option<Likely> {
-        let kept: Vec<usize> = (0..changes.len()).filter(|k| kept(*k)).collect();
-        if kept.is_empty() || left.is_empty() {
-            return None;
-        }
-        let of_block = |block: &Vec<f64>| largest(block, left, changes, &kept);
-        let mut all: Vec<f64> = self.blocks.par_iter().flat_map_iter(of_block).collect();
-        all.sort_by(f64::total_cmp);
-        let at = |share: f64| all[((DRAWS - 1) as f64 * share).round() as usize];
+        known: &[Vec<usize>],
+    ) -> Vec<Option<Likely>> {
+        let of_block = |block: &Vec<f64>| largest(block, left, changes, known);
+        let blocks: Vec<Vec<Draw>> = self.blocks.par_iter().map(of_block).collect();
         // the largest of many places that are uncertain is rarely as small as where nothing is off
         let as_told = left.iter().map(|l| norm(*l)).fold(0.0, f64::max);
-        Some(Likely {
-            ci95: [at(0.025).min(as_told), at(0.975)],
-            at_most: at(0.999),
-        })
+        let of_set = |(set, known): (usize, &Vec<usize>)| {
+            let is_open = known.len() < changes.len() && !left.is_empty();
+            is_open.then(|| likely(blocks.iter().flat_map(|b| b[set]).collect(), as_told))
+        };
+        known.iter().enumerate().map(of_set).collect()
     }
 }
 
-/// The largest deviation of each draw of a block, m.
-fn largest(block: &[f64], left: &[V3], changes: &[Vec<V3>], kept: &[usize]) -> [f64; TOGETHER] {
-    let mut largest = [0.0_f64; TOGETHER];
+/// One value per draw of a block.
+type Draw = [f64; TOGETHER];
+
+fn likely(mut all: Vec<f64>, as_told: f64) -> Likely {
+    all.sort_by(f64::total_cmp);
+    let at = |share: f64| all[((all.len() - 1) as f64 * share).round() as usize];
+    Likely {
+        ci95: [at(0.025).min(as_told), at(0.975)],
+        at_most: at(0.999),
+    }
+}
+
+/// The largest deviation of each draw of a block, m, once per set of numbers that are known exactly.
+fn largest(block: &[f64], left: &[V3], changes: &[Vec<V3>], known: &[Vec<usize>]) -> Vec<Draw> {
+    let mut largest = vec![[0.0; TOGETHER]; known.len()];
+    let add = |at: &mut [Draw; 3], k: usize, i: usize, sign: f64| {
+        let draws = &block[k * TOGETHER..][..TOGETHER];
+        for (at, change) in at.iter_mut().zip(changes[k][i]) {
+            let each = at.iter_mut().zip(draws);
+            each.for_each(|(at, draw)| *at += sign * change * draw);
+        }
+    };
     for (i, left) in left.iter().enumerate() {
-        let mut at = left.map(|x| [x; TOGETHER]);
-        for k in kept {
-            let draws = &block[k * TOGETHER..][..TOGETHER];
-            for (at, change) in at.iter_mut().zip(changes[*k][i]) {
-                let each = at.iter_mut().zip(draws);
-                each.for_each(|(at, draw)| *at += change * draw);
+        let mut all = left.map(|x| [x; TOGETHER]);
+        (0..changes.len()).for_each(|k| add(&mut all, k, i, 1.0));
+        for (largest, known) in largest.iter_mut().zip(known) {
+            let mut at = all;
+            known.iter().for_each(|k| add(&mut at, *k, i, -1.0));
+            for (draw, largest) in largest.iter_mut().enumerate() {
+                let square: f64 = at.iter().map(|x| x[draw] * x[draw]).sum();
+                *largest = f64::max(*largest, square);
             }
         }
-        for (draw, largest) in largest.iter_mut().enumerate() {
-            *largest = largest.max(at.iter().map(|x| x[draw] * x[draw]).sum());
-        }
     }
-    largest.map(f64::sqrt)
+    largest.into_iter().map(|l| l.map(f64::sqrt)).collect()
 }
 
 #[cfg(test)]
@@ -92,7 +105,7 @@ mod tests {
     #[test]
     fn one_station_and_one_number_are_a_normal_distribution() {
         let (left, changes) = ([[1.0, 0.0, 0.0]], [vec![[0.1, 0.0, 0.0]]]);
-        let likely = Draws::of(1).interval(&left, &changes, |_| true).unwrap();
+        let likely = Draws::of(1).intervals(&left, &changes, &[vec![]])[0].unwrap();
         assert!((likely.ci95[0] - 0.804).abs() < 0.01, "{likely:?}");
         assert!((likely.ci95[1] - 1.196).abs() < 0.01, "{likely:?}");
         assert!((likely.at_most - 1.309).abs() < 0.03, "{likely:?}");
@@ -103,11 +116,10 @@ mod tests {
         let left = [[1.0, 0.0, 0.0], [0.0, 0.9, 0.0]];
         let changes = [vec![[0.1, 0.0, 0.0]; 2], vec![[0.0, 0.3, 0.0]; 2]];
         let draws = Draws::of(2);
-        let high = |kept: &dyn Fn(usize) -> bool| {
-            let likely = draws.interval(&left, &changes, kept).unwrap();
-            likely.ci95[1]
-        };
-        assert!(high(&|_| true) > high(&|k| k == 1) && high(&|k| k == 1) > high(&|k| k == 0));
-        assert!(draws.interval(&left, &changes, |_| false).is_none());
+        let known = [vec![], vec![0], vec![1], vec![0, 1]];
+        let said = draws.intervals(&left, &changes, &known);
+        let high = |i: usize| said[i].map(|likely| likely.ci95[1]);
+        assert!(high(0) > high(1) && high(1) > high(2));
+        assert!(high(3).is_none());
     }
 }

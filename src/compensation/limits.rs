@@ -7,6 +7,7 @@ use crate::ground::spatial::{V3, norm};
 use crate::process::setup::Setup;
 use crate::process::uncertainty::{Doubt, Moved};
 use crate::process::way::normal_part;
+use std::collections::BTreeMap;
 
 /// What an uncertain number does to what is left.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,7 +71,7 @@ pub fn certainty(
         }
     }
     let left: Vec<V3> = chosen.iter().map(|s| s.left).collect();
-    let likely = Draws::of(doubts.len()).interval(&left, &changes, |_| true);
+    let likely = Draws::of(doubts.len()).intervals(&left, &changes, &[vec![]])[0];
     let (limits, next) = ranked(doubts, &left, &changes);
     Ok(Certainty {
         ci95: likely.map(|l| l.ci95),
@@ -92,36 +93,48 @@ fn thinned(cutting: Vec<&Station>) -> Vec<&Station> {
     cutting.chunks(every).map(|c| c[worst(c)]).collect()
 }
 
-/// Numbers by what knowing them would do, and the measurement that would do most.
-fn ranked(doubts: &[Doubt], left: &[V3], changes: &[Vec<V3>]) -> (Vec<Limit>, Option<Next>) {
+/// The stations that may lie farthest off, and what the doubts change there.
+fn farthest(left: &[V3], changes: &[Vec<V3>]) -> (Vec<V3>, Vec<Vec<V3>>) {
     let reach = |i: usize| norm(left[i]) + 2.0 * root(changes.iter().map(|c| norm(c[i])));
     let mut order: Vec<usize> = (0..left.len()).collect();
     order.sort_by(|a, b| reach(*b).total_cmp(&reach(*a)));
     order.truncate(RANKED);
     let few = |list: &[V3]| order.iter().map(|i| list[*i]).collect::<Vec<V3>>();
-    let (left, changes) = (
-        few(left),
-        changes.iter().map(|c| few(c)).collect::<Vec<_>>(),
-    );
-    let draws = Draws::of(doubts.len());
-    let high = |known: &dyn Fn(usize) -> bool| {
-        let least = left.iter().map(|v| norm(*v)).fold(0.0, f64::max);
-        let likely = draws.interval(&left, &changes, |k| !known(k));
-        likely.map_or(least, |likely| likely.ci95[1])
-    };
-    let limit = |(k, doubt): (usize, &Doubt)| Limit {
-        change_m: changes[k].iter().map(|v| norm(*v)).fold(0.0, f64::max),
-        high_without_m: high(&|i| i == k),
+    (few(left), changes.iter().map(|c| few(c)).collect())
+}
+
+/// The measurements that would help, each with the numbers that it tells.
+fn measurements(doubts: &[Doubt]) -> BTreeMap<String, Vec<usize>> {
+    let mut all = BTreeMap::<String, Vec<usize>>::new();
+    for (k, doubt) in doubts.iter().enumerate() {
+        all.entry(doubt.measured_by()).or_default().push(k);
+    }
+    all
+}
+
+/// Numbers by what knowing them would do, and the measurement that would do most.
+fn ranked(doubts: &[Doubt], left: &[V3], changes: &[Vec<V3>]) -> (Vec<Limit>, Option<Next>) {
+    let (left, changes) = farthest(left, changes);
+    let told = measurements(doubts);
+    let each = (0..doubts.len()).map(|k| vec![k]);
+    let known: Vec<Vec<usize>> = each.chain(told.values().cloned()).collect();
+    let least = left.iter().map(|v| norm(*v)).fold(0.0, f64::max);
+    let likely = Draws::of(doubts.len()).intervals(&left, &changes, &known);
+    let high = likely.iter().map(|l| l.map_or(least, |l| l.ci95[1]));
+    let high: Vec<f64> = high.collect();
+    let (alone, together) = high.split_at(doubts.len());
+    let limits = doubts.iter().zip(&changes).zip(alone);
+    let limits = limits.map(|((doubt, change), high)| Limit {
+        change_m: change.iter().map(|v| norm(*v)).fold(0.0, f64::max),
+        high_without_m: *high,
         doubt: doubt.clone(),
-    };
-    let mut limits: Vec<Limit> = doubts.iter().enumerate().map(limit).collect();
+    });
+    let mut limits: Vec<Limit> = limits.collect();
     limits.sort_by(|a, b| a.high_without_m.total_cmp(&b.high_without_m));
-    let mut ways: Vec<String> = doubts.iter().map(Doubt::measured_by).collect();
-    ways.sort();
-    ways.dedup();
-    let next = ways.into_iter().map(|what| Next {
-        high_after_m: high(&|i| doubts[i].measured_by() == what),
+    let next = told.into_keys().zip(together);
+    let next = next.map(|(what, high)| Next {
         what,
+        high_after_m: *high,
     });
     let next = next.min_by(|a, b| a.high_after_m.total_cmp(&b.high_after_m));
     (limits, next)

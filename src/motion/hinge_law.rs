@@ -6,6 +6,8 @@
 //! whose torque never exceeds kⱼ ρⱼ. The gap lies in series and is crossed at M = 0.
 
 mod slider;
+#[cfg(test)]
+mod tests;
 
 use crate::robot::Spring;
 use slider::{Slider, sliders};
@@ -29,6 +31,17 @@ pub struct Memory {
     pub stops: Vec<f64>,
     /// Torque of all together, N·m.
     pub torque: f64,
+    /// What lies ahead in the direction of falling and of rising deflection.
+    ahead: [Ahead; 2],
+}
+
+/// A straight piece of the law.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Ahead {
+    /// Its slope: spring and sliders that stick, N·m/rad.
+    slope: f64,
+    /// How far it goes until the first of them slips, rad.
+    room: f64,
 }
 
 /// A piece of path.
@@ -64,11 +77,21 @@ impl HingeLaw {
     /// At the deflection `delta` (rad), the contacts without load as after a good shake.
     pub fn at_rest(&self, delta: f64) -> Memory {
         let bend = delta - delta.clamp(-self.half_gap, self.half_gap);
-        Memory {
-            bend,
+        let mut memory = Memory {
             stops: vec![0.0; self.sliders.len()],
-            torque: self.stiffness * bend,
-        }
+            ..Memory::default()
+        };
+        self.bend(&mut memory, 0.0);
+        memory.bend = bend;
+        memory.torque = self.stiffness * bend;
+        memory
+    }
+
+    /// The law in both directions were there no slider.
+    fn spring_alone(&self) -> [Ahead; 2] {
+        let room = f64::INFINITY;
+        let slope = self.stiffness;
+        [Ahead { slope, room }; 2]
     }
 
     /// Where it rests under a torque (N·m) after a good shake, rad: a gap is closed, without torque in its middle.
@@ -109,6 +132,13 @@ impl HingeLaw {
     fn mean_along(&self, memory: &Memory, (from, to): (f64, f64), along: Way) -> Mean {
         let (way, sign) = ((to - from).abs(), (to - from).signum());
         let Way { travel, floats } = along;
+        let ahead = memory.ahead(sign);
+        if travel == way && travel <= ahead.room {
+            return Mean {
+                torque: memory.torque + 0.5 * sign * ahead.slope * travel,
+                slope: 0.5 * ahead.slope,
+            };
+        }
         let spring = Mean {
             torque: self.stiffness * (memory.bend + 0.5 * sign * travel),
             slope: 0.5 * self.stiffness,
@@ -152,9 +182,16 @@ impl HingeLaw {
     fn bend(&self, memory: &mut Memory, moved: f64) {
         memory.bend += moved;
         memory.torque = self.stiffness * memory.bend;
+        memory.ahead = self.spring_alone();
         for (slider, stop) in self.sliders.iter().zip(&mut memory.stops) {
             *stop = (*stop + moved).clamp(-slider.reach, slider.reach);
             memory.torque += slider.stiffness * *stop;
+            let rooms = [slider.reach + *stop, slider.reach - *stop];
+            for (ahead, room) in memory.ahead.iter_mut().zip(rooms) {
+                let sticks = room > 0.0;
+                ahead.slope += if sticks { slider.stiffness } else { 0.0 };
+                ahead.room = ahead.room.min(if sticks { room } else { f64::INFINITY });
+            }
         }
     }
 
@@ -195,6 +232,10 @@ impl HingeLaw {
 
     /// Torque along `sign` after bending by `travel`, and its slope.
     fn pushed(&self, memory: &Memory, sign: f64, travel: f64) -> (f64, f64) {
+        let ahead = memory.ahead(sign);
+        if travel < ahead.room {
+            return (sign * memory.torque + ahead.slope * travel, ahead.slope);
+        }
         let spring = self.stiffness * (sign * memory.bend + travel);
         let held = self.sliders.iter().zip(&memory.stops);
         held.fold(
@@ -211,84 +252,8 @@ impl HingeLaw {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::effects::{Composite, Scene, named};
-    use crate::ground::random::Random;
-    use crate::robot::joint_effect::JointEffect;
-
-    const STIFFNESS: f64 = 3.14e5;
-
-    fn joint(gap: f64) -> Spring {
-        Spring {
-            backlash: vec![gap; usize::from(gap > 0.0)],
-            effects: vec![
-                JointEffect::new("hysteresis", vec![9.7e-5, 348.0, 1.09, -0.377]).unwrap(),
-                JointEffect::new("coulomb_friction", vec![2e-5, 60.0]).unwrap(),
-            ],
-            ..Spring::new(STIFFNESS, 0.0)
-        }
-    }
-
-    /// Deflections that a random history of loads leaves behind, by the laws of the effects.
-    fn history(spring: &Spring, loads: &[f64]) -> Vec<f64> {
-        let effects: Vec<_> = spring
-            .effects
-            .iter()
-            .map(|e| named(&e.name).unwrap())
-            .collect();
-        let model = Composite::new(&effects);
-        let time = (0..loads.len()).map(|i| i as f64).collect();
-        let scene = Scene::new(time, loads.to_vec(), STIFFNESS, 1);
-        let own = spring.effects.iter().flat_map(|e| e.values.clone());
-        let p: Vec<f64> = [STIFFNESS].into_iter().chain(own).collect();
-        model.predict(&p, &scene)
-    }
-
-    fn loads(seed: u64) -> Vec<f64> {
-        let mut random = Random::new(seed);
-        (0..200).map(|_| random.uniform(-500.0, 500.0)).collect()
-    }
-
-    /// A gap in series only adds its half.
-    #[test]
-    fn sliders_invert_the_laws_of_the_effects() {
-        for (gap, seed) in [(0.0, 1), (2e-4, 2)] {
-            let spring = joint(gap);
-            let law = HingeLaw::of(&spring);
-            let (mut memory, mut at) = (law.at_rest(0.0), 0.0);
-            let loads = loads(seed);
-            for (delta, load) in history(&spring, &loads).into_iter().zip(&loads) {
-                let to = delta + 0.5 * gap * load.signum();
-                law.advance(&mut memory, at, to);
-                at = to;
-                let found = memory.torque;
-                assert!((found - load).abs() < 1e-9 * 500.0, "{found} {load}");
-            }
-        }
-    }
-
-    /// Work is what is stored plus what is lost; the loss is never negative; the slope is the
-    /// derivative of the mean.
-    #[test]
-    fn work_is_stored_or_lost() {
-        let mut random = Random::new(3);
-        for gap in [0.0, 2e-4] {
-            let law = HingeLaw::of(&joint(gap));
-            let (mut memory, mut at, mut lost) = (law.at_rest(0.0), 0.0, 0.0);
-            for _ in 0..2000 {
-                let to = random.uniform(-2e-3, 2e-3);
-                let (before, mean) = (law.stored(&memory), law.mean(&memory, at, to));
-                let near = law.mean(&memory, at, to + 1e-9).torque;
-                let error = (near - mean.torque) / 1e-9 - mean.slope;
-                assert!(error.abs() < 1e-3 * STIFFNESS, "{error}");
-                law.advance(&mut memory, at, to);
-                let loss = mean.torque * (to - at) - (law.stored(&memory) - before);
-                assert!(loss > -1e-15, "{loss}");
-                (at, lost) = (to, lost + loss);
-            }
-            assert!(lost > 0.1);
-        }
+impl Memory {
+    fn ahead(&self, sign: f64) -> Ahead {
+        self.ahead[usize::from(sign > 0.0)]
     }
 }

@@ -5,7 +5,7 @@
 //! taken at the mean over the way of that step: work is stored or lost to the contacts, and none is made
 //! (discrete gradient: Gonzalez 1996).
 
-use super::oscillator::Oscillator;
+use super::oscillator::{Oscillator, along};
 use super::pose::Held;
 use crate::ground::spatial::{V3, add, dot, scale};
 use crate::ground::stats::largest;
@@ -303,8 +303,4 @@ impl Hinge {
     fn under(&self, torque: f64) -> f64 {
         self.law.under(&self.memory, self.place, torque)
     }
-}
-
-fn along(row: &[f64], state: &[f64]) -> f64 {
-    row.iter().zip(state).map(|(r, x)| r * x).sum()
 }

@@ -146,14 +146,14 @@ impl Oscillator {
     pub fn damped(&self, state: &[f64]) -> f64 {
         let speed = &state[self.n..];
         let rows = self.damping.chunks_exact(self.n);
-        rows.zip(speed)
-            .map(|(row, v)| v * in_four(row, speed))
-            .sum()
+        rows.zip(speed).map(|(row, v)| v * along(row, speed)).sum()
     }
 }
 
-/// A product of two rows, summed in four parts that do not wait for one another.
-fn in_four(a: &[f64], b: &[f64]) -> f64 {
+/// A product of two rows, as far as the shorter one goes, summed in four parts that do not wait for one another.
+pub(super) fn along(a: &[f64], b: &[f64]) -> f64 {
+    let n = a.len().min(b.len());
+    let (a, b) = (&a[..n], &b[..n]);
     let mut parts = [0.0; 4];
     let (fours, others) = (a.chunks_exact(4), b.chunks_exact(4));
     let rest = fours.remainder().iter().zip(others.remainder());

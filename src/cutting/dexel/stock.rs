@@ -167,6 +167,21 @@ mod tests {
     }
 
     #[test]
+    fn with_fewer_rays_it_is_the_same_material() {
+        let stock = slot();
+        let coarse = stock.coarser(2.0);
+        assert!((coarse.spacing() - 2.0 * stock.spacing()).abs() < 1e-12);
+        assert_eq!(coarse.bounds(), stock.bounds());
+        for (few, many) in coarse.volumes().iter().zip(stock.volumes()) {
+            assert!((few / many - 1.0).abs() < 0.02, "{few} {many}");
+        }
+        for p in [[3.3, 3.1, 0.3], [3.3, 10.0, 3.5], [10.0, 10.0, 4.2]] {
+            let apart = coarse.depth(p.map(|x| x * MM)) - stock.depth(p.map(|x| x * MM));
+            assert!(apart.abs() < 0.01 * MM, "{apart} at {p:?}");
+        }
+    }
+
+    #[test]
     fn depth_is_exact_across_faces_and_near_edges() {
         let stock = slot();
         let at = |p: V3| stock.depth(p.map(|x| x * MM)) / MM;
