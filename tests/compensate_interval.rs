@@ -58,7 +58,7 @@ fn the_interval_of_what_is_left_holds_the_truth_and_yes_is_never_wrong() {
     let all = doubts(&setup.robot, &setup, &planned.coefficient_stds());
     let model = milled(&corrected);
     let moved = Moved::of(&corrected, support, &all).unwrap();
-    let said = certainty(&corrected, &setup, &moved, &all, &rest(&model)).unwrap();
+    let said = certainty(&corrected, &setup, &moved, &rest(&model)).unwrap();
     let [low, high] = said.ci95.unwrap();
     let mut largest = Vec::new();
     for seed in 0..plants {
@@ -97,7 +97,7 @@ fn small_doubts_do_what_simulations_say() {
         let mut all = doubts(&setup.robot, &setup, &[]);
         all.retain(|doubt| doubt.name == "stiffness");
         let moved = Moved::of(&setup, Support::Static, &all).unwrap();
-        let moved = moved.changes(&setup, &all, &[middle]).unwrap();
+        let moved = moved.changes(&setup, &[middle]).unwrap();
         let share = |(moved, doubt): (&Vec<_>, &_)| {
             let doubt: &ident::process::uncertainty::Doubt = doubt;
             scale(1.0 / doubt.rel_std, moved[0])

@@ -40,7 +40,11 @@ const DETUNED: f64 = 0.02;
 const NODES: [f64; 9] = [-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0];
 
 /// How a robot answers along a motion, inverted: one list of inverses, bin by bin, per piece of it.
-pub struct Answers(Vec<Vec<Matrix3<C>>>);
+pub struct Answers {
+    pieces: Vec<Vec<Matrix3<C>>>,
+    /// Samples of the motion.
+    samples: usize,
+}
 
 impl Answers {
     /// Along the motion of a job.
@@ -56,14 +60,16 @@ impl Answers {
             inverses(setup, chain, &joints)
         };
         let pieces: Vec<_> = (0..count(samples)).into_par_iter().map(of_piece).collect();
-        Ok(Self(pieces.into_iter().collect::<Outcome<_>>()?))
+        Ok(Self {
+            pieces: pieces.into_iter().collect::<Outcome<_>>()?,
+            samples,
+        })
     }
 
     /// What to command so that the tip answers with `wanted` (one vector per [`STEP_S`] from the begin of the
     /// motion, m, workpiece frame). The motion may be a little longer or shorter than the one that this is of.
     pub fn command(&self, wanted: &[V3]) -> Vec<V3> {
         let pieces = count(wanted.len());
-        let last = self.0.len() - 1;
         let answer = |i: usize| {
             let own: Vec<V3> = (0..PIECE)
                 .map(|k| {
@@ -74,8 +80,8 @@ impl Answers {
                 })
                 .collect();
             let still = own.iter().flatten().all(|x| *x == 0.0);
-            let there = (i * last + pieces / 2) / (pieces - 1).max(1);
-            (!still).then(|| piece(&self.0[there.min(last)], &own))
+            let there = there(i, self.samples, wanted.len());
+            (!still).then(|| piece(&self.pieces[there.min(self.pieces.len() - 1)], &own))
         };
         let answers: Vec<_> = (0..pieces).into_par_iter().map(answer).collect();
         let mut sum = vec![[0.0; 3]; wanted.len()];
@@ -90,6 +96,11 @@ impl Answers {
         }
         sum
     }
+}
+
+/// The piece of a motion of `samples` whose middle is nearest to that of a piece of the same motion in `now` samples.
+fn there(piece: usize, samples: usize, now: usize) -> usize {
+    (piece as f64 * samples as f64 / now.max(1) as f64).round() as usize
 }
 
 /// Pieces of a motion of so many samples.
@@ -255,4 +266,17 @@ fn driven(setup: &Setup, chain: &Chain, joints: &[f64]) -> DMatrix<f64> {
     DMatrix::from_fn(joints.len(), 3, |joint, k| {
         (0..3).map(|r| inverse[(joint, r)] * axes[k][r]).sum()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_piece_finds_the_pose_that_it_is_at_in_a_longer_motion_too() {
+        assert!((0..count(1280)).all(|i| there(i, 1280, 1280) == i));
+        assert!((0..count(1281)).all(|i| there(i, 1280, 1281) == i));
+        assert_eq!(there(50, 6400, 6528), 49);
+        assert_eq!(there(0, 1, 0), 0);
+    }
 }

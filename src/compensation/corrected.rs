@@ -180,7 +180,7 @@ pub fn correct(planned: Planned, request: Request) -> Outcome<Corrected> {
     let expected = of_model.as_ref().unwrap_or(&second);
     let left = remaining(expected, &found.correction, &setup.way);
     let beside = beside(method, &task).map_err(in_job)?;
-    let certainty = certainty(&model, &setup, &moved, &doubts, &left).map_err(in_job)?;
+    let certainty = certainty(&model, &setup, &moved, &left).map_err(in_job)?;
     let size = Size::of(&after);
     let checked = proof(&planned.plan, &way, &found.correction, &second);
     Ok(Corrected {

@@ -1,7 +1,7 @@
 //! How sure it is what will be left, which number limits that, and what would lower it most.
 
 use super::draws::Draws;
-use super::remaining::Station;
+use super::remaining::{Station, Times};
 use crate::ground::problem::Outcome;
 use crate::ground::spatial::{V3, norm};
 use crate::process::setup::Setup;
@@ -47,32 +47,35 @@ const STATIONS: usize = 1500;
 const RANKED: usize = 200;
 
 /// How sure the model is of what its corrected job leaves. `corrected`: the model on the corrected path;
-/// `drawn`: on the programmed one; `milled` and `left`: what the model does there, and leaves.
+/// `drawn`: on the programmed one; `moved`: the former with every doubt moved; `left`: what it leaves.
 ///
 /// # Errors
-/// As the runs.
+/// A pose that the robot cannot have.
 pub fn certainty(
     corrected: &Setup,
     drawn: &Setup,
     moved: &Moved,
-    doubts: &[Doubt],
     left: &[Station],
 ) -> Outcome<Certainty> {
     let cutting: Vec<&Station> = left.iter().filter(|s| s.cutting).collect();
+    let doubts = moved.doubts();
     if doubts.is_empty() || cutting.is_empty() {
         return Ok(Certainty::default());
     }
     let chosen = thinned(cutting);
     let times: Vec<f64> = chosen.iter().map(|s| s.time_s).collect();
-    let mut changes = moved.changes(corrected, doubts, &times)?;
-    for list in &mut changes {
-        for (change, station) in list.iter_mut().zip(&chosen) {
-            *change = normal_part(*change, drawn.way.feed(station.time_s));
+    let mut changes = moved.changes(corrected, &times)?;
+    let mut drawn_at = Times::of(&drawn.way);
+    for (i, station) in chosen.iter().enumerate() {
+        let feed = drawn.way.feed(drawn_at.at(station.s_m));
+        for list in &mut changes {
+            list[i] = normal_part(list[i], feed);
         }
     }
     let left: Vec<V3> = chosen.iter().map(|s| s.left).collect();
-    let likely = Draws::of(doubts.len()).intervals(&left, &changes, &[vec![]])[0];
-    let (limits, next) = ranked(doubts, &left, &changes);
+    let draws = Draws::of(doubts.len());
+    let likely = draws.intervals(&left, &changes, &[vec![]])[0];
+    let (limits, next) = ranked(doubts, &draws, farthest(&left, &changes));
     Ok(Certainty {
         ci95: likely.map(|l| l.ci95),
         at_most_m: likely.map(|l| l.at_most),
@@ -113,13 +116,16 @@ fn measurements(doubts: &[Doubt]) -> BTreeMap<String, Vec<usize>> {
 }
 
 /// Numbers by what knowing them would do, and the measurement that would do most.
-fn ranked(doubts: &[Doubt], left: &[V3], changes: &[Vec<V3>]) -> (Vec<Limit>, Option<Next>) {
-    let (left, changes) = farthest(left, changes);
+fn ranked(
+    doubts: &[Doubt],
+    draws: &Draws,
+    (left, changes): (Vec<V3>, Vec<Vec<V3>>),
+) -> (Vec<Limit>, Option<Next>) {
     let told = measurements(doubts);
     let each = (0..doubts.len()).map(|k| vec![k]);
     let known: Vec<Vec<usize>> = each.chain(told.values().cloned()).collect();
     let least = left.iter().map(|v| norm(*v)).fold(0.0, f64::max);
-    let likely = Draws::of(doubts.len()).intervals(&left, &changes, &known);
+    let likely = draws.intervals(&left, &changes, &known);
     let high = likely.iter().map(|l| l.map_or(least, |l| l.ci95[1]));
     let high: Vec<f64> = high.collect();
     let (alone, together) = high.split_at(doubts.len());

@@ -39,17 +39,17 @@ pub fn remaining(milled: &Milled, correction: &Correction, drawn: &Way) -> Vec<S
 }
 
 /// When a motion is at ascending arc lengths.
-struct Times<'a> {
+pub(super) struct Times<'a> {
     way: &'a Way,
     after: usize,
 }
 
 impl<'a> Times<'a> {
-    fn of(way: &'a Way) -> Self {
+    pub(super) fn of(way: &'a Way) -> Self {
         Self { way, after: 1 }
     }
 
-    fn at(&mut self, s: f64) -> f64 {
+    pub(super) fn at(&mut self, s: f64) -> f64 {
         let rows = self.way.rows();
         while self.after + 1 < rows.len() && rows[self.after].s_m < s {
             self.after += 1;

@@ -78,12 +78,11 @@ impl HingeLaw {
     pub fn at_rest(&self, delta: f64) -> Memory {
         let bend = delta - delta.clamp(-self.half_gap, self.half_gap);
         let mut memory = Memory {
+            bend,
             stops: vec![0.0; self.sliders.len()],
             ..Memory::default()
         };
         self.bend(&mut memory, 0.0);
-        memory.bend = bend;
-        memory.torque = self.stiffness * bend;
         memory
     }
 

@@ -117,15 +117,17 @@ impl Setup {
         })
     }
 
-    /// The same job with the cut resolved `times` more coarsely: for runs of which only the difference is asked.
+    /// The same job with the cut resolved `times` more coarsely, as far as the passing of a tooth is still resolved: for
+    /// runs of which the difference or the direction is asked.
     pub fn coarser(&self, times: f64) -> Self {
         let Fineness { spacing_m, steps } = self.fineness;
-        let per_tooth = (steps / self.tool.teeth) as f64 / times;
+        let now = steps / self.tool.teeth;
+        let per_tooth = (now as f64 / times).ceil() as usize;
         Self {
             stock: self.stock.coarser(times),
             fineness: Fineness {
                 spacing_m: times * spacing_m,
-                steps: per_tooth.ceil() as usize * self.tool.teeth,
+                steps: per_tooth.max(STEPS[0].min(now)) * self.tool.teeth,
             },
             ..self.clone()
         }

@@ -1,7 +1,7 @@
 //! What the uncertainty of springs and coefficients makes of the deviation at one station.
 //!
 //! Linearised: every spring, damper and coefficient is moved by one standard deviation, the part is
-//! milled again, and the changes at the station are summed as independent.
+//! milled again, less finely, and the changes at the station are summed as independent.
 
 use super::run::Outcome as Milled;
 use super::setup::{Setup, Support};
@@ -140,46 +140,54 @@ impl Doubt {
 const COARSER: f64 = 2.0;
 
 /// A job milled as it is, and again with every doubt that asks for it moved by one standard deviation.
-pub struct Moved {
-    base: Milled,
-    moved: Vec<Milled>,
+pub struct Moved<'a> {
+    doubts: &'a [Doubt],
+    /// As it is, then moved; none where nothing is doubted.
+    runs: Vec<Milled>,
 }
 
-impl Moved {
+impl<'a> Moved<'a> {
     /// Mills them, side by side.
     ///
     /// # Errors
     /// As the runs.
-    pub fn of(setup: &Setup, support: Support, doubts: &[Doubt]) -> Outcome<Self> {
+    pub fn of(setup: &Setup, support: Support, doubts: &'a [Doubt]) -> Outcome<Self> {
+        let asked = doubts.iter().filter(|doubt| doubt.asks_for_a_run());
+        let base = doubts.first().map(|_| None);
+        let all: Vec<Option<&Doubt>> = base.into_iter().chain(asked.map(Some)).collect();
         let quick = setup.coarser(COARSER);
-        let asked = doubts.iter().filter(|d| d.asks_for_a_run());
-        let each: Vec<Setup> = asked.map(|doubt| doubt.moved(&quick)).collect();
-        let run = |setup: &Setup| Ok(setup.run(support, |_| {})?.0);
-        let (base, moved) = rayon::join(
-            || run(&quick),
-            || each.par_iter().map(run).collect::<Vec<Outcome<Milled>>>(),
-        );
+        let run = |doubt: &Option<&Doubt>| {
+            let moved = doubt.map(|doubt| doubt.moved(&quick));
+            let (milled, _) = moved.as_ref().unwrap_or(&quick).run(support, |_| {})?;
+            Ok(milled)
+        };
+        let runs: Vec<Outcome<Milled>> = all.par_iter().map(run).collect();
         Ok(Self {
-            base: base?,
-            moved: moved.into_iter().collect::<Outcome<_>>()?,
+            runs: runs.into_iter().collect::<Outcome<_>>()?,
+            doubts,
         })
     }
 
-    /// Changes of the deviation at some times (s) by one standard deviation of each of its doubts: one list per
+    /// What is doubted.
+    pub fn doubts(&self) -> &[Doubt] {
+        self.doubts
+    }
+
+    /// Changes of the deviation at some times (s) by one standard deviation of each doubt: one list per
     /// doubt, m, workpiece frame.
     ///
     /// # Errors
     /// A pose that the robot cannot have.
-    pub fn changes(&self, setup: &Setup, doubts: &[Doubt], times: &[f64]) -> Outcome<Vec<Vec<V3>>> {
+    pub fn changes(&self, setup: &Setup, times: &[f64]) -> Outcome<Vec<Vec<V3>>> {
         let seen = |milled: &Milled| Seen {
             deviations: times.iter().map(|t| milled.deviation_at(*t)).collect(),
             forces: times.iter().map(|t| milled.force_at(*t)).collect(),
         };
-        let base = seen(&self.base);
-        let mut moved = self.moved.iter().map(seen);
+        let mut runs = self.runs.iter().map(seen);
+        let base = runs.next().unwrap_or_default();
         let change = |doubt: &Doubt| match doubt.which {
             _ if doubt.asks_for_a_run() => {
-                let moved = moved.next().unwrap_or_default();
+                let moved = runs.next().unwrap_or_default();
                 let pairs = moved.deviations.iter().zip(&base.deviations);
                 Ok(pairs.map(|(a, b)| sub(*a, *b)).collect())
             }
@@ -187,7 +195,7 @@ impl Moved {
             Which::Damper(_) => calmer(setup, doubt, &base, times),
             _ => stiffer(setup, doubt, &base, times),
         };
-        doubts.iter().map(change).collect()
+        self.doubts.iter().map(change).collect()
     }
 }
 

@@ -218,7 +218,7 @@ fn worst(setup: &Setup, milled: &Milled, doubts: &[Doubt]) -> Outcome<Option<Wor
         true => None,
         false => {
             let moved = Moved::of(setup, Support::Static, doubts)?;
-            let changes = moved.changes(setup, doubts, &[cut.time_s])?;
+            let changes = moved.changes(setup, &[cut.time_s])?;
             let half = Z95 * uncertainty::spread(&changes, 0, cut.deviation);
             Some([(size(&cut) - half).max(0.0), size(&cut) + half])
         }

@@ -25,6 +25,9 @@ pub(super) struct Grid {
     pub taken: Option<Solid>,
 }
 
+/// Share of a cell by which rounding may move a middle over a border.
+const TIE: f64 = 1e-6;
+
 impl Grid {
     /// Empty rays along `axis` over the box from `min` to `max`, cells at most `spacing` wide.
     pub fn new(axis: usize, min: V3, max: V3, spacing: f64) -> Self {
@@ -75,13 +78,14 @@ impl Grid {
         index(low)..(index(high) + 1).min(self.count[k])
     }
 
-    /// The same rays fewer: cells `times` as wide, each with the ray nearest to its middle.
+    /// The same rays fewer: cells at most `times` as wide, each with the ray nearest to its middle.
     pub fn coarser(&self, max: V3, times: f64) -> Self {
         let widest = self.width[0].max(self.width[1]);
         let mut coarse = Self::new(self.axes[0], self.min, max, times * widest);
         let near = |k: usize, x: f64| {
             let cell = (x - self.min[self.axes[k + 1]]) * self.density[k];
-            (cell as usize).min(self.count[k] - 1)
+            // of two that are equally near always the lower one
+            ((cell - TIE).max(0.0) as usize).min(self.count[k] - 1)
         };
         for j in 0..coarse.count[1] {
             for i in 0..coarse.count[0] {

@@ -173,7 +173,7 @@ mod tests {
         assert!((coarse.spacing() - 2.0 * stock.spacing()).abs() < 1e-12);
         assert_eq!(coarse.bounds(), stock.bounds());
         for (few, many) in coarse.volumes().iter().zip(stock.volumes()) {
-            assert!((few / many - 1.0).abs() < 0.02, "{few} {many}");
+            assert!((few / many - 1.0).abs() < 0.05, "{few} {many}");
         }
         for p in [[3.3, 3.1, 0.3], [3.3, 10.0, 3.5], [10.0, 10.0, 4.2]] {
             let apart = coarse.depth(p.map(|x| x * MM)) - stock.depth(p.map(|x| x * MM));
