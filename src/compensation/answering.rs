@@ -14,6 +14,7 @@ use crate::ground::spatial::{V3, rotate};
 use crate::motion::kinematics::{jacobian, place};
 use crate::motion::{Chain, Work};
 use crate::process::setup::Setup;
+use crate::process::way::Way;
 use nalgebra::{Complex, DMatrix, Matrix3, Matrix6, Vector3};
 use rayon::prelude::*;
 use rustfft::FftPlanner;
@@ -52,8 +53,7 @@ impl Answers {
     /// # Errors
     /// A robot in which nothing is elastic.
     pub fn of(setup: &Setup, chain: &Chain) -> Outcome<Self> {
-        let [begin, end] = setup.way.span();
-        let samples = ((end - begin) / STEP_S).ceil() as usize + 1;
+        let ([begin, end], samples) = (setup.way.span(), samples(&setup.way));
         let of_piece = |i: usize| {
             let middle = begin + STEP_S * (first(i) as f64 + 0.5 * PIECE as f64);
             let joints = setup.way.at(middle.clamp(begin, end)).joints;
@@ -101,6 +101,12 @@ impl Answers {
 /// The piece of a motion of `samples` whose middle is nearest to that of a piece of the same motion in `now` samples.
 fn there(piece: usize, samples: usize, now: usize) -> usize {
     (piece as f64 * samples as f64 / now.max(1) as f64).round() as usize
+}
+
+/// Samples of a motion, one per [`STEP_S`] from its begin.
+pub fn samples(way: &Way) -> usize {
+    let [begin, end] = way.span();
+    ((end - begin) / STEP_S).ceil() as usize + 1
 }
 
 /// Pieces of a motion of so many samples.

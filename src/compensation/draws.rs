@@ -2,6 +2,7 @@
 
 use crate::ground::random::Random;
 use crate::ground::spatial::{V3, norm};
+use crate::ground::stats::quantile;
 use rayon::prelude::*;
 
 /// Draws of the uncertain numbers.
@@ -55,7 +56,8 @@ impl Draws {
         let as_told = left.iter().map(|l| norm(*l)).fold(0.0, f64::max);
         let of_set = |(set, known): (usize, &Vec<usize>)| {
             let is_open = known.len() < changes.len() && !left.is_empty();
-            is_open.then(|| likely(blocks.iter().flat_map(|b| b[set]).collect(), as_told))
+            let all = || blocks.iter().flat_map(|block| block[set]);
+            is_open.then(|| likely(&all().collect::<Vec<f64>>(), as_told))
         };
         known.iter().enumerate().map(of_set).collect()
     }
@@ -64,12 +66,10 @@ impl Draws {
 /// One value per draw of a block.
 type Draw = [f64; TOGETHER];
 
-fn likely(mut all: Vec<f64>, as_told: f64) -> Likely {
-    all.sort_by(f64::total_cmp);
-    let at = |share: f64| all[((all.len() - 1) as f64 * share).round() as usize];
+fn likely(all: &[f64], as_told: f64) -> Likely {
     Likely {
-        ci95: [at(0.025).min(as_told), at(0.975)],
-        at_most: at(0.999),
+        ci95: [quantile(all, 0.025).min(as_told), quantile(all, 0.975)],
+        at_most: quantile(all, 0.999),
     }
 }
 
