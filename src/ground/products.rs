@@ -36,10 +36,27 @@ fn turned(a: DMatrixView<f64>) -> DMatrix<f64> {
     DMatrix::from_vec(columns, rows, turned)
 }
 
+/// Columns of a product with itself that are multiplied together: what lies on the other side of the diagonal is not.
+const BLOCK: usize = 48;
+
 /// aᵀa.
 pub fn gram<'a>(a: impl Into<DMatrixView<'a, f64>>) -> DMatrix<f64> {
     let a = a.into();
-    tr_mul(a, a)
+    let count = a.ncols();
+    if count <= BLOCK {
+        return tr_mul(a, a);
+    }
+    let turned = turned(a);
+    let mut product = DMatrix::zeros(count, count);
+    for first in (0..count).step_by(BLOCK) {
+        let (own, rest) = (BLOCK.min(count - first), count - first);
+        let block = turned.rows(first, own) * a.columns(first, rest);
+        product
+            .view_mut((first, first), (own, rest))
+            .copy_from(&block);
+    }
+    product.fill_lower_triangle_with_upper_triangle();
+    product
 }
 
 /// L⁻¹ of the root L of a matrix LLᵀ, column by column: the inverse of the matrix is its product with its own transpose, of
@@ -72,6 +89,14 @@ mod tests {
         let root = inverse_root(&of.clone().cholesky().unwrap());
         let off = root.tr_mul(&root) * of - DMatrix::identity(4, 4);
         assert!(off.abs().max() < 1e-12);
+    }
+
+    #[test]
+    fn a_product_with_itself_is_that_of_dots_however_wide() {
+        for n in [1, 7, 48, 49, 96, 131] {
+            let a = DMatrix::from_fn(37, n, |i, j| ((i * 7 + j * 13) % 11) as f64 - 5.0);
+            assert_eq!(gram(&a), a.transpose() * &a, "{n}");
+        }
     }
 
     #[test]

@@ -47,5 +47,6 @@ pub use diagnosis::{Found, diagnose};
 pub use judgement::Judgement;
 pub use nuisances::ALLOWED;
 pub use statement::{
-    Blamed, CanBe, Experiment, LEVEL, Member, Noise, Nuisance, Remaining, Statement, Suspect, White,
+    Blamed, CanBe, Experiment, LEVEL, Member, Noise, Nuisance, Peers, Remaining, Statement,
+    Suspect, White,
 };

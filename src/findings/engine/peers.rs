@@ -4,7 +4,7 @@
 use super::choice::HOPELESS;
 use super::diagnosis::{Found, Names};
 use super::rounds::{BETTER, Course, bent, names, only, refitted};
-use super::statement::Statement;
+use super::statement::{Peers, Statement};
 
 /// How many rivals are tried. A choice for time: of 38 milled parts by strangers four within 16 nats missed one pair that six within
 /// [`HOPELESS`] find. No other number was tried.
@@ -12,17 +12,27 @@ const TRIED: usize = 6;
 
 /// What was found, weighed beside its rivals where each has arrived; `first`: the statement about nothing.
 pub(super) fn beside_peers(course: &Course, first: &mut Statement, best: Found) -> Found {
+    let (own, kin) = (names(&best.blamed), Kin::of(first));
+    let may_have = match course.experiment.peers() {
+        Peers::Nobody => false,
+        Peers::Kin => kin.any(&own),
+        Peers::Near => !own.is_empty(),
+    };
+    if !may_have {
+        return best;
+    }
     let again = course.stated(&best.blamed, &best.uncertain);
-    let own = names(&best.blamed);
     let bent = bent(first, &again);
-    if own.is_empty() || bent <= BETTER {
+    // straight kin may be the same on another way
+    let is_straight = bent <= BETTER && course.experiment.peers() == Peers::Near;
+    if is_straight {
         return best;
     }
     let found = course.about(&again);
     if names(&found.blamed) != own {
         return best;
     }
-    let near = near(&found, &own, bent).into_iter();
+    let near = near(course, (&found, &own), &kin, bent).into_iter();
     let peers = near.filter_map(|names| {
         let alone = only(first, &names, |s| course.about(s));
         let alone = refitted(course, (&names, alone))?;
@@ -32,18 +42,52 @@ pub(super) fn beside_peers(course: &Course, first: &mut Statement, best: Found) 
     weighed(course, (again, found), &peers).unwrap_or(best)
 }
 
-/// Sets that differ from the one that was found by one cause, and are not further behind than what was found is `bent`, best first.
-fn near(found: &Found, own: &Names, bent: f64) -> Vec<Names> {
+/// Sets that differ from the one that was found by one cause, best first: not further behind than what was found is `bent`, or, where
+/// kin is asked for, of the same mechanism, however far. Kin make much the same of the readings, and the straight line of one about
+/// another says least.
+fn near(course: &Course, (found, own): (&Found, &Names), kin: &Kin, bent: f64) -> Vec<Names> {
     let Some(most) = of(found, own) else {
         return Vec::new();
     };
-    let is_peer = |set: &&(Names, f64)| {
-        let others = set.0.iter().filter(|n| !own.contains(n)).count();
-        set.0.len() == own.len() && others == 1 && set.1 > most - bent.min(HOPELESS)
+    let is_near = |set: &&(Names, f64)| {
+        let mut others = set.0.iter().filter(|n| !own.contains(n));
+        let (Some(other), None) = (others.next(), others.next()) else {
+            return false;
+        };
+        set.0.len() == own.len()
+            && match course.experiment.peers() {
+                Peers::Nobody => false,
+                Peers::Near => set.1 > most - bent.min(HOPELESS),
+                Peers::Kin => own
+                    .iter()
+                    .any(|n| !set.0.contains(n) && kin.are(n.0, other.0)),
+            }
     };
-    let mut sets: Vec<&(Names, f64)> = found.evidence.iter().filter(is_peer).collect();
+    let mut sets: Vec<&(Names, f64)> = found.evidence.iter().filter(is_near).collect();
     sets.sort_by(|a, b| b.1.total_cmp(&a.1));
     sets.iter().take(TRIED).map(|s| s.0.clone()).collect()
+}
+
+/// Effects of a statement with their mechanisms.
+struct Kin(Vec<(&'static str, &'static str)>);
+
+impl Kin {
+    fn of(statement: &Statement) -> Self {
+        let named = statement.suspects.iter().filter(|s| s.named);
+        Self(named.map(|s| (s.effect, s.mechanism)).collect())
+    }
+
+    /// Whether two effects have one mechanism.
+    fn are(&self, one: &str, other: &str) -> bool {
+        let mechanism = |name: &str| self.0.iter().find(|e| e.0 == name).map(|e| e.1);
+        mechanism(one).is_some() && mechanism(one) == mechanism(other)
+    }
+
+    /// Whether any of these has kin.
+    fn any(&self, names: &Names) -> bool {
+        let has = |name: &str| self.0.iter().any(|e| e.0 != name && self.are(e.0, name));
+        names.iter().any(|n| has(n.0))
+    }
 }
 
 /// Everybody compared about what was found, peers at what they are worth where they have arrived; about the best of them, if one

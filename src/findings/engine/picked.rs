@@ -54,7 +54,7 @@ pub(super) fn picked(
 /// With the gains as they are told, and without companions that surely make the simulation worse as it is used: they fit only where
 /// all that is uncertain moves against them, and stand for what it cannot do. The last cause stands where unseen rows plainly tell that
 /// something is wrong: what is uncertain may hide it. Where structure is left that nobody makes, any cause may stand for it: one whose
-/// gain is not plain takes no name.
+/// gain is not plain takes no name. Nor do several, none of which plainly gains: together they fit what none of them makes.
 pub(super) fn carrying(
     weighing: &Weighing,
     posterior: &Posterior,
@@ -77,7 +77,9 @@ pub(super) fn carrying(
         let is_last = named.clone().count() == 1;
         let decided = |at: usize| unseen::gains(statement, bank, &set.fit)[at].reduction_percent;
         let stands = |at: &usize| is_last && decided(*at) >= judgement.companion_gain;
-        let worse = named.filter(|at| stands_in(at) || surely_worse(at) && !stands(at));
+        let none_gains = !is_last && named.clone().all(|at| gains[at].ci95_percent[0] <= 0.0);
+        let worse =
+            named.filter(|at| none_gains || stands_in(at) || surely_worse(at) && !stands(at));
         let Some(at) = worse.min_by(|a, b| gained(a).total_cmp(&gained(b))) else {
             return Picked { set, gains, leaves };
         };

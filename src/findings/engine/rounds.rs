@@ -28,7 +28,7 @@ const WIDER: usize = 3;
 
 /// What every round is asked of.
 pub(super) struct Course<'a> {
-    experiment: &'a dyn Experiment,
+    pub(super) experiment: &'a dyn Experiment,
     judgement: &'a Judgement,
     /// The reading of the first statement, about nothing.
     present: Vec<f64>,
@@ -74,9 +74,7 @@ pub(super) fn settled(
         best = simpler;
     }
     best = whole(&course, &best).unwrap_or(best);
-    if experiment.is_comparable() {
-        best = beside_peers(&course, &mut first, best);
-    }
+    best = beside_peers(&course, &mut first, best);
     // what is missed is that of the simulation as it was; the noise is what stays beside what was found
     let noise_rms = best.answer.discrepancy.noise_rms;
     best.missed = told.missed;

@@ -218,6 +218,18 @@ pub struct Remaining {
     pub description: String,
 }
 
+/// Rivals that are fitted until they arrive and weighed by what they are worth there (`engine/peers`). Statements about different
+/// causes differ in little but their readings where any is, so that evidence of several compares.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Peers {
+    /// None: straight lines say enough.
+    Nobody,
+    /// Those of the same mechanism.
+    Kin,
+    /// All that are near.
+    Near,
+}
+
 /// A kind of measurement, as its diagnosis needs it.
 pub trait Experiment: Sync {
     /// Unit of the readings.
@@ -242,10 +254,9 @@ pub trait Experiment: Sync {
     fn is_linear(&self) -> bool {
         true
     }
-    /// Whether statements about different causes differ in their readings alone, so that evidence of several compares
-    /// (`engine/peers`).
-    fn is_comparable(&self) -> bool {
-        false
+    /// Which rivals of what was found are fitted until they arrive.
+    fn peers(&self) -> Peers {
+        Peers::Nobody
     }
     /// Whether a statement about what was found says the same as the one before, so that nobody need look again.
     fn is_settled(&self, _before: &Statement, _after: &Statement) -> bool {

@@ -79,8 +79,8 @@ impl Experiment for Toy {
         self.bends.is_none()
     }
 
-    fn is_comparable(&self) -> bool {
-        true
+    fn peers(&self) -> Peers {
+        Peers::Near
     }
 
     fn state(&self, about: &[Blamed]) -> Statement {

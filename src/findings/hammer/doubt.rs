@@ -2,6 +2,7 @@
 
 use super::data::{Data, Pair};
 use super::map::{Fit, unknowns};
+use crate::ground::products::gram;
 use crate::inference::doubt::largest_share;
 use nalgebra::{DMatrix, DVector};
 
@@ -32,7 +33,7 @@ fn likelihood(data: &Data, fit: &Fit, share: f64) -> f64 {
     }
     let left = fit.residual.component_mul(&rises);
     let own = DVector::from_iterator(slopes.ncols(), unknowns(&fit.point));
-    let normal = slopes.tr_mul(&slopes) + DMatrix::identity(slopes.ncols(), slopes.ncols());
+    let normal = gram(&slopes) + DMatrix::identity(slopes.ncols(), slopes.ncols());
     let Some(root) = normal.cholesky() else {
         return f64::NEG_INFINITY;
     };

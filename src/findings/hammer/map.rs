@@ -7,6 +7,7 @@ use super::point::Point;
 use super::prediction::{Machine, stack};
 use super::suspect::Suspect;
 use crate::ground::problem::{Outcome, Problem};
+use crate::ground::products::gram;
 use crate::inference::descent::{Landscape, Linear, Stop, descend, pushed};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
@@ -127,7 +128,7 @@ impl Cost<'_> {
             let rows = column.iter_mut().zip(&self.weights);
             rows.for_each(|(x, w)| *x *= w);
         }
-        let mut normal = columns.transpose() * &columns;
+        let mut normal = gram(&columns);
         (0..normal.nrows()).for_each(|i| normal[(i, i)] += 1.0);
         Ok((columns, normal))
     }

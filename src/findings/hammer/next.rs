@@ -7,6 +7,7 @@ use super::point::Point;
 use super::prediction::{Machine, stack};
 use super::structure::Structure;
 use crate::ground::problem::Outcome;
+use crate::ground::products::gram;
 use crate::motion::frf::C64;
 use crate::robot::{Body, Robot};
 use nalgebra::{DMatrix, DVector};
@@ -163,7 +164,7 @@ fn slopes(machine: &Machine, point: &Point, data: &Data) -> Outcome<(Vec<f64>, D
 /// Half the square of what the present uncertainties (`precision`) do not imitate.
 fn left(apart: &DVector<f64>, columns: &DMatrix<f64>, precision: &DMatrix<f64>) -> f64 {
     let across = columns.tr_mul(apart);
-    let both = precision + columns.transpose() * columns;
+    let both = precision + gram(columns);
     let imitated = both
         .cholesky()
         .map_or(0.0, |f| across.dot(&f.solve(&across)));

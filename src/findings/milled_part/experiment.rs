@@ -4,7 +4,7 @@ use super::noise::{Uneven, is_scatter};
 use super::patterns::PATTERNS;
 use super::uncertain::{missed, uncertain};
 use super::{Case, EFFECTS, Stated};
-use crate::findings::engine::{Aspects, Blamed, Experiment, Remaining, Statement};
+use crate::findings::engine::{Aspects, Blamed, Experiment, Peers, Remaining, Statement};
 use crate::findings::physics;
 use crate::findings::table;
 use crate::ground::stats::{farthest, largest};
@@ -25,8 +25,8 @@ impl Experiment for Case {
         false
     }
 
-    fn is_comparable(&self) -> bool {
-        true
+    fn peers(&self) -> Peers {
+        Peers::Near
     }
 
     fn state(&self, about: &[Blamed]) -> Statement {

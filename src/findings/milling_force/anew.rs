@@ -136,16 +136,15 @@ fn misses_much(blamed: &Blamed) -> bool {
     own.any(|e| e.law_error > MISSED)
 }
 
-/// Moves coefficients, widths and the bandwidth to where they fit best beside what was found: a wrong width makes wrong coefficients,
+/// Moves coefficients, widths, the bandwidth and the share before a border to where they fit best beside what was found: a wrong width makes wrong coefficients,
 /// and their product is no sum.
 fn follow(case: &Case, uncertain: &[f64], followed: &mut [f64], turned: &mut [f64]) {
     let places = case.places();
     let is_width = |at: usize| (0..places.cuts).any(|c| at == places.width(c));
+    let is_common = |at: usize| [places.bandwidth(), places.border()].contains(&at);
     let loose = case.loose();
     let single = loose.iter().filter_map(|l| match l.along[..] {
-        [(at, 1.0)] if at < RUNOUT || is_width(at) || at == places.bandwidth() => {
-            Some((at, l.spread))
-        }
+        [(at, 1.0)] if at < RUNOUT || is_width(at) || is_common(at) => Some((at, l.spread)),
         _ => None,
     });
     for (at, spread) in single {

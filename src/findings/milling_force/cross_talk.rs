@@ -1,4 +1,4 @@
-//! A force along one axis shows on another, or the dynamometer is turned about the spindle axis.
+//! A force along one axis shows on another, both ways where axes are not square to each other or the dynamometer is turned.
 
 use super::Case;
 use super::setting::SENSOR;
@@ -14,11 +14,14 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     can_be: is_small,
     places: |case| vec![Place::new("sensor", members(case))],
     parameters: |_, blamed| {
-        vec![
-            ("share", blamed.amounts[0], "1"),
+        let share = blamed.amounts[0];
+        let mut told = vec![
+            ("share", share, "1"),
             ("from_axis", blamed.shape[1], "1"),
             ("to_axis", blamed.shape[2], "1"),
-        ]
+        ];
+        told.extend(back(blamed).map(|back| ("share_back", back * share, "1")));
+        told
     },
     would_tell: "put a known force on the sensor along all axes",
 };
@@ -44,13 +47,16 @@ pub(super) fn map(blamed: &Blamed) -> Option<M3> {
     );
     let mut map = [[0.0; 3]; 3];
     map[to][from] = share;
-    if blamed.shape.len() > 3 {
-        map[from][to] = -share;
-    }
+    map[from][to] = back(blamed).unwrap_or(0.0) * share;
     Some(map)
 }
 
-/// Every pair, and x on y with y on x reversed: a turn about z.
+/// What shows the other way, over the share: one where the axes are not square, minus one where they are turned; none: nothing.
+fn back(blamed: &Blamed) -> Option<f64> {
+    blamed.shape.get(3).copied()
+}
+
+/// Every axis on every other, and both ways of every pair: alike, and reversed.
 fn members(case: &Case) -> Vec<Member> {
     let pairs = (0..3).flat_map(|from| {
         (0..3)
@@ -66,8 +72,13 @@ fn members(case: &Case) -> Vec<Member> {
     let member = |(from, to): (usize, usize)| {
         Member::free(of(from, to, 0.0)).shaped(&[SENSOR, from as f64, to as f64])
     };
-    let turn = Member::free(of(0, 1, -1.0)).shaped(&[SENSOR, 0.0, 1.0, -1.0]);
-    let mut all: Vec<Member> = pairs.map(member).chain([turn]).collect();
+    let both = [(0, 1), (0, 2), (1, 2)]
+        .into_iter()
+        .flat_map(|(from, to)| [-1.0, 1.0].map(|back| (from, to, back)));
+    let both = both.map(|(from, to, back)| {
+        Member::free(of(from, to, back)).shaped(&[SENSOR, from as f64, to as f64, back])
+    });
+    let mut all: Vec<Member> = pairs.map(member).chain(both).collect();
     all.retain(|m| m.columns[0].iter().any(|x| *x != 0.0));
     all
 }

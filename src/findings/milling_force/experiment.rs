@@ -7,10 +7,10 @@ use super::{Case, EFFECTS};
 use crate::cutting::wave::Side;
 use crate::experiments::milling_force::RUNOUT;
 use crate::findings::engine::{
-    Aspects, Blamed, Experiment, Noise, Nuisance, Remaining, Statement, White,
+    Aspects, Blamed, Experiment, Noise, Nuisance, Peers, Remaining, Statement, White,
 };
 use crate::findings::table;
-use crate::fit::cut_force::BANDWIDTH_STD;
+use crate::fit::cut_force::{BANDWIDTH_STD, BORDER_SHARE};
 use crate::ground::stats::rms;
 use crate::sheet::number::fixed;
 use std::f64::consts::TAU;
@@ -40,6 +40,11 @@ impl Experiment for Case {
 
     fn is_linear(&self) -> bool {
         false
+    }
+
+    // with two teeth a runout and a chipped tooth are one; all rivals would take twice the time
+    fn peers(&self) -> Peers {
+        Peers::Kin
     }
 
     fn state(&self, about: &[Blamed]) -> Statement {
@@ -170,6 +175,7 @@ impl Case {
             }
         }
         all.push(loose(places.bandwidth(), BANDWIDTH_STD));
+        all.push(loose(places.border(), BORDER_SHARE[1]));
         if let Some(stated) = self.file().facts.runout_m.filter(|_| places.teeth > 1) {
             all.extend(self.loose_runout(stated));
         }

@@ -13,8 +13,10 @@ pub struct Line {
     pub cut: usize,
     /// Frequency, Hz.
     pub frequency_hz: f64,
-    /// Power over the typical one beside it.
+    /// Power over the typical one of the spectrum.
     pub height: f64,
+    /// Whether it stands out of its neighbours as well: what comes and goes is broad.
+    pub is_sharp: bool,
 }
 
 /// Height (over the median of the spectrum) from which a line is no noise: one in 10^9 frequencies.
@@ -27,6 +29,8 @@ const NEAR: f64 = 0.6;
 const FOLDED: f64 = 0.375;
 /// Periods within a cut from which an oscillation is told from a spell, as a harder place makes one: a choice; no other number was tried.
 const PERIODS: f64 = 3.0;
+/// Resolutions on either side within which neighbours of a line lie, from where it is itself no more.
+const BESIDE: [usize; 2] = [3, 16];
 /// Times by which the record is lengthened with zeros.
 const FINER: usize = 4;
 
@@ -56,6 +60,7 @@ fn of_cut(number: usize, fit: &CutFit, cut: &CutSamples, colour: Option<&Colour>
             cut: number,
             frequency_hz: peak(&power, i) * step_hz,
             height: power[i] / typical,
+            is_sharp: power[i] > HIGH * beside(&power, i),
         })
         .filter(|line| line.height > HIGH && between(line.frequency_hz))
         .filter(|line| line.frequency_hz * length >= PERIODS)
@@ -63,6 +68,15 @@ fn of_cut(number: usize, fit: &CutFit, cut: &CutSamples, colour: Option<&Colour>
     found.sort_by(|a, b| b.height.total_cmp(&a.height));
     found.truncate(MOST);
     found
+}
+
+/// Typical power on either side of a place.
+fn beside(power: &[f64], i: usize) -> f64 {
+    let [near, far] = BESIDE.map(|n| n * FINER);
+    let is_near = |j: &usize| j.abs_diff(i) >= near;
+    let all = i.saturating_sub(far)..(i + far + 1).min(power.len());
+    let own: Vec<f64> = all.filter(is_near).map(|j| power[j]).collect();
+    median(&own)
 }
 
 /// Distance of a frequency from the nearest harmonic of another, Hz.

@@ -37,6 +37,11 @@ pub(super) const PATTERNS: &[Pattern<Case>] = &[
         members: swings,
     },
     Pattern {
+        name: "rattle",
+        summary: "an oscillation comes and goes: something knocks and rings",
+        members: rattles,
+    },
+    Pattern {
         name: "law",
         summary: "the force is not in proportion to the thickness of the chip",
         members: laws,
@@ -116,6 +121,38 @@ fn waves(case: &Case, hz: f64, of: impl Fn(usize, usize, usize) -> f64) -> Vec<V
         })
     };
     phases.map(one).collect()
+}
+
+/// Periods of an oscillation in a piece of it, and pieces at most: choices, the first for what rings a few times, the second for
+/// time.
+const RINGS: f64 = 8.0;
+const SPELLS: usize = 12;
+
+/// The highest line, if it is no sharp one, with a phase and a size of its own in every piece of its cut: what knocks again and again
+/// makes no steady oscillation.
+fn rattles(case: &Case) -> Vec<Member> {
+    let lines = case.lines().iter();
+    let highest = lines.max_by(|a, b| a.height.total_cmp(&b.height));
+    let Some(highest) = highest.filter(|line| !line.is_sharp) else {
+        return Vec::new();
+    };
+    let hz = highest.frequency_hz;
+    let time = &case.cuts()[highest.cut].time;
+    let begin = time.first().copied().unwrap_or(0.0);
+    let length = time.last().map_or(0.0, |end| end - begin);
+    let spells = ((length * hz / RINGS) as usize).clamp(2, SPELLS);
+    let spell = |t: f64| ((t - begin) / length * spells as f64) as usize;
+    let column = |(number, axis, quarter): (usize, usize, f64)| {
+        case.column(|c, i, k| {
+            let t = case.cuts()[c].time[i];
+            match c == highest.cut && k == axis && spell(t).min(spells - 1) == number {
+                true => (TAU * (hz * t - quarter)).cos(),
+                false => 0.0,
+            }
+        })
+    };
+    let each = (0..spells).flat_map(|s| (0..3).flat_map(move |k| [0.0, 0.25].map(|q| (s, k, q))));
+    table::flexible(each.map(column).collect())
 }
 
 /// A column in every piece of the file.

@@ -1,11 +1,12 @@
 //! What of the process may differ from what is stated, as one vector: coefficients (SI), runout along
 //! tooth 1 and a quarter turn on (m), how much each tooth is shorter (m), along its whole edge and then near its
-//! tip alone, the logarithm of the sensor's bandwidth, then of every cut its width (m),
+//! tip alone, the logarithm of the sensor's bandwidth, the share of a ray before the border of the stock that counts as chip, then
+//! of every cut its width (m),
 //! its depth (m), its relative spindle speed and the angle of tooth 1 at its first sample (rad).
 
 use crate::cutting::wave::Side;
 use crate::experiments::milling_force::{
-    BANDWIDTH, CutScene, PHASE, RUNOUT, SPEED, UNKNOWNS, WIDTH,
+    BANDWIDTH, BORDER, CutScene, PHASE, RUNOUT, SPEED, UNKNOWNS, WIDTH,
 };
 use crate::experiments::resonance::Resonant;
 use crate::ground::spatial::{V3, add, scale};
@@ -38,7 +39,7 @@ impl Places {
 
     /// Places that act on all cuts.
     fn common(&self) -> usize {
-        9 + 2 * self.teeth
+        10 + 2 * self.teeth
     }
 
     /// How much a tooth is shorter along its whole edge.
@@ -54,6 +55,11 @@ impl Places {
     /// Logarithm of the sensor's bandwidth.
     pub fn bandwidth(&self) -> usize {
         8 + 2 * self.teeth
+    }
+
+    /// Share of a ray before the border of the stock that counts as chip.
+    pub fn border(&self) -> usize {
+        9 + 2 * self.teeth
     }
 
     /// Width of a cut.
@@ -145,6 +151,7 @@ impl Present {
         scene.resonant = resonant;
         (0..RUNOUT + 2).for_each(|i| p[i] += offset[i]);
         p[BANDWIDTH] += offset[places.bandwidth()];
+        p[BORDER] += offset[places.border()];
         p[PHASE] += offset[places.phase(cut)];
         p[SPEED] += (offset[places.speed(cut)] - self.speed) / (1.0 + self.speed);
         scene.shorter = (0..places.teeth)
@@ -185,7 +192,7 @@ impl Present {
         };
         slopes.extend((0..places.teeth).map(|j| of_teeth(places.shorter(j))));
         slopes.extend((0..places.teeth).map(|j| of_teeth(places.chipped(j))));
-        slopes.push(at.slopes[BANDWIDTH].clone());
+        slopes.extend([BANDWIDTH, BORDER].map(|own| at.slopes[own].clone()));
         slopes.push(match scene.cut.side {
             Side::Slot => nothing(),
             // no sample is asked on which side of a jump it stands

@@ -6,6 +6,7 @@ use crate::experiments::workspace::Site;
 use crate::fit::convex::non_negative;
 use crate::fit::parameter::{Status, Z95};
 use crate::ground::problem::Outcome;
+use crate::ground::products::gram;
 use crate::measurement::cubes::CubeTest;
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -85,7 +86,7 @@ impl Solved {
         let mut covariance = DMatrix::identity(n, n);
         for _ in 0..ROUNDS {
             let (design, right) = whitened(&entries, noise, frames);
-            let hessian = design.transpose() * &design + DMatrix::from_diagonal(&weight);
+            let hessian = gram(&design) + DMatrix::from_diagonal(&weight);
             let target = right + &design * &ratio;
             let gradient = design.transpose() * target + &weight;
             // both times one number: the same minimum, in numbers of order one

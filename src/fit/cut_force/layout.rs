@@ -14,8 +14,8 @@ pub(super) const RUNOUT_STD: f64 = 5e-5;
 const WIDTH_STD: f64 = 2e-5;
 
 /// Share of the ray before the border of the stock that counts as chip: none by geometry, all of it where the
-/// free face gives way; which of both is not known beforehand.
-const BORDER_SHARE: [f64; 2] = [0.5, 0.5];
+/// free face gives way; which of both is not known beforehand. Its mean and standard deviation.
+pub const BORDER_SHARE: [f64; 2] = [0.5, 0.5];
 
 /// What is known of an unknown beforehand, and how large its steps are.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -16,7 +16,7 @@ mod whitening;
 
 pub use answer::{Account, CutFit, identify};
 pub use averaged::{Averaged, averaged};
-pub use layout::{BANDWIDTH_STD, Layout};
+pub use layout::{BANDWIDTH_STD, BORDER_SHARE, Layout};
 
 use crate::experiments::milling_force::{CutScene, cut, tool};
 use crate::ground::spatial::V3;

@@ -3,11 +3,11 @@
 use super::CutSamples;
 use super::jumps::{placed, steady};
 use crate::cutting::LINEAR_EDGE;
-use crate::experiments::milling_force::{BANDWIDTH, PHASE, RUNOUT, SPEED, WIDTH};
+use crate::experiments::milling_force::{BANDWIDTH, BORDER, PHASE, RUNOUT, SPEED, WIDTH};
 use crate::findings::milling_force::direction::Direction;
 use crate::findings::milling_force::noise::Colour;
 use crate::findings::milling_force::setting::Present;
-use crate::fit::cut_force::{Account, CutFit};
+use crate::fit::cut_force::{Account, BORDER_SHARE, CutFit};
 use crate::ground::stats::{median, rms};
 use crate::measurement::milling_force::{Facts, MillingForce};
 
@@ -70,6 +70,8 @@ pub(super) fn samples(
         p[SPEED] = 0.0;
         p[RUNOUT..RUNOUT + 2].copy_from_slice(&runout);
         p[WIDTH] = scene.cut.width_m;
+        // as known beforehand: a fit of everything lets it make up for whatever is wrong
+        p[BORDER] = BORDER_SHARE[0];
         if let Some(hz) = data.bandwidth_hz {
             p[BANDWIDTH] = hz.ln();
         }
