@@ -82,3 +82,32 @@ fn members(case: &Case) -> Vec<Member> {
     all.retain(|m| m.columns[0].iter().any(|x| *x != 0.0));
     all
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn blamed(shape: &[f64]) -> Blamed {
+        Blamed {
+            effect: EFFECT.name,
+            site: "sensor".into(),
+            shape: shape.to_vec(),
+            amounts: vec![0.1],
+            covariance: nalgebra::DMatrix::zeros(1, 1),
+            part: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn what_shows_both_ways_is_told_both_ways() {
+        let of = |shape: &[f64]| map(&blamed(shape)).unwrap();
+        assert_eq!(of(&[SENSOR, 0.0, 2.0])[2][0], 0.1);
+        assert_eq!(of(&[SENSOR, 0.0, 2.0])[0][2], 0.0);
+        for back in [-1.0, 1.0] {
+            let both = blamed(&[SENSOR, 0.0, 1.0, back]);
+            assert_eq!(map(&both).unwrap()[1][0], 0.1);
+            assert_eq!(map(&both).unwrap()[0][1], 0.1 * back);
+            assert_eq!(self::back(&both), Some(back));
+        }
+    }
+}

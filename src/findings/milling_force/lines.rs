@@ -113,3 +113,31 @@ fn power(fit: &CutFit, length: f64, colour: Option<&Colour>) -> (Vec<f64>, f64) 
     }
     (power, step_hz)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A spectrum with one place that stands out, as wide as a line, or as what rings and is struck again and again.
+    fn spectrum(wide: f64) -> Vec<f64> {
+        let one = |i: usize| {
+            let away = (i as f64 - 400.0) / (FINER as f64 * wide);
+            1.0 + 200.0 / (1.0 + away.powi(6))
+        };
+        (0..1000).map(one).collect()
+    }
+
+    #[test]
+    fn what_is_broad_stands_out_of_the_spectrum_but_not_of_its_neighbours() {
+        let is_sharp = |power: &[f64]| power[400] > HIGH * beside(power, 400);
+        assert!(is_sharp(&spectrum(0.7)));
+        let broad = spectrum(12.0);
+        assert!(broad[400] > HIGH * median(&broad) && !is_sharp(&broad));
+    }
+
+    #[test]
+    fn neighbours_end_where_the_spectrum_does() {
+        assert_eq!(beside(&[1.0; 30], 0), 1.0);
+        assert_eq!(beside(&[1.0; 30], 29), 1.0);
+    }
+}
