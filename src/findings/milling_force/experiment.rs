@@ -42,7 +42,7 @@ impl Experiment for Case {
         false
     }
 
-    // with two teeth a runout and a chipped tooth are one; all rivals would take twice the time
+    // a runout and a chipped tooth, which with two teeth are nearly one, and a gain and a cross-talk; all rivals would take twice the time
     fn peers(&self) -> Peers {
         Peers::Kin
     }

@@ -29,7 +29,8 @@ const NEAR: f64 = 0.6;
 const FOLDED: f64 = 0.375;
 /// Periods within a cut from which an oscillation is told from a spell, as a harder place makes one: a choice; no other number was tried.
 const PERIODS: f64 = 3.0;
-/// Resolutions on either side within which neighbours of a line lie, from where it is itself no more.
+/// Resolutions on either side within which neighbours of a line lie, from where it is itself no more. A choice; no other numbers were
+/// tried.
 const BESIDE: [usize; 2] = [3, 16];
 /// Times by which the record is lengthened with zeros.
 const FINER: usize = 4;

@@ -123,8 +123,9 @@ fn waves(case: &Case, hz: f64, of: impl Fn(usize, usize, usize) -> f64) -> Vec<V
     phases.map(one).collect()
 }
 
-/// Periods of an oscillation in a piece of it, and pieces at most: choices, the first for what rings a few times, the second for
-/// time.
+/// Periods of an oscillation in a piece of it, and pieces at most: choices, the first for what rings a few times (no other was tried),
+/// the second for time. With 12, 16 and 40 pieces on three axes the knocks of one file by strangers are no chatter; with 12 on two they
+/// were.
 const RINGS: f64 = 8.0;
 const SPELLS: usize = 12;
 
