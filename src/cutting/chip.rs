@@ -31,6 +31,7 @@ pub enum Stock<S: Scalar = f64> {
 
 impl<S: Scalar> Stock<S> {
     /// Where the border stands across the ray of a tooth: its y and cos φ, both counted into the stock.
+    #[inline]
     fn border(&self, cos: S) -> Option<[S; 2]> {
         match *self {
             Self::Full => None,
@@ -69,6 +70,7 @@ pub struct Bite<S: Scalar = f64> {
 
 impl<S: Scalar> Bite<S> {
     /// The part of it behind a border of which teeth enter (1) or leave (−1), and `share` of what lies before it.
+    #[inline]
     fn within(self, [own, sin]: [S; 2], [border, into]: [S; 2], side: f64, share: S) -> Self {
         let ahead = own * into - border;
         let across = (own * sin).value().abs().max(FLAT * own.value());
@@ -115,6 +117,7 @@ impl<S: Scalar> Steady<S> {
 
     /// How far the tip of a tooth stands behind the border of the stock, as an angle, rad: negative outside,
     /// infinite where there is none. No derivatives: what it is for is to pass over a tooth that meets nothing.
+    #[inline]
     pub fn ahead(&self, direction: [f64; 2], tip: &Tip<S>) -> f64 {
         let [sin, cos] = turned(direction, tip.aside.value());
         let own = tip.radius.value();
@@ -127,6 +130,7 @@ impl<S: Scalar> Steady<S> {
     }
 
     /// Distance along the ray to the surface that all earlier teeth left, m.
+    #[inline]
     fn surface(&self, ray: [S; 2], tooth: usize, tips: &[Tip<S>]) -> S {
         let (q, teeth) = (self.feed_per_radian, tips.len());
         let turn = |k: usize| TAU * k as f64 / teeth as f64;
@@ -166,6 +170,7 @@ fn left_by<S: Scalar>(q: f64, [sin, cos]: [S; 2], turn: S, radius: S) -> S {
 }
 
 /// A direction across the axis turned by a small angle, to second order.
+#[inline]
 pub(super) fn turned<S: Scalar>([sin, cos]: [S; 2], by: S) -> [S; 2] {
     let near = S::constant(1.0) - by * by * 0.5;
     [sin * near + cos * by, cos * near - sin * by]

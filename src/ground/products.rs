@@ -29,8 +29,9 @@ fn turned(a: DMatrixView<f64>) -> DMatrix<f64> {
         let group: Vec<_> = (first..first + count).map(|j| a.column(j)).collect();
         let group: Vec<&[f64]> = group.iter().map(|c| c.as_slice()).collect();
         for (i, row) in turned.chunks_exact_mut(columns).enumerate() {
-            let places = row[first..first + count].iter_mut();
-            places.zip(&group).for_each(|(to, column)| *to = column[i]);
+            for (k, column) in group.iter().enumerate() {
+                row[first + k] = column[i];
+            }
         }
     }
     DMatrix::from_vec(columns, rows, turned)

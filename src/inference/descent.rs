@@ -80,7 +80,7 @@ pub fn descend<L: Landscape>(landscape: &L, start: L::Place, stop: Stop) -> L::P
         let Some(linear) = landscape.linear(&mut here) else {
             break;
         };
-        let Some(lower) = lower(landscape, &here, &linear, &mut brake) else {
+        let Some(lower) = lower(landscape, &here, (&linear, stop.gain), &mut brake) else {
             break;
         };
         here = lower;
@@ -92,18 +92,23 @@ pub fn descend<L: Landscape>(landscape: &L, start: L::Place, stop: Stop) -> L::P
     here
 }
 
-/// A lower place, the brake tightened until there is one.
+/// A lower place, the brake tightened until there is one; none where an unbraked step promises no more than `least`.
 fn lower<L: Landscape>(
     landscape: &L,
     here: &L::Place,
-    linear: &Linear,
+    (linear, least): (&Linear, f64),
     brake: &mut f64,
 ) -> Option<L::Place> {
     let height = landscape.height(here);
     let held = |i: &usize| landscape.held(here, *i, linear.slope[*i]);
     let free: Vec<usize> = (0..linear.slope.len()).filter(|i| !held(i)).collect();
     while *brake < STUCK && !free.is_empty() {
-        let trial = braked(linear, &free, *brake).and_then(|step| landscape.step(here, &step));
+        let step = braked(linear, &free, *brake);
+        let promised = step.as_ref().map(|step| step.dot(&linear.slope));
+        if *brake <= BRAKE && promised.is_some_and(|promised| promised <= least) {
+            return None;
+        }
+        let trial = step.and_then(|step| landscape.step(here, &step));
         if let Some(place) = trial.filter(|place| landscape.height(place) < height) {
             return Some(place);
         }

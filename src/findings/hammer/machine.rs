@@ -46,7 +46,8 @@ impl<'a> Machine<'a> {
         let mut point = Point::nothing();
         let nuisance: Nuisance = self.nuisance(&point)?;
         point.theta.resize(nuisance.len(), 0.0);
-        let columns = self.slopes(&nuisance, &point, data)?.columns;
+        let shown = self.show(&nuisance, &point, data)?;
+        let columns = self.slopes(&nuisance, &point, data, &shown)?.columns;
         let mut all = columns.columns(INSTRUMENT, self.seen.nrows()).into_owned();
         let weights = weights(data);
         for mut column in all.column_iter_mut() {

@@ -4,7 +4,7 @@
 use super::data::Data;
 use super::nuisance::Nuisance;
 use super::point::Point;
-use super::prediction::{Machine, stack};
+use super::prediction::{Machine, Shown, stack};
 use super::suspect::Suspect;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::products::gram;
@@ -45,6 +45,7 @@ pub struct Fit {
 /// A point with what it leaves, and its weighted slopes with their normal matrix once asked for.
 struct Here {
     point: Point,
+    shown: Shown,
     residual: DVector<f64>,
     cost: f64,
     slopes: Option<(DMatrix<f64>, DMatrix<f64>)>,
@@ -99,8 +100,8 @@ pub fn measured(data: &Data) -> Vec<f64> {
 impl Cost<'_> {
     fn at(&self, point: Point) -> Outcome<Here> {
         let mut rows = Vec::with_capacity(self.data.rows());
-        let predicted = self.machine.predict(&self.nuisance, &point, self.data)?;
-        stack(self.data, &predicted, &mut rows);
+        let shown = self.machine.show(&self.nuisance, &point, self.data)?;
+        stack(self.data, &shown.values, &mut rows);
         let residual = measured(self.data)
             .iter()
             .zip(&rows)
@@ -113,6 +114,7 @@ impl Cost<'_> {
         match cost.is_finite() {
             true => Ok(Here {
                 point,
+                shown,
                 residual,
                 cost,
                 slopes: None,
@@ -122,7 +124,8 @@ impl Cost<'_> {
     }
 
     fn slopes(&self, here: &Here) -> Outcome<(DMatrix<f64>, DMatrix<f64>)> {
-        let slopes = self.machine.slopes(&self.nuisance, &here.point, self.data);
+        let Here { point, shown, .. } = here;
+        let slopes = self.machine.slopes(&self.nuisance, point, self.data, shown);
         let mut columns = slopes?.columns;
         for mut column in columns.column_iter_mut() {
             let rows = column.iter_mut().zip(&self.weights);

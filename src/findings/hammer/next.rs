@@ -141,7 +141,9 @@ fn separation(
 /// Prediction and slopes; of a sensor elsewhere by differences.
 fn slopes(machine: &Machine, point: &Point, data: &Data) -> Outcome<(Vec<f64>, DMatrix<f64>)> {
     if machine.sensor.is_none() {
-        let found = machine.slopes(&machine.nuisance(point)?, point, data)?;
+        let nuisance = machine.nuisance(point)?;
+        let shown = machine.show(&nuisance, point, data)?;
+        let found = machine.slopes(&nuisance, point, data, &shown)?;
         return Ok((found.values, found.columns));
     }
     let here = rows(machine, point, data)?;

@@ -42,6 +42,15 @@ impl Point {
         self.set.iter().zip(amounts).collect()
     }
 
+    /// The cause whose unknown it is.
+    pub fn owner(&self, index: usize) -> Option<&Suspect> {
+        let mut first = 0;
+        self.set.iter().find(|suspect| {
+            first += suspect.heard;
+            index < first
+        })
+    }
+
     /// Cause by cause: all its amounts, SI.
     pub fn each(&self) -> Vec<(&Suspect, Vec<f64>)> {
         let own = self.own().into_iter();
