@@ -62,3 +62,30 @@ fn a_spindle_that_swings_is_no_chatter() {
         assert_ne!(answer.verdict, Verdict::Explained, "{hz}");
     }
 }
+
+/// A cable that knocks in the last cut, about every 7 ms, and rings each time.
+#[test]
+fn what_knocks_and_rings_is_no_chatter() {
+    let bench = Bench::new(3);
+    let mut rows = bench.rows();
+    let mut random = Random::new(11);
+    let last = rows[rows.len() - 1];
+    let begin = rows
+        .iter()
+        .find(|row| row[0] == last[0])
+        .map_or(0.0, |r| r[1]);
+    let mut knock = begin;
+    while knock < last[1] {
+        let turned = [random.normal(), random.normal(), random.normal()];
+        for row in rows.iter_mut().filter(|r| r[0] == last[0] && r[1] > knock) {
+            let since = row[1] - knock;
+            let rung = (-since / 1.5e-3).exp() * (TAU * 1437.0 * since).sin();
+            (0..3).for_each(|k| row[2 + k] += 12.0 * NOISE * turned[k] * rung);
+        }
+        knock += random.uniform(4e-3, 1e-2);
+    }
+    let answer = bench.diagnosed(&rows).answer;
+    let named = names(&answer);
+    assert!(named.iter().all(|n| n.0 != "chatter"), "{named:?}");
+    assert_ne!(answer.verdict, Verdict::Explained, "{named:?}");
+}

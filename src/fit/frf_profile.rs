@@ -94,6 +94,7 @@ impl Profile<'_> {
             steps: STEPS,
             gain: GAIN,
             share: SHARE,
+            promise: 0.0,
         };
         let near = |theta: &[f64]| self.frozen.linearise(&held, theta);
         let (reached, cost) = descend_by(&held, guess, stop, near)?;

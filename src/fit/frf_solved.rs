@@ -23,6 +23,7 @@ const SEARCH: Stop = Stop {
     steps: 200,
     gain: 1e-4,
     share: SHARE,
+    promise: 0.0,
 };
 /// Lines per pair on which is searched first.
 const LINES: usize = 64;
@@ -31,6 +32,7 @@ const FIRST: Stop = Stop {
     steps: 200,
     gain: 1e-2,
     share: SHARE,
+    promise: 0.0,
 };
 /// At most so many places of that search are followed on all lines: those that are further apart in some
 /// logarithm than this.

@@ -42,6 +42,8 @@ pub struct Stop {
     pub gain: f64,
     /// Least fall as a share of the sum.
     pub share: f64,
+    /// It ends before an unbraked step that promises no more.
+    pub promise: f64,
 }
 
 impl Stop {
@@ -51,6 +53,7 @@ impl Stop {
             steps,
             gain: 0.0,
             share,
+            promise: 0.0,
         }
     }
 }
@@ -80,7 +83,7 @@ pub fn descend<L: Landscape>(landscape: &L, start: L::Place, stop: Stop) -> L::P
         let Some(linear) = landscape.linear(&mut here) else {
             break;
         };
-        let Some(lower) = lower(landscape, &here, (&linear, stop.gain), &mut brake) else {
+        let Some(lower) = lower(landscape, &here, (&linear, stop.promise), &mut brake) else {
             break;
         };
         here = lower;

@@ -28,6 +28,10 @@ struct Toy {
     nuisances: Vec<Nuisance>,
     /// What the square of an amount of a cause adds of [`bend`].
     bends: Option<fn(&str) -> f64>,
+    /// Which rivals are fitted until they arrive.
+    peers: Peers,
+    /// Whether all causes are of one mechanism.
+    are_kin: bool,
 }
 
 /// What causes do beyond first order: little in every row, four squares in all of 200.
@@ -52,6 +56,8 @@ impl Toy {
                 spread: 0.5,
             }],
             bends: None,
+            peers: Peers::Near,
+            are_kin: false,
         }
     }
 
@@ -80,7 +86,7 @@ impl Experiment for Toy {
     }
 
     fn peers(&self) -> Peers {
-        Peers::Near
+        self.peers
     }
 
     fn state(&self, about: &[Blamed]) -> Statement {
@@ -91,7 +97,7 @@ impl Experiment for Toy {
             effect,
             site: "A1".into(),
             summary: "a toy",
-            mechanism: effect,
+            mechanism: if self.are_kin { "kin" } else { effect },
             share: 0.0,
             members,
             named: true,
@@ -241,21 +247,36 @@ fn bent(rows: usize) -> Causes {
     vec![("drive", of(0.8)), ("tilt", of(0.0))]
 }
 
-/// Two of the drive and two of the tilt do the same; the straight line of the drive is the nearer one. The tilt is not ruled out
-/// by its own straight line about the drive.
+/// Two of the drive and two of the tilt do the same; the straight line of the drive is the nearer one.
+fn alike(seed: u64, peers: Peers, are_kin: bool) -> Vec<usize> {
+    let hidden = |i: usize| 6.0 * (i as f64 / 15.0).sin() + 4.0 * bend(i);
+    let toy = Toy {
+        bends: Some(|effect| if effect == "drive" { 0.6 } else { 1.0 }),
+        peers,
+        are_kin,
+        ..Toy::new(seed, 200, bent, hidden)
+    };
+    let found = diagnose(&toy, &Judgement::default());
+    let groups = found.answer.groups.iter();
+    groups.map(|g| g.effects.len()).collect()
+}
+
+/// The tilt is not ruled out by its own straight line about the drive.
 #[test]
 fn a_rival_is_weighed_where_it_has_arrived() {
     for seed in 1..5 {
-        let hidden = |i: usize| 6.0 * (i as f64 / 15.0).sin() + 4.0 * bend(i);
-        let mut toy = Toy::new(seed, 200, bent, hidden);
-        toy.bends = Some(|effect| if effect == "drive" { 0.6 } else { 1.0 });
-        let found = diagnose(&toy, &Judgement::default());
-        let groups: Vec<usize> = found
-            .answer
-            .groups
-            .iter()
-            .map(|g| g.effects.len())
-            .collect();
-        assert_eq!(groups, [2], "seed {seed}: {:?}", found.answer.candidates);
+        assert_eq!(alike(seed, Peers::Near, false), [2], "seed {seed}");
     }
+}
+
+#[test]
+fn kin_are_weighed_where_they_have_arrived_and_strangers_by_their_straight_lines() {
+    let groups = |peers, are_kin| {
+        let all = (1..9).map(|seed| alike(seed, peers, are_kin));
+        all.filter(|groups| groups == &[2]).count()
+    };
+    assert_eq!(groups(Peers::Kin, true), 8);
+    let by_lines = groups(Peers::Nobody, true);
+    assert!(by_lines <= 4, "{by_lines}");
+    assert_eq!(groups(Peers::Kin, false), by_lines);
 }

@@ -59,11 +59,30 @@ struct Cost<'a> {
     weights: Vec<f64>,
 }
 
+/// A descent on its way: how probable its set is nobody has asked yet.
+pub struct Way<'a> {
+    cost: Cost<'a>,
+    here: Here,
+}
+
 /// Descends from `start` by at most `steps` steps.
 ///
 /// # Errors
 /// A robot that cannot stand or a singular model.
 pub fn fit(machine: &Machine, data: &Data, start: Point, steps: usize) -> Outcome<Fit> {
+    begin(machine, data, start, steps)?.finish()
+}
+
+/// The same, where only the cost matters so far.
+///
+/// # Errors
+/// A robot that cannot stand or a singular model.
+pub fn begin<'a>(
+    machine: &'a Machine,
+    data: &'a Data,
+    start: Point,
+    steps: usize,
+) -> Outcome<Way<'a>> {
     let cost = Cost {
         nuisance: machine.nuisance(&start)?,
         machine,
@@ -72,13 +91,36 @@ pub fn fit(machine: &Machine, data: &Data, start: Point, steps: usize) -> Outcom
     };
     let mut point = start;
     point.theta.resize(cost.nuisance.len(), 0.0);
-    let stop = Stop {
-        steps,
-        gain: ARRIVED,
-        share: 0.0,
-    };
-    let here = descend(&cost, cost.at(point)?, stop);
-    cost.finish(here)
+    let here = cost.at(point)?;
+    Ok(Way { cost, here }.further(steps))
+}
+
+impl Way<'_> {
+    /// The cost where it stands.
+    pub fn cost(&self) -> f64 {
+        self.here.cost
+    }
+
+    /// So many steps further.
+    #[must_use]
+    pub fn further(self, steps: usize) -> Self {
+        let stop = Stop {
+            steps,
+            gain: ARRIVED,
+            share: 0.0,
+            promise: ARRIVED,
+        };
+        let here = descend(&self.cost, self.here, stop);
+        Self { here, ..self }
+    }
+
+    /// What is found there.
+    ///
+    /// # Errors
+    /// A singular model.
+    pub fn finish(self) -> Outcome<Fit> {
+        self.cost.finish(self.here)
+    }
 }
 
 /// Weights of all rows.

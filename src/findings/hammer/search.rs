@@ -2,7 +2,7 @@
 //! single one leaves something that another would explain, then the best sets on sharp peaks.
 
 use super::data::Data;
-use super::map::{Fit, fit, measured, weights};
+use super::map::{self, Fit, Way, fit, measured, weights};
 use super::point::Point;
 use super::prediction::{Machine, stack};
 use super::suspect::{Suspect, same};
@@ -192,14 +192,19 @@ pub fn sort(fits: &mut [Fit]) {
 /// The first steps of a cause from all its starts, and from nearly nothing with the nuisances of the
 /// empty set.
 fn begin(machine: &Machine, data: &Data, nothing: &Fit, suspect: &Suspect) -> Option<Fit> {
-    let from =
-        |theta: &Point, start: &[f64]| fit(machine, data, theta.and(suspect, start), STEPS[0]).ok();
+    let from = |theta: &Point, start: &[f64]| {
+        map::begin(machine, data, theta.and(suspect, start), STEPS[0]).ok()
+    };
     let clean = Point::nothing();
     let starts = suspect.starts();
     let fresh = starts.iter().filter_map(|start| from(&clean, start));
     let small = suspect.times(starts.first()?, 0.02);
     let near = from(&nothing.point, &small);
-    fresh.chain(near).min_by(|a, b| a.cost.total_cmp(&b.cost))
+    lowest(fresh.chain(near))?.finish().ok()
+}
+
+fn lowest<'a>(ways: impl Iterator<Item = Way<'a>>) -> Option<Way<'a>> {
+    ways.min_by(|a, b| a.cost().total_cmp(&b.cost()))
 }
 
 /// The best singles with those partners that promise to explain what is left, best first.
@@ -225,9 +230,8 @@ fn pair(machine: &Machine, data: &Data, point: Point) -> Option<Fit> {
         ..point.clone()
     };
     let begun = [point, fresh].into_iter();
-    let begun = begun.filter_map(|point| fit(machine, data, point, STEPS[0]).ok());
-    let best = begun.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
-    fit(machine, data, best.point, STEPS[1]).ok()
+    let begun = begun.filter_map(|point| map::begin(machine, data, point, STEPS[0]).ok());
+    lowest(begun)?.further(STEPS[1]).finish().ok()
 }
 
 fn partners(machine: &Machine, suspects: &[Suspect], data: &Data, base: &Fit) -> Vec<Point> {

@@ -62,6 +62,7 @@ const STOP: Stop = Stop {
     steps: 60,
     gain: 1e-12,
     share: 1e-12,
+    promise: 0.0,
 };
 
 /// Down from `p`; where it arrives, and the cost there.
