@@ -305,3 +305,6 @@ pub fn stack(data: &Data, values: &[Accelerance], rows: &mut Vec<f64>) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

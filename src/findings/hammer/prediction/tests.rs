@@ -1,0 +1,91 @@
+//! Slopes beside differences of what is predicted.
+
+use super::*;
+use crate::causes::turns::SIX;
+use crate::findings::hammer::data::Pair;
+use crate::findings::hammer::suspect::suspects;
+use crate::measurement::hammer_known;
+use crate::motion::uncertain;
+use crate::robot::{builtin, load::load};
+use std::f64::consts::TAU;
+
+/// Step of a difference, in spreads.
+const APART: f64 = 1e-4;
+
+fn lines() -> Data {
+    let s: Vec<C64> = (2..16)
+        .map(|k| C64::new(2.0, TAU * 3.0 * f64::from(k)))
+        .collect();
+    let pair = |(output, input): (usize, usize)| Pair {
+        output,
+        input,
+        frf: vec![C64::default(); s.len()],
+        weight: vec![1e3; s.len()],
+        scatter: Vec::new(),
+    };
+    let all = (0..3).flat_map(|output| (0..3).map(move |input| (output, input)));
+    Data {
+        pairs: all.map(pair).collect(),
+        s,
+        correlated: 1.0,
+        doubt: 1.0,
+    }
+}
+
+/// Causes at places whose slopes are not those of what is predicted, near their first starts (where two axes give way alike, any two
+/// axes will do, and a slope along what turns them need not be one), numbers of bodies at `bodies`, of springs and dampers at 0.3.
+fn off(bodies: f64) -> Vec<String> {
+    let robot = load(builtin::BUILTINS[0].0, None).unwrap().robot;
+    let joints = [0.3, -1.2, 1.7, 0.5, 0.8, 0.2];
+    let known = Known {
+        stiffness: 0.05,
+        damping: 0.25,
+        laboratory: uncertain::Known::stated(hammer_known::Known::default()),
+    };
+    let data = lines();
+    let machine = Machine::new(&robot, &joints, known, &data).unwrap();
+    let all = suspects(&robot, &["x", "y", "z"].map(String::from));
+    assert!(all.len() > 10, "{}", all.len());
+    let mut off = Vec::new();
+    for suspect in &all {
+        let start = suspect.starts().remove(0).into_iter().enumerate();
+        let start: Vec<f64> = start.map(|(k, x)| x + 0.03 * (k + 1) as f64).collect();
+        let mut point = Point::nothing().and(suspect, &start);
+        let nuisance = machine.nuisance(&point).unwrap();
+        point.theta = vec![0.0; nuisance.len()];
+        let springs = INSTRUMENT + nuisance.mass.nrows();
+        point.theta[INSTRUMENT..springs].fill(bodies);
+        point.theta[springs..].fill(0.3);
+        let shown = machine.show(&nuisance, &point, &data).unwrap();
+        let told = machine.slopes(&nuisance, &point, &data, &shown).unwrap();
+        // a shift of the base is a turn about an axis 5 km away, on whichever side: where its axes turn a slope sees the sides change
+        let is_far = |index: &usize| suspect.name() == "base_compliance" && *index >= SIX;
+        for index in (0..point.amounts.len()).filter(|index| !is_far(index)) {
+            let rows = |step: f64| {
+                let mut moved = point.clone();
+                moved.amounts[index] += step;
+                let mut rows = Vec::new();
+                let values = machine.predict(&nuisance, &moved, &data).unwrap();
+                stack(&data, &values, &mut rows);
+                DMatrix::from_vec(rows.len(), 1, rows)
+            };
+            let wanted = (rows(APART) - rows(-APART)) / (2.0 * APART);
+            let apart = (told.columns.column(point.theta.len() + index) - &wanted).norm();
+            if apart > 5e-3 * wanted.norm() {
+                let (name, site) = (suspect.name(), &suspect.site);
+                off.push(format!(
+                    "{name} {site} {index}: {apart} of {}",
+                    wanted.norm()
+                ));
+            }
+        }
+    }
+    off
+}
+
+#[test]
+fn slopes_of_amounts_are_those_of_what_is_predicted() {
+    for bodies in [0.0, 0.3] {
+        assert_eq!(off(bodies), Vec::<String>::new());
+    }
+}
