@@ -42,7 +42,7 @@ pub struct Stop {
     pub gain: f64,
     /// Least fall as a share of the sum.
     pub share: f64,
-    /// It ends before an unbraked step that promises no more.
+    /// It ends before an unbraked step that promises no more by its slope, which is twice what half a sum of squares falls by.
     pub promise: f64,
 }
 
