@@ -171,13 +171,13 @@ fn half_turn_axis(r: &M3) -> V3 {
     longest.and_then(unit).unwrap_or([1.0, 0.0, 0.0])
 }
 
-/// Two unit vectors that make a right-handed frame (first, second, u) with the unit vector u.
+/// Two unit vectors that make a right-handed frame (first, second, u) with the unit vector u. They turn smoothly with u but
+/// where a component passes through ±0.59, so never near an axis of the frame: a difference there is a slope.
 pub fn normals(u: V3) -> (V3, V3) {
-    let smallest = (0..3)
-        .min_by(|&i, &j| u[i].abs().total_cmp(&u[j].abs()))
-        .unwrap_or(0);
+    // of three components that make one, the least is at most 0.58; 0.6 is one of every direction 3:4:5
+    let across = u.iter().position(|x| x.abs() < 0.59).unwrap_or(0);
     let mut helper = [0.0; 3];
-    helper[smallest] = 1.0;
+    helper[across] = 1.0;
     let first = unit(sub(helper, scale(dot(helper, u), u))).unwrap_or([1.0, 0.0, 0.0]);
     (first, cross(u, first))
 }
@@ -246,5 +246,19 @@ mod tests {
         let u = unit([1.0, 2.0, -0.5]).unwrap();
         let (a, b) = normals(u);
         assert!(near(cross(a, b), u) && dot(a, u).abs() < 1e-15);
+    }
+
+    #[test]
+    fn normals_do_not_jump_beside_an_axis() {
+        for k in 0..3 {
+            for i in 0..9 {
+                let mut u = [0.0; 3];
+                u[k] = 1.0;
+                let straight = normals(u).0;
+                u[i % 3] += [1e-17, 1e-7, -1e-7][i / 3];
+                let off = norm(sub(normals(unit(u).unwrap()).0, straight));
+                assert!(off < 2e-7, "{u:?}: {off}");
+            }
+        }
     }
 }
