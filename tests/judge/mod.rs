@@ -105,6 +105,8 @@ pub struct Judged {
     pub verdict: Verdict,
     /// Intervals of 95 % of the gain of each cause, percent.
     pub gains: Vec<[f64; 2]>,
+    /// That what is left is chance.
+    pub p_value: f64,
     /// The file was not read.
     pub refused: bool,
 }
@@ -146,6 +148,7 @@ impl Judged {
             groups: answer.groups.iter().map(group).collect(),
             verdict: answer.verdict,
             gains: answer.causes.iter().map(|c| c.gain.ci95_percent).collect(),
+            p_value: answer.p_value,
             refused: false,
         }
     }
@@ -227,7 +230,11 @@ impl Judged {
             .map(one)
             .chain(self.groups.iter().map(group))
             .collect();
-        format!("{} [{}]", all.join(" + "), self.verdict.name())
+        let left = match self.p_value {
+            p if p < 1e-3 => format!(", p {p:.0e}"),
+            _ => String::new(),
+        };
+        format!("{} [{}{left}]", all.join(" + "), self.verdict.name())
     }
 }
 
@@ -255,6 +262,7 @@ pub fn answer(case: Case) -> Judged {
                 groups: Vec::new(),
                 verdict: Verdict::CannotTell,
                 gains: Vec::new(),
+                p_value: 1.0,
                 refused: true,
             }
         }
