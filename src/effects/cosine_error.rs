@@ -10,7 +10,7 @@ impl Law for CosineError {
         name: "cosine_error",
         cause: "cosine_error",
         family: Family::Measurement,
-        summary: "The laser is inclined to the motion and reads only its component.",
+        summary: "The laser is inclined to the motion and reads only its component, or the load pulls aslant.",
         equation: "φ_read = (1 − shortfall) · φ, shortfall = 1 − cos(inclination)",
         source: "Abbe and cosine errors, ISO 230-1:2012, annex A",
         signature: "one laser reads too little; never too much",

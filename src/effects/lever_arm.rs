@@ -10,7 +10,7 @@ impl Law for LeverArm {
         name: "lever_arm",
         cause: "lever_arm",
         family: Family::Measurement,
-        summary: "The lever of the sensor is not as long as the file says, so every angle is scaled.",
+        summary: "A lever, of the sensor or of the load, is not as long as the file says, so every angle is scaled.",
         equation: "φ_read = (1 + error) · φ",
         source: "φ = d/L with L wrong by a constant factor",
         signature: "a slope error of one laser only; offsets and noise scale with it",

@@ -3,10 +3,12 @@
 
 use super::case::Case;
 use super::refine::Refined;
+use super::rounding::Coarse;
 use super::{lattice, next};
 use crate::effects::composite::Slot;
 use crate::effects::{Composite, EFFECTS, Family};
-use crate::findings::answer::{Cause, Group, Verdict};
+use crate::findings::answer::{Cause, Group};
+use crate::findings::gain::Gain;
 use crate::fit::solution::unit_of;
 use crate::measurement::load_cycle::LoadCycle;
 
@@ -40,25 +42,38 @@ impl Case<'_> {
             would_tell: self.would_tell(chosen, &group.effects),
             ..group.clone()
         };
-        let causes = answer.causes.iter().filter(|c| self.is_seen(&c.gain));
+        let causes = answer.causes.iter();
+        let causes = causes.filter(|c| self.is_seen(chosen, c.effect, &c.gain));
         let causes: Vec<Cause> = causes.map(with_values).collect();
         // where something is left, a size that may be nothing is what the law made of that
-        let judged = answer.verdict;
-        let is_left =
-            self.restless || matches!(judged, Verdict::PartlyExplained | Verdict::UnknownCause);
+        let is_left = self.restless || self.found.is_left;
         let may_be_nothing = |c: &Cause| c.ci95.iter().any(|(_, [low, _])| *low <= 0.0);
         let kept = causes
             .into_iter()
             .filter(|c| !(is_left && may_be_nothing(c)));
-        let groups = answer.groups.iter().filter(|g| self.is_seen(&g.gain));
+        let groups = answer.groups.iter();
+        let groups = groups.filter(|g| self.is_seen(chosen, g.effects[0], &g.gain));
         Named {
             causes: kept.collect(),
             groups: groups.map(told).collect(),
         }
     }
 
-    fn is_seen(&self, gain: &crate::findings::gain::Gain) -> bool {
-        self.step.is_none() || self.is_real(gain)
+    /// Whether a cause is no work of a coarse lattice: it gains more than one takes, or readings deny what they would be without it.
+    fn is_seen(&self, chosen: &Refined, effect: &str, gain: &Gain) -> bool {
+        let Some(step) = self.step.filter(|_| !self.is_real(gain)) else {
+            return true;
+        };
+        let own = chosen.causes.iter().copied();
+        let without = self.laws(&own.filter(|c| *c != effect).collect::<Vec<_>>());
+        let predicted = |set: &Refined| set.model.predict(&set.optimum.p, &self.data.scene);
+        let both = [&predicted(&without)[..], &predicted(chosen)];
+        let coarse = Coarse {
+            reading: &self.data.reading,
+            step,
+            noise: self.colour.floor(),
+        };
+        gain.is_real() && coarse.tell(both)
     }
 
     /// The schedule under which the laws of a group would differ most, each fitted to these data.

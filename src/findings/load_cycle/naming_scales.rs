@@ -91,6 +91,9 @@ impl Case<'_> {
     fn scale_experiment(&self, finding: &ScaleFinding) -> String {
         let lever = self.file.facts.lever_rel_std.unwrap_or(0.003);
         let sigma = finding.excess.abs() / (std::f64::consts::SQRT_2 * lever).max(1e-6);
+        if finding.candidates.iter().any(|c| c.1 == "load") {
+            return "measure the lever of the load and the direction in which it pulls, or hang it at a second lever: what is wrong of the lever changes with it, the joint does not".into();
+        }
         match self.file.second.is_some() {
             true => format!(
                 "repeat with the laser at another lever and set square to the motion: a wrong lever then reads differently by {sigma:.0} standard deviations, an inclined laser does not"

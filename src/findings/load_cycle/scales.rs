@@ -4,6 +4,7 @@
 //! nominal stiffness tell them apart, nothing else does.
 
 use crate::experiments::load_cycle::Settled;
+use crate::findings::engine::Judgement;
 use crate::fit::second::log_ratio;
 use crate::ground::stats::ends;
 use crate::measurement::load_cycle::LoadCycle;
@@ -125,63 +126,96 @@ fn disagreement(ratio: f64, excess: Option<f64>, spreads: &Spreads) -> (usize, S
     )
 }
 
-/// Both lasers agree on a deflection that the nominal stiffness does not give: the joint, unless
-/// the load lever is wrong. Heavy-tailed priors of the stated widths weigh the two.
+/// Both lasers agree on a deflection that the nominal stiffness does not give: the joint, unless the load's lever is
+/// wrong, or the load pulls aslant, which turns the joint less. Heavy-tailed priors of the stated widths weigh them.
 fn agreed(file: &LoadCycle, excess: f64, spreads: &Spreads) -> Option<ScaleFinding> {
-    if excess.abs() <= LIMIT * spreads.total {
-        return None;
-    }
-    let tail = |width: f64| width / (width * width + excess * excess);
-    let (joint, lever) = (
-        tail(spreads.nominal.max(1e-4)),
-        tail(spreads.lever.max(1e-4)),
-    );
-    let probability = joint / (joint + lever);
-    let mut candidates = vec![
-        ("stiffness", file.site(), probability),
-        ("lever_arm", "load".to_string(), 1.0 - probability),
+    let own = [
+        ("stiffness", file.site(), 1.0),
+        ("lever_arm", "load".to_string(), 1.0),
+        ("cosine_error", "load".to_string(), 1.0),
     ];
-    candidates.sort_by(|a, b| b.2.total_cmp(&a.2));
-    if candidates[0].2 > 0.6 && candidates[0].0 == "stiffness" {
-        candidates.truncate(1);
+    let mut finding = weighed(own, excess, spreads)?;
+    finding.candidates.sort_by(|a, b| b.2.total_cmp(&a.2));
+    let (first, probability) = (finding.candidates[0].0, finding.candidates[0].2);
+    let least = Judgement::default().ambiguous * probability;
+    if first == "stiffness" {
+        finding.candidates.retain(|c| c.2 >= least);
     }
-    Some(ScaleFinding {
-        candidates,
-        excess: excess.exp_m1(),
-    })
+    Some(finding)
 }
 
 /// One laser: nothing separates stiffness, lever and inclination.
 fn alone(file: &LoadCycle, excess: f64, spreads: &Spreads) -> Option<ScaleFinding> {
+    let own = [
+        ("stiffness", file.site(), 1.0),
+        ("lever_arm", "sensor".to_string(), 2.0),
+        ("cosine_error", "sensor".to_string(), 1.0),
+    ];
+    weighed(own, excess, spreads)
+}
+
+/// Candidates, so many of each, by heavy-tailed priors of the stated widths; what is inclined reads too little.
+fn weighed(
+    candidates: [(&'static str, String, f64); 3],
+    excess: f64,
+    spreads: &Spreads,
+) -> Option<ScaleFinding> {
     if excess.abs() <= LIMIT * spreads.total {
         return None;
     }
-    let tail = |width: f64| width / (width * width + excess * excess);
-    let weights = [
-        ("stiffness", file.site(), tail(spreads.nominal.max(1e-4))),
-        (
-            "lever_arm",
-            "sensor".to_string(),
-            2.0 * tail(spreads.lever.max(1e-4)),
-        ),
-        (
-            "cosine_error",
-            "sensor".to_string(),
-            if excess < 0.0 {
-                tail(spreads.lever.max(1e-4))
-            } else {
-                0.0
-            },
-        ),
-    ];
-    let total: f64 = weights.iter().map(|w| w.2).sum();
-    let candidates = weights
-        .into_iter()
-        .filter(|w| w.2 > 0.0)
-        .map(|(e, s, w)| (e, s, w / total))
-        .collect();
+    let weight = |effect: &str| {
+        let width = match effect {
+            "stiffness" => spreads.nominal,
+            "cosine_error" if excess >= 0.0 => return 0.0,
+            _ => spreads.lever,
+        };
+        let width = width.max(1e-4);
+        width / (width * width + excess * excess)
+    };
+    let all = candidates.map(|(effect, site, count)| (effect, site, count * weight(effect)));
+    let total: f64 = all.iter().map(|c| c.2).sum();
+    let possible = all.into_iter().filter(|c| c.2 > 0.0);
     Some(ScaleFinding {
-        candidates,
+        candidates: possible.map(|(e, s, w)| (e, s, w / total)).collect(),
         excess: excess.exp_m1(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measurement::table::Table;
+
+    /// Names by a file whose nominal stiffness is known so well, beside readings that are off by `excess`.
+    fn told(known: f64, excess: f64, of: Judge) -> Vec<&'static str> {
+        let text = format!(
+            "# kind = \"load-cycle\"\n# joint = 6\n# axis = \"rotation\"\n# nominal_stiffness_Nm_rad = 1e6\n\
+             # nominal_stiffness_rel_std = {known}\ntime_s,moment_Nm,angle_rad\n0,0,0\n1,100,1e-4\n2,0,0\n3,-100,-1e-4\n4,0,0\n"
+        );
+        let bytes = text.len() as u64;
+        let table = Table::from_reader("cycle.csv".as_ref(), text.as_bytes(), bytes).unwrap();
+        let file = LoadCycle::from_table(table).unwrap();
+        let found = of(&file, excess, &Spreads::of(&file, 1e-4));
+        let candidates = found.map_or(Vec::new(), |f| f.candidates);
+        candidates.into_iter().map(|c| c.0).collect()
+    }
+
+    type Judge = fn(&LoadCycle, f64, &Spreads) -> Option<ScaleFinding>;
+
+    #[test]
+    fn two_lasers_that_agree_do_not_tell_a_joint_from_its_load() {
+        assert_eq!(told(0.02, 0.09, agreed), ["stiffness", "lever_arm"]);
+        let aslant = ["stiffness", "lever_arm", "cosine_error"];
+        assert_eq!(told(0.02, -0.09, agreed), aslant);
+        // who knows the joint worse than that believes that it is the joint
+        assert_eq!(told(0.05, 0.3, agreed), ["stiffness"]);
+        assert_eq!(told(0.05, -0.3, agreed), ["stiffness"]);
+        assert!(told(0.05, 0.1, agreed).is_empty());
+    }
+
+    #[test]
+    fn one_laser_tells_nothing_and_reads_too_much_by_its_lever_alone() {
+        assert_eq!(told(0.02, 0.09, alone), ["stiffness", "lever_arm"]);
+        assert_eq!(told(0.02, -0.09, alone).len(), 3);
+    }
 }
