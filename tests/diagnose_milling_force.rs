@@ -25,6 +25,8 @@ pub(crate) struct Bench {
     bandwidth_hz: Option<f64>,
     /// The sensor's own bandwidth over the stated one.
     wider: f64,
+    /// Turns of the spindle in a cut.
+    pub(crate) turns: f64,
 }
 
 impl Bench {
@@ -57,7 +59,13 @@ impl Bench {
             ring: None,
             bandwidth_hz: Some(2500.0),
             wider: 1.0,
+            turns: 5.0,
         }
+    }
+
+    /// With so much runout, m.
+    pub(crate) fn runs_out(&mut self, by: f64) {
+        self.cutter.runout = by;
     }
 
     /// Rows of cut, time and force on the workpiece.
@@ -102,7 +110,7 @@ impl Bench {
     fn recording(&self) -> Recording {
         Recording {
             rate_hz: 20_000.0,
-            turns: 5.0,
+            turns: self.turns,
             bandwidth_hz: self.bandwidth_hz,
             noise: NOISE,
             colour: 0.0,

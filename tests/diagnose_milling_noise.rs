@@ -89,3 +89,37 @@ fn what_knocks_and_rings_is_no_chatter() {
     assert!(named.iter().all(|n| n.0 != "chatter"), "{named:?}");
     assert_ne!(answer.verdict, Verdict::Explained, "{named:?}");
 }
+
+/// The amplifiers hum a little on all channels, and the tool runs out by a fifth of a micrometre.
+#[test]
+fn what_every_laboratory_has_is_no_fault() {
+    let mut bench = Bench::new(3);
+    bench.runs_out(2e-7);
+    bench.turns = 16.0;
+    let mut rows = bench.rows();
+    for row in &mut rows {
+        (0..3).for_each(|k| row[2 + k] += 0.6 * NOISE * (TAU * 150.0 * row[1] + k as f64).sin());
+    }
+    let answer = bench.diagnosed(&rows).answer;
+    assert_eq!(answer.verdict, Verdict::Sufficient, "{:?}", names(&answer));
+}
+
+/// A charge that leaks away within a fifth of a second of cutting: what lasts is forgotten.
+#[test]
+fn a_charge_that_leaks_is_no_story_of_drift_and_offset() {
+    let bench = Bench::new(3);
+    let mut rows = bench.rows();
+    let (mut held, mut before) = ([0.0; 3], rows[0][1]);
+    for row in &mut rows {
+        let kept = ((before - row[1]) / 0.2).exp();
+        before = row[1];
+        for (k, own) in held.iter_mut().enumerate() {
+            *own = kept * *own + (1.0 - kept) * row[2 + k];
+            row[2 + k] -= *own;
+        }
+    }
+    let answer = bench.diagnosed(&rows).answer;
+    let named = names(&answer);
+    assert_eq!(answer.verdict, Verdict::UnknownCause, "{named:?}");
+    assert!(named.iter().all(|n| n.0 != "sensor_offset"), "{named:?}");
+}

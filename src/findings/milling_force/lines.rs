@@ -4,6 +4,7 @@ use super::case::CutSamples;
 use super::noise::{self, Colour};
 use crate::fit::cut_force::{Account, CutFit};
 use crate::ground::stats::median;
+use crate::signal::mains::off_mains;
 use std::f64::consts::TAU;
 
 /// A line of one cut.
@@ -27,6 +28,13 @@ const MOST: usize = 2;
 const NEAR: f64 = 0.6;
 /// Share of the rate of sampling from which a line may be a harmonic folded at half of it: farther beyond, none is high.
 const FOLDED: f64 = 0.375;
+/// Height over the number of readings of a line whose amplitude is the deviation of the noise, on both axes, by the window that the
+/// spectrum is taken through: half the square over 1.68, the median of white noise on two axes, and two thirds of that.
+const HEARD: f64 = 0.2;
+/// Share of its frequency by which the mains may be off.
+const MAINS_SHARE: f64 = 1e-3;
+/// Half the distance between the mains of either kind, Hz: a record that does not tell them apart tells no hum.
+const BETWEEN_HZ: f64 = 5.0;
 /// Periods within a cut from which an oscillation is told from a spell, as a harder place makes one: a choice; no other number was tried.
 const PERIODS: f64 = 3.0;
 /// Resolutions on either side within which neighbours of a line lie, from where it is itself no more. A choice; no other numbers were
@@ -55,6 +63,13 @@ fn of_cut(number: usize, fit: &CutFit, cut: &CutSamples, colour: Option<&Colour>
     let rate = step_hz * (2 * power.len()) as f64;
     let between = |hz: f64| is_off(hz) && (hz < FOLDED * rate || is_off(rate - hz));
     let typical = median(&power).max(f64::MIN_POSITIVE);
+    // what is weaker than the noise and comes by the mains is noise of the amplifier
+    let weak = HEARD * fit.residual.len() as f64;
+    let is_hum = |line: &Line| {
+        let hz = line.frequency_hz;
+        let near = (NEAR / length).max(MAINS_SHARE * hz);
+        line.height < weak && near < BETWEEN_HZ && off_mains(hz) < near
+    };
     let mut found: Vec<Line> = (FINER..power.len().saturating_sub(1))
         .filter(|i| power[*i] >= power[i - 1] && power[*i] > power[i + 1])
         .map(|i| Line {
@@ -64,7 +79,7 @@ fn of_cut(number: usize, fit: &CutFit, cut: &CutSamples, colour: Option<&Colour>
             is_sharp: power[i] > HIGH * beside(&power, i),
         })
         .filter(|line| line.height > HIGH && between(line.frequency_hz))
-        .filter(|line| line.frequency_hz * length >= PERIODS)
+        .filter(|line| line.frequency_hz * length >= PERIODS && !is_hum(line))
         .collect();
     found.sort_by(|a, b| b.height.total_cmp(&a.height));
     found.truncate(MOST);

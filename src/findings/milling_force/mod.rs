@@ -3,6 +3,7 @@
 mod aim;
 mod anew;
 mod case;
+mod channels;
 mod chatter;
 mod chipped_tooth;
 mod coefficients;

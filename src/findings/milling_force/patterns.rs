@@ -1,12 +1,12 @@
 //! Forces that no cause of the library makes. They compete with the causes and are never named.
 
 use super::Case;
+use super::channels::{bends, leaks};
 use super::lines::Line;
 use super::setting::Places;
 use crate::findings::engine::Member;
 use crate::findings::table::{self, Pattern};
-use crate::inference::gaussian::Size;
-use crate::signal::mains::MAINS_HZ;
+use crate::signal::mains::{HARMONICS, MAINS_HZ};
 use std::f64::consts::TAU;
 
 /// All of them.
@@ -42,6 +42,11 @@ pub(super) const PATTERNS: &[Pattern<Case>] = &[
         members: rattles,
     },
     Pattern {
+        name: "leak",
+        summary: "the charge of the sensor leaks away: channels forget a force that lasts",
+        members: leaks,
+    },
+    Pattern {
         name: "law",
         summary: "the force is not in proportion to the thickness of the chip",
         members: laws,
@@ -50,10 +55,8 @@ pub(super) const PATTERNS: &[Pattern<Case>] = &[
 
 /// Pieces of the record whose force may be more or less than simulated.
 const PIECES: usize = 24;
-/// Harmonics of the mains that are tried: rectifiers make them.
-const HARMONICS: [f64; 3] = [1.0, 2.0, 3.0];
 /// Nats from which a hum or a swing is worth a comparison.
-const SEEN: f64 = 12.0;
+pub(super) const SEEN: f64 = 12.0;
 /// Highest lines beside which a swing is sought, and swings that are compared: beside a large cause the best is not always the first.
 /// Choices: every swing costs the columns of all cuts.
 const LINES: usize = 4;
@@ -102,7 +105,11 @@ fn apart(case: &Case, line: &Line) -> impl Iterator<Item = f64> {
 }
 
 /// The columns that suit the readings best, where they are worth a comparison.
-fn best(case: &Case, most: usize, tried: impl Iterator<Item = Vec<Vec<f64>>>) -> Vec<Member> {
+pub(super) fn best(
+    case: &Case,
+    most: usize,
+    tried: impl Iterator<Item = Vec<Vec<f64>>>,
+) -> Vec<Member> {
     let gains = tried.map(|w| (case.aim().fitted(&w).1, w));
     let mut worth: Vec<(f64, Vec<Vec<f64>>)> = gains.filter(|(gain, _)| *gain > SEEN).collect();
     worth.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -197,39 +204,6 @@ fn hums(case: &Case) -> Vec<Member> {
         harmonics.map(move |hz| waves(case, hz, |_, _, k| f64::from(u8::from(k == axis))))
     };
     (0..3).flat_map(|axis| best(case, 1, tried(axis))).collect()
-}
-
-/// Shares of its largest force from which a channel may show less.
-const LIMITS: [f64; 3] = [0.5, 0.7, 0.85];
-
-/// One channel, or all, over the square of the force, its square with sign, and what lies beyond a limit.
-fn bends(case: &Case) -> Vec<Member> {
-    let axes: [&[usize]; 4] = [&[0], &[1], &[2], &[0, 1, 2]];
-    axes.iter().map(|own| bend(case, own)).collect()
-}
-
-fn bend(case: &Case, axes: &[usize]) -> Member {
-    let all = case.forces();
-    let own = all
-        .iter()
-        .enumerate()
-        .filter(|(row, _)| axes.contains(&(row % 3)));
-    let most = own.fold(f64::MIN_POSITIVE, |m, (_, f)| m.max(f.abs()));
-    let column = |of: &dyn Fn(f64) -> f64| {
-        case.column(|c, i, k| match axes.contains(&k) {
-            true => most * of(case.simulated(c, i)[k] / most),
-            false => 0.0,
-        })
-    };
-    let beyond = |limit: f64| move |x: f64| (x.abs() - limit).max(0.0) * x.signum();
-    let mut columns = vec![column(&|x| x * x), column(&|x| x * x.abs())];
-    columns.extend(LIMITS.map(|limit| column(&beyond(limit))));
-    Member {
-        columns,
-        size: Size::Free,
-        positive: None,
-        shape: vec![axes.len() as f64],
-    }
 }
 
 #[cfg(test)]

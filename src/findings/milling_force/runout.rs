@@ -16,7 +16,7 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     summary: "The tool turns about another axis than its own: its teeth take unequal chips.",
     mechanism: "teeth",
     law_error: 0.03,
-    can_be: |_, _| true,
+    can_be: is_felt,
     places: |case| {
         if case.places().teeth < 2 {
             return Vec::new();
@@ -36,11 +36,14 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 };
 
 /// Unit of the amounts, m.
-const UNIT: f64 = 1e-6;
+pub(super) const UNIT: f64 = 1e-6;
 /// No runout is larger, in that unit.
 const MOST: f64 = 200.0;
 /// A smaller one is none, in that unit.
 const NOTHING: f64 = 1e-3;
+/// A smaller one is nobody's fault, in that unit, nor is so small a difference from a stated one: spindle, holder and collet of the better
+/// kind leave as much. A choice; no other value was tried.
+pub(super) const EVERYBODYS: f64 = 0.5;
 /// Rounds in which its direction and its size are improved.
 const ROUNDS: usize = 8;
 /// Change of either, as a share, at which it has arrived.
@@ -51,6 +54,11 @@ const ARRIVED: f64 = 3e-3;
 const STRAIGHT: f64 = 0.05;
 /// Turn over which the slope across is taken there, rad. No other value was tried.
 const TURNED: f64 = 0.05;
+
+/// Whether so much of a runout is more than every tool has.
+fn is_felt(_shape: &[f64], amounts: &[f64]) -> bool {
+    amounts.iter().fold(0.0, |sum: f64, a| sum.hypot(*a)) >= EVERYBODYS
+}
 
 /// A runout on its way: its angle, and the columns of the way there and of the slope across.
 #[derive(Debug, Clone)]
@@ -164,5 +172,15 @@ impl Way {
             self = way;
         }
         best.unwrap_or((0.0, self))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_felt;
+
+    #[test]
+    fn what_every_spindle_has_is_no_runout() {
+        assert!(!is_felt(&[], &[0.3, -0.3]) && is_felt(&[], &[0.4, -0.4]));
     }
 }
