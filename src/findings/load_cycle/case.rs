@@ -23,8 +23,7 @@ const COARSE: f64 = 1.73;
 /// such a lattice because the load does, in equal steps.
 const SEEN: f64 = 8.7;
 /// Share of a coarse step that an effect must move the readings to be seen, rms: a converter that cuts digits off instead of
-/// rounding them is half a step wrong, and by which sign depends on the reading. One that moves them by less is seen where they deny what
-/// they would be without it ([`super::rounding`]).
+/// rounding them is half a step wrong, and by which sign depends on the reading.
 const HALF_STEP: f64 = 0.5;
 /// Iterations of a law's fit, and points that it starts from.
 const FIT: (usize, usize) = (14, 3);

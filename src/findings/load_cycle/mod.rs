@@ -21,7 +21,6 @@ mod not_noise;
 mod patterns;
 pub mod present;
 pub mod refine;
-mod rounding;
 pub mod scales;
 mod span;
 mod statement;

@@ -3,7 +3,6 @@
 
 use super::case::Case;
 use super::refine::Refined;
-use super::rounding::Coarse;
 use super::{lattice, next};
 use crate::effects::composite::Slot;
 use crate::effects::{Composite, EFFECTS, Family};
@@ -42,8 +41,7 @@ impl Case<'_> {
             would_tell: self.would_tell(chosen, &group.effects),
             ..group.clone()
         };
-        let causes = answer.causes.iter();
-        let causes = causes.filter(|c| self.is_seen(chosen, c.effect, &c.gain));
+        let causes = answer.causes.iter().filter(|c| self.is_seen(&c.gain));
         let causes: Vec<Cause> = causes.map(with_values).collect();
         // where something is left, a size that may be nothing is what the law made of that
         let is_left = self.restless || self.found.is_left;
@@ -51,29 +49,15 @@ impl Case<'_> {
         let kept = causes
             .into_iter()
             .filter(|c| !(is_left && may_be_nothing(c)));
-        let groups = answer.groups.iter();
-        let groups = groups.filter(|g| self.is_seen(chosen, g.effects[0], &g.gain));
+        let groups = answer.groups.iter().filter(|g| self.is_seen(&g.gain));
         Named {
             causes: kept.collect(),
             groups: groups.map(told).collect(),
         }
     }
 
-    /// Whether a cause is no work of a coarse lattice: it gains more than one takes, or readings deny what they would be without it.
-    fn is_seen(&self, chosen: &Refined, effect: &str, gain: &Gain) -> bool {
-        let Some(step) = self.step.filter(|_| !self.is_real(gain)) else {
-            return true;
-        };
-        let own = chosen.causes.iter().copied();
-        let without = self.laws(&own.filter(|c| *c != effect).collect::<Vec<_>>());
-        let predicted = |set: &Refined| set.model.predict(&set.optimum.p, &self.data.scene);
-        let both = [&predicted(&without)[..], &predicted(chosen)];
-        let coarse = Coarse {
-            reading: &self.data.reading,
-            step,
-            noise: self.colour.floor(),
-        };
-        gain.is_real() && coarse.tell(both)
+    fn is_seen(&self, gain: &Gain) -> bool {
+        self.step.is_none() || self.is_real(gain)
     }
 
     /// The schedule under which the laws of a group would differ most, each fitted to these data.
