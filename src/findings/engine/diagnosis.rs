@@ -11,7 +11,7 @@ use super::rest::{Span, explained};
 use super::rounds;
 use super::search::{Scored, search};
 use super::statement::{Blamed, Experiment, Statement};
-use super::told::{HIDDEN, answer, scattering};
+use super::told::{answer, scattering};
 use super::verdict::name;
 use crate::findings::answer::{Answer, Verdict};
 
@@ -39,8 +39,6 @@ pub struct Found {
     /// Evidence of every set that was compared, over that of no cause, no prior in it: (effect and site of
     /// each cause, ln E).
     pub evidence: Vec<(Names, f64)>,
-    /// Whether what is left is material.
-    pub(in crate::findings) is_left: bool,
     /// ln E of no cause: what evidence of several statements is compared by.
     pub(super) nothing: f64,
 }
@@ -136,9 +134,7 @@ pub(super) fn about(
         (&weighing.missed, &left),
         judgement,
     );
-    let is_hidden = rest.is_sure && !rest.is_left;
-    let seen = seen.map(Into::into).or(rest.scatter.map(scattering));
-    if let Some(seen) = seen.or(is_hidden.then(|| HIDDEN.into())) {
+    if let Some(seen) = seen.map(Into::into).or(rest.scatter.map(scattering)) {
         answer.unexplained.description = seen;
     }
     let mut own = set.suspects.iter().map(|s| bank.suspects[*s].named);
@@ -167,7 +163,6 @@ pub(super) fn about(
         lead,
         wider,
         evidence,
-        is_left: rest.is_left,
         nothing: base,
     }
 }

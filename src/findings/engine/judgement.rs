@@ -68,10 +68,6 @@ pub struct Judgement {
     pub left_peak: f64,
     /// ... and its rms above this share of the whole misfit.
     pub left_share: f64,
-    /// Evidence, nats, beyond which causes are not said to explain everything, however small what they leave is beside the noise (it may
-    /// be estimated with what no column describes in it). Of the answers to files by strangers and by `tests/judge` that were looked
-    /// at, three were "explained" beside more than that, and none of them was right; no other value was tried.
-    pub left_surely: f64,
     /// What is left scatters by so many times the noise that is stated: it is none.
     pub noise_beyond: f64,
     /// Above this share of the misfit's rms what is left is the story, and the named causes are not.
@@ -129,7 +125,6 @@ impl Default for Judgement {
             left_nats: 6.0,
             left_peak: 1.6,
             left_share: 0.15,
-            left_surely: 20.0,
             noise_beyond: f64::INFINITY,
             not_the_story: 0.5,
             of_the_story_percent: 100.0,

@@ -147,7 +147,7 @@ impl<'a> Weighing<'a> {
                 nats: rest.nats.max(story.score),
                 share: rest.share.max(share),
                 is_left: true,
-                ..Rest::default()
+                scatter: None,
             },
             false => rest,
         }

@@ -19,8 +19,6 @@ pub struct Rest {
     pub share: f64,
     /// Whether it counts.
     pub is_left: bool,
-    /// Whether it is sure to be there, and material beside the misfit, however small beside the noise.
-    pub is_sure: bool,
     /// Times the noise by which it scatters, where that alone makes it count.
     pub scatter: Option<f64>,
 }
@@ -35,7 +33,6 @@ impl Rest {
                 share: self.share.max(share),
                 is_left: true,
                 scatter: None,
-                ..self
             },
             false => self,
         }
@@ -151,14 +148,13 @@ impl<'a> Span<'a> {
         let peaks: Vec<f64> = left.iter().map(|v| v.abs() / noise).collect();
         let share = |whole: f64| rms(&left) / whole.max(f64::MIN_POSITIVE);
         let nats = (evidence - base).max(0.0);
-        let is_some = share(bent) > judgement.left_share;
-        let is_left =
-            nats > judgement.left_nats && quantile(&peaks, 0.98) > judgement.left_peak && is_some;
+        let is_left = nats > judgement.left_nats
+            && quantile(&peaks, 0.98) > judgement.left_peak
+            && share(bent) > judgement.left_share;
         Rest {
             nats,
             share: share(whole),
             is_left,
-            is_sure: is_some && nats > judgement.left_surely,
             scatter: None,
         }
     }

@@ -61,10 +61,6 @@ fn candidate(bank: &Bank, set: &Scored, p: f64, posterior: &Posterior) -> Candid
     (names, p, set.fit.posterior.ln_evidence - empty)
 }
 
-/// What is seen where it is sure to be there, and no larger than the noise.
-pub(super) const HIDDEN: &str =
-    "no larger than the noise, and yet none: more like one piece than chance makes it";
-
 /// What is seen where only its scatter is too large.
 pub(super) fn scattering(times: f64) -> String {
     format!(

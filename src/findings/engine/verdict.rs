@@ -99,50 +99,7 @@ pub fn verdict(named: &Named, rest: &Rest, judgement: &Judgement) -> Verdict {
             Verdict::UnknownCause
         }
         (false, true) => Verdict::PartlyExplained,
-        (false, false) if rest.is_sure => Verdict::PartlyExplained,
         (false, false) if named.causes.is_empty() => Verdict::CannotTell,
         (false, false) => Verdict::Explained,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn told(rest: Rest) -> [Verdict; 2] {
-        let cause = Cause {
-            effect: "backlash",
-            site: "A6".into(),
-            probability: 0.98,
-            summary: "",
-            alternatives: Vec::new(),
-            parameters: Vec::new(),
-            ci95: Vec::new(),
-            gain: Gain {
-                before: 2.0,
-                after: 1.0,
-                reduction_percent: 50.0,
-                ci95_percent: [40.0, 60.0],
-            },
-        };
-        let named = Named {
-            causes: vec![cause],
-            groups: Vec::new(),
-        };
-        [named, Named::default()].map(|n| verdict(&n, &rest, &Judgement::default()))
-    }
-
-    #[test]
-    fn causes_do_not_explain_everything_where_something_is_sure_to_be_left() {
-        let sure = Rest {
-            nats: 90.0,
-            share: 0.9,
-            is_sure: true,
-            ..Rest::default()
-        };
-        // alone, what is small beside the noise is no reason to call the simulation wrong
-        let wanted = [Verdict::PartlyExplained, Verdict::Sufficient];
-        assert_eq!(told(sure), wanted);
-        assert_eq!(told(Rest::default())[0], Verdict::Explained);
     }
 }

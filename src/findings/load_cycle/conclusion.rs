@@ -18,7 +18,8 @@ impl Case<'_> {
         scaled: bool,
     ) -> Diagnosis {
         let judged = self.found.answer.verdict;
-        let left = (self.found.is_left || self.restless) && !self.within_step();
+        let engine = matches!(judged, Verdict::UnknownCause | Verdict::PartlyExplained);
+        let left = (engine || self.restless) && !self.within_step();
         let story = !(left && judged == Verdict::UnknownCause);
         let mut named = if story { shapes } else { Named::default() };
         named.extend(others);
@@ -34,10 +35,6 @@ impl Case<'_> {
         let missed = misses(&simulated);
         let noise = self.found.answer.discrepancy.noise_rms;
         let discrepancy = structure::discrepancy(&missed, &self.data, noise);
-        // what is sure to be left and small beside the noise stands beside causes only
-        let beside = judged == Verdict::PartlyExplained && !self.within_step();
-        let is_any = named.causes.len() + named.groups.len() > 0;
-        let left = left || beside && is_any;
         let answer = Answer {
             verdict: Verdict::of(named.causes.len(), named.groups.len(), left),
             discrepancy,

@@ -6,8 +6,7 @@ use super::refine::Refined;
 use super::{lattice, next};
 use crate::effects::composite::Slot;
 use crate::effects::{Composite, EFFECTS, Family};
-use crate::findings::answer::{Cause, Group};
-use crate::findings::gain::Gain;
+use crate::findings::answer::{Cause, Group, Verdict};
 use crate::fit::solution::unit_of;
 use crate::measurement::load_cycle::LoadCycle;
 
@@ -44,7 +43,9 @@ impl Case<'_> {
         let causes = answer.causes.iter().filter(|c| self.is_seen(&c.gain));
         let causes: Vec<Cause> = causes.map(with_values).collect();
         // where something is left, a size that may be nothing is what the law made of that
-        let is_left = self.restless || self.found.is_left;
+        let judged = answer.verdict;
+        let is_left =
+            self.restless || matches!(judged, Verdict::PartlyExplained | Verdict::UnknownCause);
         let may_be_nothing = |c: &Cause| c.ci95.iter().any(|(_, [low, _])| *low <= 0.0);
         let kept = causes
             .into_iter()
@@ -56,7 +57,7 @@ impl Case<'_> {
         }
     }
 
-    fn is_seen(&self, gain: &Gain) -> bool {
+    fn is_seen(&self, gain: &crate::findings::gain::Gain) -> bool {
         self.step.is_none() || self.is_real(gain)
     }
 

@@ -89,7 +89,8 @@ impl Case<'_> {
 
     /// What separates scale errors, with the separation it would give.
     fn scale_experiment(&self, finding: &ScaleFinding) -> String {
-        let lever = self.file.facts.lever_rel_std.unwrap_or(0.003);
+        let stated = self.file.facts.lever_rel_std;
+        let lever = stated.unwrap_or(scales::LEVER_SPREAD);
         let sigma = finding.excess.abs() / (std::f64::consts::SQRT_2 * lever).max(1e-6);
         if finding.candidates.iter().any(|c| c.1 == "load") {
             return "measure the lever of the load and the direction in which it pulls, or hang it at a second lever: what is wrong of the lever changes with it, the joint does not".into();

@@ -27,7 +27,7 @@ pub struct ScaleFinding {
 
 /// Stated spreads where the file states none.
 const NOMINAL_SPREAD: f64 = 0.05;
-const LEVER_SPREAD: f64 = 0.003;
+pub(super) const LEVER_SPREAD: f64 = 0.003;
 /// Standard deviations beyond which a scale is wrong.
 const LIMIT: f64 = 3.3;
 

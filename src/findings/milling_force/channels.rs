@@ -2,6 +2,7 @@
 
 use super::Case;
 use super::patterns::SEEN;
+use super::sought::Sought;
 use crate::findings::engine::Member;
 use crate::findings::table;
 use crate::ground::spatial::{add, scale};
@@ -16,29 +17,13 @@ const GAP: f64 = 3.0;
 /// Factors by which such a time is brought closer: what the next one leaves was told as a drift.
 const CLOSER: [f64; 4] = [1.4, 1.2, 1.1, 1.05];
 
-/// Gain (nats), time constant (s) and columns of a leak.
-type Tried = (f64, f64, Vec<Vec<f64>>);
-
 /// What has leaked of the charge of all channels alike, in the time that suits best. With amounts of their own for every channel, and for
 /// what each cut began with, it was told in the place of a drift beside a gain (a file by strangers).
 pub(super) fn leaks(case: &Case) -> Vec<Member> {
-    let at = |time: f64| {
-        let columns = leaked(case, time);
-        (case.aim().fitted(&columns).1, time, columns)
-    };
-    let better = |a: Tried, b: Tried| if b.0 > a.0 { b } else { a };
-    let found = LEAKS.into_iter().map(at).reduce(better);
-    let closer = |first: Tried| {
-        CLOSER.iter().fold(first, |found, by| {
-            let time = found.1;
-            [time * by, time / by]
-                .map(at)
-                .into_iter()
-                .fold(found, better)
-        })
-    };
-    let found = found.filter(|f| f.0 > SEEN).map(closer);
-    found.map_or(Vec::new(), |f| table::flexible(f.2))
+    let nearer = CLOSER.map(|by| move |time: f64| [time * by, time / by]);
+    let columns = |time| leaked(case, time);
+    let found = Sought::of(case, LEAKS.into_iter(), columns, (SEEN, &nearer));
+    found.map_or(Vec::new(), |f| table::flexible(f.columns))
 }
 
 /// What is forgotten of a force that began with the file, and by channel of what was there before.

@@ -3,6 +3,7 @@
 use super::Case;
 use super::lines::Line;
 use super::setting::SENSOR;
+use super::sought::Sought;
 use super::tremor::Tremor;
 use crate::findings::engine::Member;
 use crate::findings::table::{Effect, Place};
@@ -78,27 +79,19 @@ fn stirred(case: &Case, line: &Line) -> Option<Member> {
     let tremor = Tremor::new(case, line.cut);
     let passing = tremor.passing_hz(case);
     let each = BESIDE.iter().map(|m| line.frequency_hz + m * passing);
-    let at = |hz: f64| {
-        let columns = tremor.columns(case, hz);
-        (case.aim().fitted(&columns).1, hz, columns)
-    };
-    let tried = each.filter(|hz| *hz > 0.0).map(at);
-    let better = |a: Tried, b: Tried| if b.0 > a.0 { b } else { a };
     let time = &case.cuts()[line.cut].time;
     let ends = time.first().zip(time.last());
     let resolution = ends.map_or(0.0, |(a, b)| (b - a).max(1e-9).recip());
-    let best = tried.reduce(better).map(|first| {
-        CLOSER.iter().fold(first, |best, share| {
-            let hz = best.1;
-            let about = [-1.0, 1.0].map(|side| at(hz + side * share * resolution));
-            about.into_iter().fold(best, better)
-        })
-    });
-    best.map(|(_, hz, columns)| Member {
-        columns,
+    let nearer =
+        CLOSER.map(|share| move |hz: f64| [-1.0, 1.0].map(|side| hz + side * share * resolution));
+    let columns = |hz| tremor.columns(case, hz);
+    let tried = each.filter(|hz| *hz > 0.0);
+    let found = Sought::of(case, tried, columns, (f64::NEG_INFINITY, &nearer));
+    found.map(|found| Member {
+        columns: found.columns,
         size: Size::Free,
         positive: None,
-        shape: vec![SENSOR, (line.cut + 1) as f64, hz, TREMOR],
+        shape: vec![SENSOR, (line.cut + 1) as f64, found.at, TREMOR],
     })
 }
 
@@ -127,9 +120,6 @@ fn tremors(case: &Case, highest: &Line) -> Vec<Member> {
     });
     std::iter::once(first).chain(every).collect()
 }
-
-/// Gain (nats), frequency (Hz) and columns of a tremor.
-type Tried = (f64, f64, Vec<Vec<f64>>);
 
 fn member(case: &Case, cuts: &[usize], hz: f64, axes: usize) -> Member {
     let wave = |cut: usize, axis: usize, quarter: f64| {

@@ -31,7 +31,7 @@ const FOLDED: f64 = 0.375;
 /// Height over the number of readings of a line whose amplitude is the deviation of the noise, on both axes, by the window that the
 /// spectrum is taken through: half the square over 1.68, the median of white noise on two axes, and two thirds of that.
 const HEARD: f64 = 0.2;
-/// Share of its frequency by which the mains may be off.
+/// Share of its frequency by which the mains may be off: 0.05 Hz of 50, as in most hours. A choice; no other value was tried.
 const MAINS_SHARE: f64 = 1e-3;
 /// Half the distance between the mains of either kind, Hz: a record that does not tell them apart tells no hum.
 const BETWEEN_HZ: f64 = 5.0;
@@ -63,13 +63,7 @@ fn of_cut(number: usize, fit: &CutFit, cut: &CutSamples, colour: Option<&Colour>
     let rate = step_hz * (2 * power.len()) as f64;
     let between = |hz: f64| is_off(hz) && (hz < FOLDED * rate || is_off(rate - hz));
     let typical = median(&power).max(f64::MIN_POSITIVE);
-    // what is weaker than the noise and comes by the mains is noise of the amplifier
-    let weak = HEARD * fit.residual.len() as f64;
-    let is_hum = |line: &Line| {
-        let hz = line.frequency_hz;
-        let near = (NEAR / length).max(MAINS_SHARE * hz);
-        line.height < weak && near < BETWEEN_HZ && off_mains(hz) < near
-    };
+    let record = (fit.residual.len() as f64, length);
     let mut found: Vec<Line> = (FINER..power.len().saturating_sub(1))
         .filter(|i| power[*i] >= power[i - 1] && power[*i] > power[i + 1])
         .map(|i| Line {
@@ -79,11 +73,18 @@ fn of_cut(number: usize, fit: &CutFit, cut: &CutSamples, colour: Option<&Colour>
             is_sharp: power[i] > HIGH * beside(&power, i),
         })
         .filter(|line| line.height > HIGH && between(line.frequency_hz))
-        .filter(|line| line.frequency_hz * length >= PERIODS && !is_hum(line))
+        .filter(|line| line.frequency_hz * length >= PERIODS && !is_hum(line, record))
         .collect();
     found.sort_by(|a, b| b.height.total_cmp(&a.height));
     found.truncate(MOST);
     found
+}
+
+/// Whether a line comes by the mains and is weaker than the noise, of a record of so many readings and seconds: noise of the amplifier.
+fn is_hum(line: &Line, (readings, length): (f64, f64)) -> bool {
+    let hz = line.frequency_hz;
+    let near = (NEAR / length).max(MAINS_SHARE * hz);
+    line.height < HEARD * readings && near < BETWEEN_HZ && off_mains(hz) < near
 }
 
 /// Typical power on either side of a place.
@@ -155,5 +156,21 @@ mod tests {
     fn neighbours_end_where_the_spectrum_does() {
         assert_eq!(beside(&[1.0; 30], 0), 1.0);
         assert_eq!(beside(&[1.0; 30], 29), 1.0);
+    }
+
+    #[test]
+    fn a_weak_line_of_the_mains_is_a_hum_where_the_record_tells_which() {
+        let line = |frequency_hz, height| Line {
+            cut: 0,
+            frequency_hz,
+            height,
+            is_sharp: true,
+        };
+        let record = (1000.0, 0.2);
+        assert!(is_hum(&line(151.0, 150.0), record));
+        // strong, beside the mains, and too short to tell
+        assert!(!is_hum(&line(151.0, 250.0), record));
+        assert!(!is_hum(&line(165.0, 150.0), record));
+        assert!(!is_hum(&line(151.0, 150.0), (1000.0, 0.1)));
     }
 }

@@ -22,6 +22,7 @@ mod sensor;
 mod sensor_offset;
 mod sensor_resonance;
 mod setting;
+mod sought;
 mod spindle_speed;
 mod start;
 mod thermal_drift;

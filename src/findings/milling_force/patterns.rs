@@ -55,7 +55,7 @@ pub(super) const PATTERNS: &[Pattern<Case>] = &[
 
 /// Pieces of the record whose force may be more or less than simulated.
 const PIECES: usize = 24;
-/// Nats from which a hum or a swing is worth a comparison.
+/// Nats from which a hum, a swing or a leak is worth a comparison.
 pub(super) const SEEN: f64 = 12.0;
 /// Highest lines beside which a swing is sought, and swings that are compared: beside a large cause the best is not always the first.
 /// Choices: every swing costs the columns of all cuts.
@@ -105,11 +105,7 @@ fn apart(case: &Case, line: &Line) -> impl Iterator<Item = f64> {
 }
 
 /// The columns that suit the readings best, where they are worth a comparison.
-pub(super) fn best(
-    case: &Case,
-    most: usize,
-    tried: impl Iterator<Item = Vec<Vec<f64>>>,
-) -> Vec<Member> {
+fn best(case: &Case, most: usize, tried: impl Iterator<Item = Vec<Vec<f64>>>) -> Vec<Member> {
     let gains = tried.map(|w| (case.aim().fitted(&w).1, w));
     let mut worth: Vec<(f64, Vec<Vec<f64>>)> = gains.filter(|(gain, _)| *gain > SEEN).collect();
     worth.sort_by(|a, b| b.0.total_cmp(&a.0));

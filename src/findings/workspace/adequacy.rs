@@ -103,7 +103,7 @@ impl Adequacy {
             nats: -self.p_value().max(f64::MIN_POSITIVE).ln(),
             share: self.share.sqrt(),
             is_left: self.is_left() || strange,
-            ..Rest::default()
+            scatter: None,
         }
     }
 
