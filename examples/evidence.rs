@@ -154,13 +154,22 @@ fn asked(words: &[&str]) -> String {
 fn chapter(suite: &Suite, seed: u64, cases: u64) -> String {
     let seed = seed.to_string();
     let mut variables = vec![
+        ("IDENT_THOROUGH", "1".into()),
         ("IDENT_BLIND_SEED", seed.clone()),
         ("IDENT_STRANGER_SEED", seed),
     ];
     if suite.times > 0 {
         variables.push((suite.cases, (cases * suite.times).to_string()));
     }
-    let words = ["test", "--test", "suite", suite.test, "--", "--nocapture"];
+    let words = [
+        "test",
+        "--test",
+        "suite",
+        suite.test,
+        "--",
+        "--include-ignored",
+        "--nocapture",
+    ];
     let typed: Vec<String> = variables.iter().map(|(k, v)| format!("{k}={v}")).collect();
     let typed = format!("{} cargo {}", typed.join(" "), words.join(" "));
     let run = Command::new("cargo").args(words).envs(variables).output();

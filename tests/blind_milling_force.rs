@@ -1,6 +1,7 @@
 //! Milling forces that hide a cause, alone or two together, nothing, or something that no effect makes:
 //! how often the diagnosis names it. `IDENT_BLIND_SEED` and `IDENT_BLIND_CASES` ask for more.
 
+use crate::common::few_or_all;
 use crate::milling_bench::hidden::{FAULTS, Hidden, STRANGERS, hidden};
 use ident::findings::engine::diagnose;
 use ident::findings::kinds::Measured;
@@ -135,6 +136,14 @@ fn seeds(first: u64, count: usize) -> impl Iterator<Item = u64> {
     (0..count as u64).map(move |i| base + i)
 }
 
+/// How far apart those are that are asked: of a few, of a thorough run, or all where a number of cases is asked for.
+fn apart([few, thorough]: [usize; 2]) -> usize {
+    match std::env::var_os("IDENT_BLIND_CASES") {
+        Some(_) => 1,
+        None => few_or_all(few as u64, thorough as u64) as usize,
+    }
+}
+
 fn times() -> usize {
     number("IDENT_BLIND_CASES", 1) as usize
 }
@@ -142,8 +151,7 @@ fn times() -> usize {
 #[test]
 fn single_causes_are_named() {
     let mut cases = Vec::new();
-    // every second cause, unless more is asked for
-    let apart = 1 + usize::from(std::env::var_os("IDENT_BLIND_CASES").is_none());
+    let apart = apart([5, 2]);
     for (k, fault) in FAULTS.iter().enumerate().step_by(apart) {
         cases.extend(seeds(100 * k as u64, times()).map(|s| (s, vec![*fault])));
     }
@@ -154,7 +162,7 @@ fn single_causes_are_named() {
 #[test]
 fn two_causes_are_named() {
     let mut random = Random::new(number("IDENT_BLIND_SEED", 1));
-    let cases: Vec<(u64, Vec<&'static str>)> = seeds(2000, 4 * times())
+    let cases: Vec<(u64, Vec<&'static str>)> = seeds(2000, few_or_all(2, 4) as usize * times())
         .map(|s| {
             let first = random.below(FAULTS.len());
             let second = (first + 1 + random.below(FAULTS.len() - 1)) % FAULTS.len();
@@ -167,16 +175,16 @@ fn two_causes_are_named() {
 
 #[test]
 fn a_cut_as_stated_is_sufficient() {
-    let cases: Vec<(u64, Vec<&'static str>)> =
-        seeds(4000, 2 * times()).map(|s| (s, vec![])).collect();
+    let cases: Vec<(u64, Vec<&'static str>)> = seeds(4000, few_or_all(1, 2) as usize * times())
+        .map(|s| (s, vec![]))
+        .collect();
     let rates = judged("clean", &cases);
     assert!(rates.right == rates.of);
 }
 
 #[test]
 fn what_no_effect_makes_is_flagged() {
-    // every third of them, unless more is asked for
-    let apart = 1 + 2 * usize::from(std::env::var_os("IDENT_BLIND_CASES").is_none());
+    let apart = apart([STRANGERS.len(), 3]);
     let cases: Vec<(u64, Vec<&'static str>)> = seeds(6000, STRANGERS.len() * times())
         .enumerate()
         .step_by(apart)

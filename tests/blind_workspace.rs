@@ -4,6 +4,7 @@
 //! effect), `IDENT_BLIND_SEED`, `IDENT_DEBUG=1` (misses),
 //! `IDENT_BLIND_ROBOT_KIND` (one kind alone), `IDENT_BLIND_ROBOT_KEEP` (folder for the files).
 
+use crate::common::few_or_all;
 use crate::robot_blind;
 
 use crate::robot_blind::judge::document;
@@ -25,7 +26,11 @@ const FLOORS: Floors = Floors {
 
 #[test]
 fn hidden_causes_are_found() {
-    let kinds = kinds(&WORKSPACE_EFFECTS, &WORKSPACE_OUTSIDE, per_kind(4));
+    let kinds = kinds(
+        &WORKSPACE_EFFECTS,
+        &WORKSPACE_OUTSIDE,
+        per_kind(few_or_all(2, 4)),
+    );
     let all = judged(&kinds, workspace_case);
     conclude("workspace", &all, &FLOORS);
 }

@@ -109,6 +109,7 @@ fn corrections_are_normal_to_the_feed_and_smooth() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn measuring_while_cutting_leaves_about_half_at_the_exit_and_the_pilot_force_takes_it_away() {
     let folder = tempfile::tempdir().unwrap();
     let (planned, setup) = ready(&job(folder.path(), DEEP, 1500.0, ""));

@@ -42,6 +42,7 @@ fn truth(seed: u64) -> Truth {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn intervals_of_dampings_cover_the_truth() {
     let folder = tempfile::tempdir().unwrap();
     let request = Request {

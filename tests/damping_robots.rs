@@ -1,7 +1,8 @@
 //! Dampings and modes from hammer tests of random robots, made by formulas that share nothing with
 //! `src`: do the intervals hold the truth as often as they say, is a mode lost?
-//! `IDENT_BLIND_ROBOT_CASES=40 cargo test --test suite damping_robots:: -- --nocapture`
+//! `IDENT_BLIND_ROBOT_CASES=40 cargo test --test suite damping_robots:: -- --include-ignored --nocapture`
 
+use crate::common::few_or_all;
 use crate::robot_blind::judge::document;
 use crate::robot_blind::suite::{per_kind, say};
 use crate::robot_blind::{Case, Mode, damping_case, uncertain_case};
@@ -132,11 +133,12 @@ fn holds(all: &Found) {
 
 #[test]
 fn intervals_of_dampings_hold_on_robots_of_others() {
-    holds(&all("exact", 3, damping_case));
+    holds(&all("exact", few_or_all(1, 3), damping_case));
 }
 
 /// Eight robots and not fewer: of the first six alone 55 of 62 intervals hold (of thirty, 302 of 314).
 #[test]
+#[ignore = "thorough"]
 fn dampings_are_told_though_nobody_knows_bodies_exactly() {
     holds(&all("uncertain", 8, uncertain_case));
 }

@@ -4,6 +4,7 @@
 //! `IDENT_BLIND_SEED` and `IDENT_JUDGE_CASES` choose other cases, `IDENT_DEBUG=1` prints the misses (2: everything),
 //! `IDENT_JUDGE_KEEP` names a folder for the files. `cargo test --test suite judge_part:: -- --nocapture` prints the rates.
 
+use crate::common::few_or_all;
 use crate::judge;
 
 use crate::judge::algebra::V3;
@@ -19,7 +20,7 @@ use std::process::Command;
 /// from outside; of the other classes it asserts nothing.
 #[test]
 fn parts_by_strangers_are_judged_rightly() {
-    let all = judged(judge::part::draw, 6);
+    let all = judged(judge::part::draw, few_or_all(2, 6));
     let rates = conclude("milled-part", &all);
     gains(&all, judge::part::worth).conclude("milled-part");
     let floors = Floors {

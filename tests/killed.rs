@@ -1,6 +1,7 @@
 //! `ident run` killed at any moment leaves every old result whole or a whole new one in its place, and
 //! nothing that the next run stumbles over.
 
+use crate::common::few_or_all;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -8,8 +9,10 @@ use std::time::{Duration, Instant};
 
 /// A campaign that is short enough to be run often.
 const FILES: [&str; 3] = ["axis6.csv", "axis6-tilt.csv", "workspace.csv"];
-/// Moments to kill at, evenly over a run.
-const KILLS: u32 = 16;
+/// How many moments to kill at, evenly over a run.
+fn kills() -> u32 {
+    few_or_all(4, 16) as u32
+}
 
 type Results = BTreeMap<PathBuf, Vec<u8>>;
 
@@ -106,10 +109,10 @@ fn killed_at_any_moment_results_are_whole() {
         results(bench) == *last,
         "not the same results over old ones"
     );
-    for kill in 0..KILLS {
+    for kill in 0..kills() {
         restore(bench, &before);
         let mut child = start(bench, &["run", "measurements/kr210"]);
-        std::thread::sleep(whole * kill / KILLS + Duration::from_millis(3));
+        std::thread::sleep(whole * kill / kills() + Duration::from_millis(3));
         child.kill().unwrap();
         child.wait().unwrap();
         for (path, bytes) in results(bench) {

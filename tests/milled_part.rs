@@ -5,6 +5,7 @@
 //! `IDENT_DEBUG=1` prints every case, `IDENT_PART_CASES=1` takes all of them instead of every third:
 //! `cargo test --test suite milled_part:: -- --nocapture`.
 
+use crate::common::few_or_all;
 use crate::part_bench::{SLOT, job, ready};
 use ident::findings::kinds;
 use ident::findings::{Answer, Verdict};
@@ -230,7 +231,8 @@ fn single_causes_are_named_and_sound_parts_are_left_alone() {
     let whole = std::env::var_os("IDENT_PART_CASES").is_some();
     let mut hidden = singles(&setup, &planned, folder.path(), z);
     if !whole {
-        hidden = hidden.into_iter().step_by(3).collect();
+        let apart = few_or_all(8, 3) as usize;
+        hidden = hidden.into_iter().step_by(apart).collect();
     }
     let all = hidden.len();
     let cleans = if whole { 3 } else { 1 };
@@ -275,6 +277,7 @@ fn single_causes_are_named_and_sound_parts_are_left_alone() {
 
 /// A probe that reads by direction is no rival of an offset where all walls face one way: the program had called it one.
 #[test]
+#[ignore = "thorough"]
 fn a_slot_tells_an_offset_and_no_lobes() {
     let folder = tempfile::tempdir().unwrap();
     let (_, setup) = ready(&job(folder.path(), SLOT, 1200.0, ""));
@@ -286,6 +289,7 @@ fn a_slot_tells_an_offset_and_no_lobes() {
 
 /// A block that stands elsewhere is cut elsewhere, and what that changes is neither harder nor softer material.
 #[test]
+#[ignore = "thorough"]
 fn a_block_that_stands_elsewhere_is_told_alone() {
     let offset_mm = [0.25, -0.2, 0.3];
     let folder = tempfile::tempdir().unwrap();

@@ -123,6 +123,7 @@ fn median(sorted: &[f64]) -> f64 {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn intervals_cover_as_often_as_they_say() {
     let truth = truth();
     let runs: Vec<(&LoadCycleTruth, u64)> = truth
@@ -168,6 +169,7 @@ fn intervals_cover_as_often_as_they_say() {
 const MAY_BE_ABSENT: [&str; 4] = ["backlash", "width", "hysteresis_loss", "loss_factor"];
 
 #[test]
+#[ignore = "thorough"]
 fn what_may_be_absent_is_a_limit_and_never_an_interval_around_zero() {
     let truth = truth();
     let plain = LoadCycleTruth {

@@ -1,5 +1,6 @@
 //! All tests as one program: built once, linked once, and run side by side. A suite is one file here and
-//! one line below; `cargo test --test suite blind:: -- --nocapture` runs one of them.
+//! one line below; `cargo test --test suite blind:: -- --nocapture` runs one of them. Tests that are ignored as thorough, and
+//! more cases of others, take twenty minutes: `.ci/thorough` runs all.
 
 // What several suites share.
 mod bench_of_files;

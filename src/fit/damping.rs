@@ -89,7 +89,7 @@ pub struct Account {
 }
 
 /// Reduced chi-square below which FRFs agree with bodies as the robot file has them: right ones gave 0.7 to 1.1
-/// on robots of others (`cargo test --test suite damping_robots:: -- --nocapture`).
+/// on robots of others (`cargo test --test suite damping_robots:: -- --include-ignored --nocapture`).
 const AGREED: f64 = 1.25;
 /// The same on some of the lines, beyond which the rest of the search is not worth its time.
 const HOPELESS: f64 = 1.2 * AGREED;

@@ -8,6 +8,16 @@ use rustfft::num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 use std::path::PathBuf;
 
+/// Whether everything is asked, as `.ci/thorough` does; `cargo test` has five minutes.
+pub fn is_thorough() -> bool {
+    std::env::var_os("IDENT_THOROUGH").is_some()
+}
+
+/// How many: `few` where minutes count, `all` in a thorough run.
+pub fn few_or_all(few: u64, all: u64) -> u64 {
+    if is_thorough() { all } else { few }
+}
+
 /// The shared data, where they are; `None` says that they are absent.
 pub fn shared(name: &str) -> Option<PathBuf> {
     let root = std::env::var_os("IDENT_SHARED_DATA").map(PathBuf::from);

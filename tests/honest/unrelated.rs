@@ -1,5 +1,6 @@
 //! Records whose displacement has nothing to do with the force.
 
+use crate::common::few_or_all;
 use ident::effects::Composite;
 use ident::findings::Verdict;
 use ident::findings::load_cycle::{Settings, diagnose};
@@ -18,7 +19,9 @@ const PERIOD: usize = 200;
 /// How many records; more by `IDENT_UNRELATED`.
 fn count() -> u64 {
     let asked = std::env::var("IDENT_UNRELATED").ok();
-    asked.and_then(|n| n.parse().ok()).unwrap_or(40)
+    asked
+        .and_then(|n| n.parse().ok())
+        .unwrap_or_else(|| few_or_all(10, 40))
 }
 
 fn displacement(kind: usize, random: &mut Random) -> Vec<f64> {
