@@ -41,7 +41,10 @@ fn asked(variable: &str, default: u64) -> u64 {
 
 #[test]
 fn hidden_effects_are_named() {
-    let (each, seed) = (asked("IDENT_BLIND_CASES", 16), asked("IDENT_BLIND_SEED", 1));
+    let (each, seed) = (
+        asked("IDENT_BLIND_CASES", common::few_or_all(5, 16)),
+        asked("IDENT_BLIND_SEED", 1),
+    );
     let jobs: Vec<(&'static str, u64)> = NAMES
         .iter()
         .flat_map(|n| (0..each).map(move |i| (*n, i)))
@@ -110,6 +113,7 @@ fn hidden_effects_are_named() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn what_no_cause_makes_takes_no_name() {
     let (each, seed) = (asked("IDENT_BLIND_CASES", 10), asked("IDENT_BLIND_SEED", 1));
     let mut named = [0; 2];
@@ -145,6 +149,82 @@ fn small_causes_are_named_beside_a_large_delay() {
         let named = |name: &str| judged.causes.iter().any(|c| c.0 == name);
         assert!(named("time_skew") && named(small), "{:?}", judged.causes);
     }
+}
+
+/// A joint that gravity does not load, swung by two sines: a row per reading with the twist and the torque (N·m behind the gear) of
+/// time, speed and acceleration, encoders that scatter by 8 µrad, torques by a hundredth.
+fn swung(rate_hz: f64, rows: usize, of: impl Fn([f64; 4]) -> [f64; 2]) -> String {
+    let mut random = Random::new(11);
+    let mut text = String::from(
+        "# kind = \"joint-motion\"\n# gear_ratio = [100.0]\n\
+         time_s,motor_angle_rad_1,link_angle_rad_1,motor_torque_Nm_1\n",
+    );
+    let (slow, fast) = ([0.5, 1.1, 0.3], [0.2, 2.9, 1.0]);
+    for i in 0..rows {
+        let t = i as f64 / rate_hz;
+        let sum = |f: &dyn Fn([f64; 3]) -> f64| f(slow) + f(fast);
+        let angle = sum(&|[a, w, p]| a * (w * t + p).sin());
+        let speed = sum(&|[a, w, p]| a * w * (w * t + p).cos());
+        let acceleration = sum(&|[a, w, p]| -a * w * w * (w * t + p).sin());
+        let [twist, torque] = of([t, angle, speed, acceleration]);
+        let link = angle + twist + 8e-6 * random.normal();
+        let torque = 1e-2 * torque + 2e-2 * random.normal();
+        text += &format!("{t:.4},{angle:.8},{link:.8},{torque:.5}\n");
+    }
+    text
+}
+
+const SPRING: f64 = 4e5;
+const INERTIA: f64 = 300.0;
+const OIL: f64 = 90.0;
+
+fn effects(text: &str) -> Vec<&'static str> {
+    let found = diagnose(&read(text), None);
+    found.answer.causes.iter().map(|c| c.effect).collect()
+}
+
+/// Where the torque pays for inertia and friction alone and nobody states a spring, a rotor without inertia makes it as stiff as it
+/// can be: without a spring at all, twist that follows the acceleration alone passed as right whatever friction took of the torque.
+#[test]
+fn friction_of_an_unloaded_drive_is_told_without_a_stated_spring() {
+    let drag = |v: f64, a: f64| INERTIA * a + OIL * v;
+    let of_drive = swung(100.0, 1500, |[_, _, v, a]| {
+        [-INERTIA * a / SPRING, drag(v, a)]
+    });
+    let found = diagnose(&read(&of_drive), None);
+    assert!(
+        holds(&said(&found), "viscous_friction"),
+        "{:?}",
+        said(&found)
+    );
+    // friction of the link goes through the spring
+    let of_link = swung(100.0, 1500, |[_, _, v, a]| {
+        [-drag(v, a) / SPRING, drag(v, a)]
+    });
+    assert_eq!(effects(&of_link), Vec::<&str>::new());
+}
+
+/// Two clocks that run apart make a delay that grows, through none here.
+#[test]
+fn clocks_that_run_apart_are_a_skew() {
+    let text = swung(100.0, 1500, |[t, q, v, _]| {
+        let torque = 2000.0 * (q + 0.4).cos();
+        [-torque / SPRING - 5e-5 * (t - 7.5) * v, torque]
+    });
+    assert_eq!(effects(&text), ["time_skew"]);
+}
+
+/// A link crosses its gap in tens of milliseconds, and comes to rest anywhere in it.
+#[test]
+fn a_gap_that_is_crossed_in_time_is_a_gap() {
+    let at = std::cell::Cell::new(0.0);
+    let text = swung(200.0, 3000, |[_, _, _, a]| {
+        let torque = INERTIA * a;
+        let side = -1e-4 * torque.signum();
+        at.set(at.get() + (side - at.get()) * (1.0 - (-0.005_f64 / 0.05).exp()));
+        [at.get() - torque / SPRING, torque]
+    });
+    assert_eq!(effects(&text), ["backlash"]);
 }
 
 /// The real run: front matter, header, rows.
@@ -215,6 +295,7 @@ fn a_real_kr300_has_a_skew_on_every_axis_and_no_stiffness() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn thinned_and_cut_the_real_run_says_the_same() {
     let Some((facts, header, rows)) = real_run() else {
         return;
@@ -236,6 +317,7 @@ fn thinned_and_cut_the_real_run_says_the_same() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn with_the_skew_declared_nothing_is_invented() {
     let Some((facts, header, rows)) = real_run() else {
         return;

@@ -3,6 +3,9 @@
 use super::force_steps::{Reading, SetupSteps, WILD, Weighted, spread, weighted};
 use super::rounding::Rounding;
 
+/// No mean of readings is known better, m: readings that are made may have no noise at all.
+const EXACT: f64 = 1e-12;
+
 /// What the line of one component in one set-up leaves.
 pub(super) struct Rest {
     pub readings: Vec<Reading>,
@@ -194,7 +197,7 @@ impl Rest {
                 let own = noise * self.rise[cell] / n.sqrt();
                 let rounding = self.rounding.shared(noise);
                 let own = own.hypot(rounding).hypot(self.doubt[cell]);
-                1.0 / own.max(f64::MIN_POSITIVE)
+                1.0 / own.max(EXACT)
             }
             _ => 0.0,
         };

@@ -67,9 +67,13 @@ impl Shapes {
             if let (Some(line), Some((fit, left))) = (line, rest.line()) {
                 let used: f64 = rest.kept.iter().sum();
                 let squares: f64 = left.iter().zip(&rest.kept).map(|(l, w)| w * l * l).sum();
-                let freedom = (used - 1.0 - rest.cycles as f64).max(1.0);
+                let freedom = used - 1.0 - rest.cycles as f64;
                 line.slope = fit.slope;
-                let scatter = (squares / freedom).sqrt();
+                // of as many readings as unknowns nothing scatters: there the stated noise stands
+                let scatter = match freedom > 0.0 {
+                    true => (squares / freedom).sqrt(),
+                    false => line.scatter,
+                };
                 line.scatter = scatter.max(rest.rounding.error());
                 line.stderr = fit.stderr(line.scatter, rest.rounding, &rest.readings);
                 line.rows = used as usize;

@@ -3,7 +3,8 @@
 use super::balanced;
 use super::channels::largest;
 use super::joint::Joint;
-use crate::findings::engine::Member;
+use super::patterns::lagging;
+use crate::findings::engine::{Blamed, Member, Nuisance};
 use crate::findings::table::{Effect, Place};
 use crate::signal::play::play;
 
@@ -11,6 +12,19 @@ use crate::signal::play::play;
 const WIDTHS: [f64; 9] = [0.003, 0.005, 0.008, 0.013, 0.02, 0.032, 0.05, 0.08, 0.15];
 /// Shares of the largest torque that hold a link where it is while it is loose.
 const HELD: [f64; 3] = [0.02, 0.05, 0.1];
+/// Times in which the link crosses the gap, s, and shares of the largest torque over which it then closes: from the start that the
+/// motor gives it or its own weight, it takes tens of milliseconds.
+const CROSSED_S: [(f64, [f64; 3]); 3] = [
+    (0.01, [0.003, 0.01, 0.03]),
+    (0.02, [0.003, 0.01, 0.03]),
+    (0.04, [0.003, 0.01, 0.03]),
+];
+/// Shares of the top speed and of the largest torque below which a link rests and is loose, and the rows that a rest must last.
+const AT_REST: f64 = 0.01;
+const LOOSE: f64 = 0.05;
+const LASTING: usize = 8;
+/// Share of a gap whose flanks are those of another form. A choice.
+const MISSED: f64 = 0.3;
 /// Share of the largest torque that must be passed to either side, and of the readings in which it must be: a gap shows
 /// where the torque passes zero, however briefly.
 const BOTH_WAYS: f64 = 0.02;
@@ -21,19 +35,29 @@ pub(super) const EFFECT: Effect<Joint> = Effect {
     name: "backlash",
     summary: "A free gap in the gear: the link is loose while the torque changes sign.",
     mechanism: "contact",
-    law_error: 0.0,
+    // contacts bounce
+    law_error: 0.1,
     can_be: |_, _| true,
     places: |joint| {
-        let transmitted = joint.friction.less(&joint.data, &joint.geared);
         let scale = largest(&joint.geared);
-        let torques = [&joint.geared, &transmitted];
+        // friction may be on either side of the gap
+        let less = joint.friction.less(&joint.data, &joint.geared);
+        let other = if joint.presumed.is_some() {
+            &joint.data.torque
+        } else {
+            &less
+        };
+        let torques = [&joint.geared, other];
         let both = torques
             .into_iter()
             .filter(|t| balanced(t, BOTH_WAYS * scale, SELDOM));
         let columns = both.flat_map(|t| {
             let held = HELD.map(|h| step(&play(t, h * scale), WIDTHS[0]));
             let steps = WIDTHS.iter().flat_map(|w| [step(t, *w), soft(t, *w)]);
-            steps.chain(held).collect::<Vec<_>>()
+            let crossed = CROSSED_S.iter().flat_map(|(late, widths)| {
+                widths.map(|w| lagging(&joint.data.time, &step(t, w), *late))
+            });
+            steps.chain(held).chain(crossed).collect::<Vec<_>>()
         });
         let members = columns.map(|c| Member::free(c).positive());
         vec![Place::new(&joint.site, members.collect())]
@@ -41,6 +65,39 @@ pub(super) const EFFECT: Effect<Joint> = Effect {
     parameters: |_, blamed| vec![("gap", 2.0 * blamed.amounts[0], "rad")],
     would_tell: "let the torque pass zero slowly, once with and once without reversing the motion: a gap follows the sign of the torque, friction that of the speed",
 };
+
+/// Every rest under hardly any torque, one where it lasts: the link lies anywhere in the gap.
+pub(super) fn rests(joint: &Joint) -> Vec<Vec<f64>> {
+    let (still, loose) = (
+        AT_REST * joint.data.top_speed(),
+        LOOSE * largest(&joint.geared),
+    );
+    let rests = |i: &usize| joint.data.speed[*i].abs() < still && joint.geared[*i].abs() < loose;
+    let rows: Vec<usize> = (0..joint.data.rows()).filter(rests).collect();
+    let runs = rows.chunk_by(|a, b| b - a == 1);
+    let lasting = runs.filter(|run| run.len() >= LASTING);
+    let one = |run: &[usize]| {
+        let (first, last) = (run[0], run[run.len() - 1]);
+        joint.column(|i| f64::from(u8::from((first..=last).contains(&i))))
+    };
+    lasting.map(one).collect()
+}
+
+/// What the law that was found of a gap misses where it opens and closes: flanks that meet sooner or later, or over more torque.
+pub(super) fn flanks(joint: &Joint, blamed: &Blamed) -> Vec<Nuisance> {
+    let half = blamed.amounts[0].abs();
+    let wide = [WIDTHS[0], WIDTHS[5]].map(|w| step(&joint.geared, w));
+    let late =
+        CROSSED_S.map(|(late, [_, w, _])| lagging(&joint.data.time, &step(&joint.geared, w), late));
+    let other = |column: Vec<f64>| {
+        let each = column.iter().zip(&blamed.part);
+        Nuisance {
+            column: each.map(|(c, part)| half * c - part).collect(),
+            spread: MISSED,
+        }
+    };
+    wide.into_iter().chain(late).map(other).collect()
+}
 
 /// Twist by a gap that closes over this share of the largest torque.
 pub(super) fn step(torque: &[f64], width: f64) -> Vec<f64> {

@@ -8,6 +8,7 @@ use super::patterns::{BENT, MESHING};
 use super::projection;
 use super::remarks::FOR_STIFFNESS;
 use super::stiffness::{Compliance, compliance};
+use super::time_skew;
 use crate::findings::answer::{Answer, Cause, Group, Verdict};
 use crate::findings::engine::{Experiment, Found, diagnose};
 use crate::findings::gain::Gain;
@@ -64,11 +65,13 @@ pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
         true => Err("the twist bends with the torque, so that there is no one stiffness"),
         false => compliance(&joint, &others("")),
     };
-    let told = match joint.presumed {
+    let stated = joint.presumed.filter(|p| p.is_stated);
+    let told = match stated {
         Some(_) => Err(ROTOR),
         None => spring,
     };
-    let delay = has("time_skew").then(|| delay(&joint, &others("time_skew")));
+    let is_one = blamed.iter().all(|b| !time_skew::drifts(b));
+    let delay = (has("time_skew") && is_one).then(|| delay(&joint, &others("time_skew")));
     let is_loop = blamed.iter().any(|b| b.effect == "hysteresis"); // it has no one stiffness
     answer
         .causes
@@ -78,7 +81,7 @@ pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
     zero.into_iter().for_each(|s| add(&mut answer, s));
     if let Some(c) = spring.ok().filter(|_| !is_loop) {
         let other = joint.other_stiffness(c, &others(""));
-        let is_rotor = joint.presumed.is_some_and(|presumed| c.value < presumed);
+        let is_rotor = stated.is_some_and(|presumed| c.value < presumed.compliance);
         other.into_iter().for_each(|s| match is_rotor {
             true => ask(&mut answer, s),
             false => add(&mut answer, s),
