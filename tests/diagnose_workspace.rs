@@ -126,6 +126,31 @@ fn one_force_a_cycle_counts_from_the_unloaded_robot() {
     );
 }
 
+/// One reading of every set-up scatters about nothing: the stated noise stands, where none stood and sets had no probability.
+#[test]
+fn one_reading_of_every_set_up_has_the_stated_noise() {
+    let first = |line: &&str| {
+        let mut cells = line.split(',');
+        !line.contains(",750.0,") || cells.nth(2) == Some("1")
+    };
+    let alone = |text: String| {
+        let text = one_force(text);
+        text.lines().filter(first).collect::<Vec<_>>().join("\n")
+    };
+    let (folder, file) = campaign(|text| bare(alone(text)));
+    without_tilt(folder.path());
+    let typed = ["diagnose", file.to_str().unwrap(), "--json"];
+    let answer = document(&ident(&typed, folder.path()));
+    let noise = answer["discrepancy"]["noise"].as_str().unwrap();
+    assert!(noise.starts_with("3.0 µm a reading"), "{noise}");
+    let candidates = answer["candidates"].as_array().unwrap();
+    assert!(!candidates.is_empty());
+    assert!(
+        candidates.iter().all(|c| c["probability"].is_number()),
+        "{candidates:#?}"
+    );
+}
+
 #[test]
 fn missing_tilts_are_found_placed_and_carried_on() {
     let (folder, file) = campaign(bare);

@@ -16,8 +16,8 @@ use std::process::Command;
 /// 1 of 64. Before force and deflection of the judge's own plant were brought to rest, seeds 51 and 52, 80 cases: clean 14 of 15, single 29 of 32, pair 11 of 13, outside 4 of 4, untrue names in 1 of 60, with
 /// trial runs as fine as the cut as with those that are half as coarse again (with twice as coarse ones: 14, 27, 11, 4 and 2,
 /// which chose between them). Some three seconds
-/// of one processor a case, nearly all of it the program's: the small version is six cases, three single causes and two
-/// from outside; of the other classes it asserts nothing.
+/// of one processor a case, nearly all of it the program's: a thorough run takes six cases, three single causes and two
+/// from outside, `cargo test` the first two; of classes without a case it asserts nothing.
 #[test]
 fn parts_by_strangers_are_judged_rightly() {
     let all = judged(judge::part::draw, few_or_all(2, 6));

@@ -2,7 +2,7 @@
 //!
 //! The plant is milled with the cause in it, feedback and all, where the diagnosis takes columns of first
 //! order; datum, tool, growth and corners are by formulas of this file. `IDENT_BLIND_SEED` draws others,
-//! `IDENT_DEBUG=1` prints every case, `IDENT_PART_CASES=1` takes all of them instead of every third:
+//! `IDENT_DEBUG=1` prints every case, `IDENT_PART_CASES=1` takes all of them instead of every eighth (every third in a thorough run):
 //! `cargo test --test suite milled_part:: -- --nocapture`.
 
 use crate::common::few_or_all;
@@ -272,7 +272,9 @@ fn single_causes_are_named_and_sound_parts_are_left_alone() {
     println!(
         "milled parts: right {right} of {all}, wrong {wrong}, alarms {alarms} of {cleans}, outside flagged {flagged} of 2"
     );
-    assert!(right + 1 + usize::from(whole) >= all && wrong == 0 && alarms == 0);
+    // one of those that nobody can tell may be among more than two
+    let missed = usize::from(whole) + usize::from(all > 2);
+    assert!(right + missed >= all && wrong == 0 && alarms == 0);
 }
 
 /// A probe that reads by direction is no rival of an offset where all walls face one way: the program had called it one.

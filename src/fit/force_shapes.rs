@@ -69,10 +69,10 @@ impl Shapes {
                 let squares: f64 = left.iter().zip(&rest.kept).map(|(l, w)| w * l * l).sum();
                 let freedom = used - 1.0 - rest.cycles as f64;
                 line.slope = fit.slope;
-                // of as many readings as unknowns nothing scatters: there the stated noise stands
+                // readings as few as unknowns do not scatter: they were used for the noise that is stated
                 let scatter = match freedom > 0.0 {
                     true => (squares / freedom).sqrt(),
-                    false => line.scatter,
+                    false => self.stated.unwrap_or(line.scatter),
                 };
                 line.scatter = scatter.max(rest.rounding.error());
                 line.stderr = fit.stderr(line.scatter, rest.rounding, &rest.readings);

@@ -50,16 +50,10 @@ impl Cosine {
     /// Takes a transform back, in place.
     pub fn back(&self, x: &mut [f64]) {
         let n = self.n;
-        let root = (n as f64).sqrt();
-        let size = |k: usize| match k {
-            0 => x[0] * root,
-            k if k < n => x[k] * root * std::f64::consts::FRAC_1_SQRT_2,
-            _ => 0.0,
-        };
-        let of = |k: usize| {
-            let turn =
-                Complex::from_polar(1.0, -std::f64::consts::PI * k as f64 / (2.0 * n as f64));
-            Complex::new(size(k), size(n - k)) * turn
+        let half = 0.5 * n as f64;
+        let of = |k: usize| match k {
+            0 => self.twiddle[0] * (2.0 * half * x[0]),
+            k => self.twiddle[k] * Complex::new(half * x[k], half * x[n - k]),
         };
         // conjugated, so that the forward FFT goes back
         let mut buffer: Vec<Complex<f64>> = (0..n).map(of).collect();

@@ -4,7 +4,7 @@ use super::channels::{Channels, largest};
 use super::joint::{Joint, TORQUE};
 use super::patterns::PATTERNS;
 use super::projection::partial;
-use super::{EFFECTS, backlash, ripple, sensor_offset};
+use super::{EFFECTS, backlash, ripple, sensor_offset, time_skew};
 use crate::findings::engine::{
     Aspects, Blamed, Experiment, Judgement, Nuisance, Remaining, Statement, Suspect,
 };
@@ -137,7 +137,9 @@ impl Joint {
                 "viscous_friction" => {
                     deny(&mut suspects, self.denied(blamed.amounts[0], compliance))
                 }
-                "time_skew" => deny(&mut suspects, self.denied(-blamed.amounts[0], compliance)),
+                "time_skew" if !time_skew::grows(blamed) => {
+                    deny(&mut suspects, self.denied(-blamed.amounts[0], compliance))
+                }
                 _ => {}
             }
         }

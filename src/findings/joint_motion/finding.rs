@@ -70,7 +70,7 @@ pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
         Some(_) => Err(ROTOR),
         None => spring,
     };
-    let is_one = blamed.iter().all(|b| !time_skew::drifts(b));
+    let is_one = blamed.iter().all(|b| !time_skew::grows(b));
     let delay = (has("time_skew") && is_one).then(|| delay(&joint, &others("time_skew")));
     let is_loop = blamed.iter().any(|b| b.effect == "hysteresis"); // it has no one stiffness
     answer

@@ -16,17 +16,24 @@ const FEWEST_PERIODS: f64 = 2.5;
 const PEAKS: usize = 2;
 
 /// Highest order that is sought: one sample per period at top speed. Speeds vary, so that orders beyond
-/// half the sampling rate are not mistaken for others.
-fn highest(angle: &[f64]) -> f64 {
+/// half the sampling rate are not mistaken for others. Of averaged rows one and a half, which show
+/// two fifths of a ripple; one shows none.
+fn highest(data: &Channels, angle: &[f64]) -> f64 {
     let steps: Vec<f64> = angle.windows(2).map(|w| w[1] - w[0]).collect();
-    TAU / largest(&steps).max(f64::MIN_POSITIVE)
+    let rows = if data.block > 1 { 1.5 } else { 1.0 };
+    TAU / (rows * largest(&steps)).max(f64::MIN_POSITIVE)
 }
 
 /// Orders (rad per rad) of the largest peaks of the spectrum over the angle, each beside those before: side lobes are none.
 pub(super) fn orders(data: &Channels, angle: &[f64], residual: &[f64], rows: &[usize]) -> Vec<f64> {
     let mut rest = residual.to_vec();
     let one = |_| {
-        let order = refined((data, angle), &rest, rows, peak(angle, &rest, rows)?);
+        let order = refined(
+            (data, angle),
+            &rest,
+            rows,
+            peak((data, angle), &rest, rows)?,
+        );
         rest = left(&wave(data, angle, order), &rest);
         Some(order)
     };
@@ -34,7 +41,7 @@ pub(super) fn orders(data: &Channels, angle: &[f64], residual: &[f64], rows: &[u
 }
 
 /// Order of the largest peak.
-fn peak(angle: &[f64], residual: &[f64], rows: &[usize]) -> Option<f64> {
+fn peak((data, angle): (&Channels, &[f64]), residual: &[f64], rows: &[usize]) -> Option<f64> {
     let (low, high) = range(angle);
     let width = (high - low) / BINS as f64;
     if width <= 0.0 || rows.len() < 64 {
@@ -43,8 +50,9 @@ fn peak(angle: &[f64], residual: &[f64], rows: &[usize]) -> Option<f64> {
     let power = spectrum(angle, residual, rows, low, width);
     let order = |k: usize| TAU * k as f64 / (PADDED as f64 * width);
     let first = (FEWEST_PERIODS * PADDED as f64 / BINS as f64) as usize;
+    let highest = highest(data, angle);
     let last = (1..PADDED / 2)
-        .take_while(|k| order(*k) < highest(angle))
+        .take_while(|k| order(*k) < highest)
         .last()
         .unwrap_or(0);
     let tops = (first..last).filter(|k| power[*k] > power[k - 1] && power[*k] >= power[k + 1]);

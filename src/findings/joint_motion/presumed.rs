@@ -11,8 +11,10 @@ use crate::ground::stats::{mean, rms};
 /// Share of the torque, rms, that inertia and friction must leave of it: laws of friction miss less.
 const OWN: f64 = 0.1;
 
-/// Standard deviations of the slope of twist over acceleration that it must be away from none.
+/// Standard errors that a slope over the acceleration must be away from none, as errors of rows that depend on one another are
+/// larger than they say; and the share of a compliance to which dry friction must tell it. Choices.
 const SEEN: f64 = 10.0;
+const KNOWN: f64 = 0.1;
 /// Relative standard deviation of a spring that is the stiffest there can be: of the slopes that it is told from. A choice.
 const STIFFEST: f64 = 0.05;
 
@@ -41,11 +43,7 @@ pub(super) fn presumed(data: &Channels, ratio: Option<f64>, nominal: Nominal) ->
             rel_std: nominal.rel_std,
             is_stated: true,
         }),
-        None => stiffest(data).map(|compliance| Presumed {
-            compliance,
-            rel_std: STIFFEST,
-            is_stated: false,
-        }),
+        None => stiffest(data),
     }
 }
 
@@ -66,17 +64,55 @@ fn without_inertia(data: &Channels) -> Vec<Vec<f64>> {
     columns
 }
 
-/// Compliance of a rotor without inertia, rad/(N·m): the twist over the torque of the acceleration. The rotor's share of that torque
-/// makes the spring softer, never stiffer, and one without compliance would leave a twist that nothing makes.
-fn stiffest(data: &Channels) -> Option<f64> {
+/// Stiffest spring with which the torque makes such a twist: of a rotor without inertia, by the twist over the torque of the
+/// acceleration, since the rotor's share of that torque makes the spring softer, never stiffer; or a softer one, where friction of the
+/// link makes twist beyond that. A spring without compliance would leave a twist that nothing makes.
+fn stiffest(data: &Channels) -> Option<Presumed> {
     let beside = without_inertia(data);
-    let over = |reading: &[f64]| partial(&beside, &data.acceleration, reading);
-    let (twist, torque) = (over(&data.twist), over(&data.torque));
-    let mut all = beside;
-    all.push(data.acceleration.clone());
-    let error = rms(&left(&all, &data.twist)) / twist.square.sqrt();
-    let compliance = -twist.slope / torque.slope;
-    (compliance > 0.0 && twist.slope.abs() > SEEN * error).then_some(compliance)
+    let twist = told(&beside, &data.acceleration, &data.twist);
+    let torque = told(&beside, &data.acceleration, &data.torque);
+    let is_seen = |t: &Told| t.slope.abs() > SEEN * t.error;
+    if !is_seen(&twist) || !is_seen(&torque) || twist.slope * torque.slope >= 0.0 {
+        return None;
+    }
+    let rigid = -twist.slope / torque.slope;
+    let compliance = rigid.max(by_friction(data, KNOWN * rigid));
+    Some(Presumed {
+        compliance,
+        // a gap makes such twist as well: anything down to the rigid rotor's lies within two deviations
+        rel_std: STIFFEST.max(0.5 * (1.0 - rigid / compliance)),
+        is_stated: false,
+    })
+}
+
+/// Compliance by the twist over friction that the torque shows: by dry friction alone, where it tells one to within an error, so that a
+/// late encoder makes none of it; else by all of it.
+fn by_friction(data: &Channels, error: f64) -> f64 {
+    let mut beside = base(data);
+    beside.remove(TORQUE);
+    let all = told(&beside, &data.torque, &data.twist);
+    beside.push(data.speed.clone());
+    let dry = told(&beside, &data.torque, &data.twist);
+    -if dry.error < error {
+        dry.slope
+    } else {
+        all.slope
+    }
+}
+
+/// A slope with its standard error.
+struct Told {
+    slope: f64,
+    error: f64,
+}
+
+fn told(beside: &[Vec<f64>], channel: &[f64], reading: &[f64]) -> Told {
+    let found = partial(beside, channel, reading);
+    let all = [beside, &[channel.to_vec()]].concat();
+    Told {
+        slope: found.slope,
+        error: rms(&left(&all, reading)) / found.square.sqrt(),
+    }
 }
 
 impl Joint {
