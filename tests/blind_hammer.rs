@@ -84,6 +84,7 @@ fn oblique_bends_are_named_at_their_place() {
 
 /// Files read, whole: every twelfth kind, the program reads them all when it judges them.
 #[test]
+#[ignore = "thorough"]
 fn files_read() {
     let kinds = kinds(&HAMMER_EFFECTS, &HAMMER_OUTSIDE, 1);
     kinds.par_iter().step_by(12).for_each(|(kind, seed)| {

@@ -174,6 +174,7 @@ fn two_causes_are_named() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn a_cut_as_stated_is_sufficient() {
     let cases: Vec<(u64, Vec<&'static str>)> = seeds(4000, few_or_all(1, 2) as usize * times())
         .map(|s| (s, vec![]))

@@ -54,6 +54,7 @@ fn sizes(
 }
 
 #[test]
+#[ignore = "thorough"]
 fn the_mirror_takes_four_fifths_of_a_coupled_cut_away_and_most_of_it_on_plants_ten_percent_off() {
     let folder = tempfile::tempdir().unwrap();
     let (planned, setup) = ready(&job(folder.path(), CORNER, 1500.0, ""));

@@ -640,6 +640,7 @@ fn a_frame_that_moved_is_named() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn a_wrong_load_is_named() {
     let gain = Hidden {
         load: |load| load.map(|x| 1.06 * x),

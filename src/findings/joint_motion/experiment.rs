@@ -179,7 +179,7 @@ impl Joint {
         let known = |column: Vec<f64>, spread: f64| Nuisance { column, spread };
         let free = |column| known(column, f64::INFINITY);
         let mut all: Vec<Nuisance> = self.base().into_iter().map(free).collect();
-        all[TORQUE].spread = self.spring_spread();
+        all[TORQUE].spread = self.spring_spread(about);
         let declared = DECLARED * self.declared.map_or(0.0, f64::abs);
         all.push(known(data.speed.clone(), declared));
         let lag = LAG_S * partial(&self.beside_torque(), &data.torque, &data.twist).slope;

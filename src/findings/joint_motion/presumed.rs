@@ -6,6 +6,8 @@ use super::channels::Channels;
 use super::coulomb_friction::dry;
 use super::joint::{Joint, Nominal, TORQUE, base};
 use super::projection::{left, partial};
+use super::{backlash, hysteresis};
+use crate::findings::engine::Blamed;
 use crate::ground::stats::{mean, rms};
 
 /// Share of the torque, rms, that inertia and friction must leave of it: laws of friction miss less.
@@ -17,6 +19,8 @@ const SEEN: f64 = 10.0;
 const KNOWN: f64 = 0.1;
 /// Relative standard deviation of a spring that is the stiffest there can be: of the slopes that it is told from. A choice.
 const STIFFEST: f64 = 0.05;
+/// The same where a gap or a loop was among them. A choice.
+const MIXED: f64 = 0.5;
 
 /// A spring that is presumed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -135,9 +139,15 @@ impl Joint {
         }
     }
 
-    /// Standard deviation of the twist per torque beside the reading, rad/(N·m).
-    pub(super) fn spring_spread(&self) -> f64 {
-        let known = |p: Presumed| p.compliance * p.rel_std.max(f64::EPSILON);
+    /// Standard deviation of the twist per torque beside the reading, rad/(N·m). Slopes that told a spring nobody states told that of
+    /// a gap or a loop with it.
+    pub(super) fn spring_spread(&self, about: &[Blamed]) -> f64 {
+        let follows = [backlash::EFFECT.name, hysteresis::EFFECT.name];
+        let is_mixed = about.iter().any(|b| follows.contains(&b.effect));
+        let known = |p: Presumed| {
+            let mixed = if is_mixed && !p.is_stated { MIXED } else { 0.0 };
+            p.compliance * p.rel_std.max(mixed).max(f64::EPSILON)
+        };
         self.presumed.map_or(f64::INFINITY, known)
     }
 

@@ -83,12 +83,21 @@ fn stands(on: &Loaded, setup: &Setup) -> bool {
     let limit = (LOOP * widest).max(SPANNED * moved(&steps));
     let flat = |end: &[(f64, f64)], other: &[(f64, f64)]| {
         let limit = match inner.iter().all(|level| level.len() > 1) {
-            true => limit.max(SCATTER * scatter(inner.iter().copied().chain([other]))),
+            true => limit.max(SCATTER * repeated(inner, other)),
             false => limit,
         };
         end.len() >= PLATEAU && end[0].0.abs() > 0.5 * largest && moved(end) > limit
     };
     flat(first, last) || flat(last, first)
+}
+
+/// Scatter at one force, between the extremes; with the other extreme, which may be clipped as well, only where those are too few.
+fn repeated(inner: &[&[(f64, f64)]], other: &[(f64, f64)]) -> f64 {
+    let own = scatter(inner.iter().copied());
+    match own.is_finite() {
+        true => own,
+        false => scatter(inner.iter().copied().chain([other])),
+    }
 }
 
 /// Standard deviation of displacements about the mean at their force, where every force was set several times, as by
