@@ -64,7 +64,7 @@ fn candidate(bank: &Bank, set: &Scored, p: f64, posterior: &Posterior) -> Candid
 /// What is seen where only its scatter is too large.
 pub(super) fn scattering(times: f64) -> String {
     format!(
-        "a scatter of {times:.1} times the noise that is stated, or that most readings show, and no pattern in it: the noise \
+        "a scatter of {times:.1} times the noise that is stated, or seen between neighbours, and no pattern in it: the noise \
          is larger, or what scatters is none"
     )
 }

@@ -35,8 +35,6 @@ pub fn judgement() -> Judgement {
         // they show what is hardly larger than the noise of one; with 1.0 a real run has frictions that come and go
         peak: 1.5,
         left_peak: 1.0,
-        // events are no noise (`noise.rs`): where most of what is left is events, it is not explained
-        noise_beyond: 1.7,
         ..Judgement::default()
     }
 }

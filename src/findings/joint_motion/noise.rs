@@ -3,7 +3,6 @@
 
 use super::projection::{orthonormal, without};
 use crate::findings::engine;
-use crate::ground::stats::{quantile, rms};
 use crate::signal::cosine::Cosine;
 use nalgebra::DVector;
 use std::f64::consts::PI;
@@ -19,13 +18,6 @@ const FREE: f64 = 16.0;
 const WIDE: f64 = 1.3;
 /// Rows per column of the span, at least.
 const ROOM: usize = 4;
-/// Four fifths of normal readings lie within so many deviations.
-const MOST: f64 = 0.8;
-const WITHIN: f64 = 1.2816;
-/// Deviations beyond which a row is an event, and the share of the rms that a deviation is at least: where a joint mostly rests, the
-/// noise of its motion is no event. Choices.
-const FAR: f64 = 4.0;
-const QUIET: f64 = 0.5;
 /// Correlation of neighbours that is told.
 const CORRELATED: f64 = 0.1;
 
@@ -61,9 +53,12 @@ impl Coloured {
             let basis = orthonormal(&white);
             let left = without(&basis, DVector::from_vec(noise.white(reading)));
             let taken = |k: usize| basis.iter().map(|b| b[k] * b[k]).sum::<f64>();
-            let raw = left.iter().zip(&noise.sigma).map(|(l, sigma)| l * sigma);
-            let raw = noise.without_events(raw.collect());
-            let line = |k: usize| (raw[k].powi(2), (1.0 - taken(k)).max(0.0));
+            let line = |k: usize| {
+                (
+                    (left[k] * noise.sigma[k]).powi(2),
+                    (1.0 - taken(k)).max(0.0),
+                )
+            };
             let lines: Vec<(f64, f64)> = (0..reading.len()).map(line).collect();
             noise.sigma = coloured(&lines);
             let each = noise.sigma.iter_mut().zip(least);
@@ -73,18 +68,6 @@ impl Coloured {
         let square = noise.sigma.iter().map(|s| s * s).sum::<f64>() / reading.len() as f64;
         noise.spread.fill(square.sqrt());
         noise
-    }
-
-    /// Lines of what is left without rows that stand far out: a contact that bounces and a friction that lets go are no noise, and are
-    /// wrong for an instant only.
-    fn without_events(&self, mut lines: Vec<f64>) -> Vec<f64> {
-        self.cosine.back(&mut lines);
-        let sizes: Vec<f64> = lines.iter().map(|l| l.abs()).collect();
-        let usual = (quantile(&sizes, MOST) / WITHIN).max(QUIET * rms(&sizes));
-        let most = FAR * usual;
-        lines.iter_mut().for_each(|l| *l = l.clamp(-most, most));
-        self.cosine.transform(&mut lines);
-        lines
     }
 
     fn white(&self, column: &[f64]) -> Vec<f64> {
