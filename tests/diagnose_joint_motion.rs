@@ -187,30 +187,9 @@ fn effects(text: &str) -> Vec<&'static str> {
     found.answer.causes.iter().map(|c| c.effect).collect()
 }
 
-/// Where the torque pays for inertia and friction alone and nobody states a spring, twist that follows the acceleration alone passed as
-/// right whatever friction took of the torque. Friction of the link goes through the spring, whatever the rotor's inertia adds.
+/// A torque that was not measured gives no numbers that are none.
 #[test]
-fn friction_of_an_unloaded_drive_is_told_without_a_stated_spring() {
-    for rotor in [0.0, 0.3, 1.0] {
-        let drag = |v: f64, a: f64| (1.0 + rotor) * INERTIA * a + OIL * v;
-        let of_drive = swung(100.0, 1500, |[_, _, v, a]| {
-            [-INERTIA * a / SPRING, drag(v, a)]
-        });
-        let found = diagnose(&read(&of_drive), None);
-        assert!(
-            holds(&said(&found), "viscous_friction"),
-            "{rotor}: {:?}",
-            said(&found)
-        );
-        let through = |v: f64, a: f64| -(INERTIA * a + OIL * v) / SPRING;
-        let of_link = swung(100.0, 1500, |[_, _, v, a]| [through(v, a), drag(v, a)]);
-        assert_eq!(effects(&of_link), Vec::<&str>::new(), "{rotor}");
-    }
-}
-
-/// A torque that was not measured tells nothing, and gives no numbers that are none.
-#[test]
-fn without_any_torque_nothing_is_presumed() {
+fn without_any_torque_all_numbers_are_numbers() {
     let text = swung(100.0, 1500, |[_, _, _, a]| [-INERTIA * a / SPRING, 0.0]);
     let none: String = text
         .lines()

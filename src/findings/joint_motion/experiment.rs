@@ -67,7 +67,7 @@ impl Experiment for Joint {
 
     fn state_beside(&self, about: &[Blamed], uncertain: &[f64]) -> Statement {
         // the torque is among the nuisances: its amount is the compliance, turned round
-        let presumed = self.presumed_compliance();
+        let presumed = self.presumed.unwrap_or(0.0);
         let compliance = uncertain.get(TORQUE).map_or(presumed, |a| presumed - a);
         let parts: Vec<Vec<f64>> = about.iter().map(|b| b.part.clone()).collect();
         match parts.is_empty() {
@@ -177,12 +177,11 @@ impl Joint {
         let known = |column: Vec<f64>, spread: f64| Nuisance { column, spread };
         let free = |column| known(column, f64::INFINITY);
         let mut all: Vec<Nuisance> = self.base().into_iter().map(free).collect();
-        all[TORQUE].spread = self.spring_spread(about);
+        all[TORQUE].spread = self.spring_spread();
         let declared = DECLARED * self.declared.map_or(0.0, f64::abs);
         all.push(known(data.speed.clone(), declared));
         let lag = LAG_S * partial(&self.beside_torque(), &data.torque, &data.twist).slope;
         all.push(known(data.torque_rate.clone(), lag.abs()));
-        all.extend(self.softer().map(free));
         all.extend(self.missed(about));
         all.extend(self.begun(about));
         let gaps = about.iter().filter(|b| b.effect == backlash::EFFECT.name);

@@ -65,8 +65,7 @@ pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
         true => Err("the twist bends with the torque, so that there is no one stiffness"),
         false => compliance(&joint, &others("")),
     };
-    let stated = joint.presumed.filter(|p| p.is_stated);
-    let told = match stated {
+    let told = match joint.presumed {
         Some(_) => Err(ROTOR),
         None => spring,
     };
@@ -81,7 +80,7 @@ pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
     zero.into_iter().for_each(|s| add(&mut answer, s));
     if let Some(c) = spring.ok().filter(|_| !is_loop) {
         let other = joint.other_stiffness(c, &others(""));
-        let is_rotor = stated.is_some_and(|presumed| c.value < presumed.compliance);
+        let is_rotor = joint.presumed.is_some_and(|presumed| c.value < presumed);
         other.into_iter().for_each(|s| match is_rotor {
             true => ask(&mut answer, s),
             false => add(&mut answer, s),
