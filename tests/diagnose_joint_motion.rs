@@ -146,100 +146,11 @@ fn what_no_cause_makes_takes_no_name() {
 /// A late encoder misses nothing of its law, so that a loop and a jump a tenth as large are seen beside it.
 #[test]
 fn small_causes_are_named_beside_a_large_delay() {
-    let cases = [(54_100_036, "hysteresis"), (54_400_116, "sensor_offset")];
-    let count = common::few_or_all(1, 2) as usize;
-    for (seed, small) in cases.into_iter().take(count) {
+    for (seed, small) in [(54_100_036, "hysteresis"), (54_400_116, "sensor_offset")] {
         let judged = judge::answer(judge::joint_motion::draw(seed));
         let named = |name: &str| judged.causes.iter().any(|c| c.0 == name);
         assert!(named("time_skew") && named(small), "{:?}", judged.causes);
     }
-}
-
-/// A joint that gravity does not load, swung by two sines: a row per reading with the twist and the torque (N·m behind the gear) of
-/// time, speed and acceleration, encoders that scatter by 8 µrad, torques by a hundredth.
-fn swung(rate_hz: f64, rows: usize, of: impl Fn([f64; 4]) -> [f64; 2]) -> String {
-    let mut random = Random::new(11);
-    let mut text = String::from(
-        "# kind = \"joint-motion\"\n# gear_ratio = [100.0]\n\
-         time_s,motor_angle_rad_1,link_angle_rad_1,motor_torque_Nm_1\n",
-    );
-    let (slow, fast) = ([0.5, 1.1, 0.3], [0.2, 2.9, 1.0]);
-    for i in 0..rows {
-        let t = i as f64 / rate_hz;
-        let sum = |f: &dyn Fn([f64; 3]) -> f64| f(slow) + f(fast);
-        let angle = sum(&|[a, w, p]| a * (w * t + p).sin());
-        let speed = sum(&|[a, w, p]| a * w * (w * t + p).cos());
-        let acceleration = sum(&|[a, w, p]| -a * w * w * (w * t + p).sin());
-        let [twist, torque] = of([t, angle, speed, acceleration]);
-        let link = angle + twist + 8e-6 * random.normal();
-        let torque = 1e-2 * torque + 2e-2 * random.normal();
-        text += &format!("{t:.4},{angle:.8},{link:.8},{torque:.5}\n");
-    }
-    text
-}
-
-const SPRING: f64 = 4e5;
-const INERTIA: f64 = 300.0;
-const OIL: f64 = 90.0;
-
-fn effects(text: &str) -> Vec<&'static str> {
-    let found = diagnose(&read(text), None);
-    found.answer.causes.iter().map(|c| c.effect).collect()
-}
-
-/// A torque that was not measured gives no numbers that are none.
-#[test]
-fn without_any_torque_all_numbers_are_numbers() {
-    let text = swung(100.0, 1500, |[_, _, _, a]| [-INERTIA * a / SPRING, 0.0]);
-    let none: String = text
-        .lines()
-        .map(|line| match line.rsplit_once(',') {
-            Some((rest, torque)) if torque.parse::<f64>().is_ok() => format!("{rest},0.0\n"),
-            _ => format!("{line}\n"),
-        })
-        .collect();
-    let found = diagnose(&read(&none), None);
-    let joint = &found.joints[0];
-    assert!(
-        joint
-            .explained
-            .iter()
-            .chain(&joint.simulated)
-            .all(|v| v.is_finite())
-    );
-    assert!(found.answer.discrepancy.rms.is_finite());
-}
-
-/// Clocks that run apart make a delay that grows; oil of the drive beside it is no part of it.
-#[test]
-fn clocks_that_run_apart_are_a_skew() {
-    for oil in [0.0, OIL] {
-        let text = swung(100.0, 1500, |[t, q, v, a]| {
-            let through = 2000.0 * (q + 0.4).cos() + INERTIA * a;
-            [-through / SPRING - 5e-5 * t * v, through + oil * v]
-        });
-        let found = diagnose(&read(&text), None);
-        let skew = found.answer.causes.iter().find(|c| c.effect == "time_skew");
-        let skew = skew.unwrap_or_else(|| panic!("{:?}", said(&found)));
-        let rate = skew.parameters.iter().find(|p| p.0 == "clock_rate");
-        let rate = rate.unwrap_or_else(|| panic!("{oil}: {:?}", skew.parameters));
-        assert!((rate.1 / 5e-5 - 1.0).abs() < 0.1, "{oil}: {rate:?}");
-        let all = said(&found);
-        assert_eq!(holds(&all, "viscous_friction"), oil > 0.0, "{oil}: {all:?}");
-    }
-}
-
-/// A link crosses its gap in tens of milliseconds, and comes to rest anywhere in it.
-#[test]
-fn a_gap_that_is_crossed_in_time_is_a_gap() {
-    let at = std::cell::Cell::new(0.0);
-    let text = swung(200.0, 3000, |[_, _, _, a]| {
-        let torque = INERTIA * a;
-        let side = -1e-4 * torque.signum();
-        at.set(at.get() + (side - at.get()) * (1.0 - (-0.005_f64 / 0.05).exp()));
-        [at.get() - torque / SPRING, torque]
-    });
-    assert_eq!(effects(&text), ["backlash"]);
 }
 
 /// The real run: front matter, header, rows.

@@ -46,8 +46,6 @@ pub struct Channels {
     pub zero: f64,
     /// Wild readings that were replaced by their neighbours.
     pub wild: usize,
-    /// Readings that were averaged to a row.
-    pub block: usize,
     width: usize,
 }
 
@@ -87,7 +85,6 @@ impl Channels {
             time,
             zero,
             wild: wild.len(),
-            block,
         };
         channels.trim();
         channels

@@ -4,7 +4,7 @@ use super::channels::{Channels, largest};
 use super::joint::{Joint, TORQUE};
 use super::patterns::PATTERNS;
 use super::projection::partial;
-use super::{EFFECTS, backlash, ripple, sensor_offset, time_skew};
+use super::{EFFECTS, ripple, sensor_offset};
 use crate::findings::engine::{
     Aspects, Blamed, Experiment, Judgement, Nuisance, Remaining, Statement, Suspect,
 };
@@ -135,9 +135,7 @@ impl Joint {
                 "viscous_friction" => {
                     deny(&mut suspects, self.denied(blamed.amounts[0], compliance))
                 }
-                "time_skew" if !time_skew::grows(blamed) => {
-                    deny(&mut suspects, self.denied(-blamed.amounts[0], compliance))
-                }
+                "time_skew" => deny(&mut suspects, self.denied(-blamed.amounts[0], compliance)),
                 _ => {}
             }
         }
@@ -184,8 +182,6 @@ impl Joint {
         all.push(known(data.torque_rate.clone(), lag.abs()));
         all.extend(self.missed(about));
         all.extend(self.begun(about));
-        let gaps = about.iter().filter(|b| b.effect == backlash::EFFECT.name);
-        all.extend(gaps.flat_map(|b| backlash::flanks(self, b)));
         let small = self.waves.iter().filter(|w| w.is_small);
         all.extend(small.flat_map(|w| w.columns.clone()).map(free));
         all.retain(|n| n.spread > 0.0);

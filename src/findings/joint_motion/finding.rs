@@ -8,7 +8,6 @@ use super::patterns::{BENT, MESHING};
 use super::projection;
 use super::remarks::FOR_STIFFNESS;
 use super::stiffness::{Compliance, compliance};
-use super::time_skew;
 use crate::findings::answer::{Answer, Cause, Group, Verdict};
 use crate::findings::engine::{Experiment, Found, diagnose};
 use crate::findings::gain::Gain;
@@ -69,8 +68,7 @@ pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
         Some(_) => Err(ROTOR),
         None => spring,
     };
-    let is_one = blamed.iter().all(|b| !time_skew::grows(b));
-    let delay = (has("time_skew") && is_one).then(|| delay(&joint, &others("time_skew")));
+    let delay = has("time_skew").then(|| delay(&joint, &others("time_skew")));
     let is_loop = blamed.iter().any(|b| b.effect == "hysteresis"); // it has no one stiffness
     answer
         .causes

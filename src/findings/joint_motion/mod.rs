@@ -22,7 +22,6 @@ mod joint;
 mod jumps;
 mod missed;
 mod noise;
-mod orders;
 mod patterns;
 mod presliding;
 mod presumed;
