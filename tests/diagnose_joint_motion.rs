@@ -243,7 +243,6 @@ fn thinned_and_cut_the_real_run_says_the_same() {
 }
 
 #[test]
-#[ignore = "thorough"]
 fn with_the_skew_declared_nothing_is_invented() {
     let Some((facts, header, rows)) = real_run() else {
         return;
