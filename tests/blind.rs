@@ -355,7 +355,7 @@ fn a_missing_cause_is_not_invented() {
 
 /// The stated interval of the gain covers the gain that the generator knows.
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn gains_are_honest() {
     let kinds = product(
         &[

@@ -69,7 +69,7 @@ fn hidden_causes_are_found() {
 /// A foundation that turns about an oblique axis, and links that bend off their middle about one: named at their place,
 /// nothing invented.
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn oblique_bends_are_named_at_their_place() {
     for kind in OBLIQUE {
         let kinds: Vec<(String, u64)> = seeds(per_kind(2))
@@ -82,12 +82,12 @@ fn oblique_bends_are_named_at_their_place() {
     }
 }
 
-/// Files read, whole: every twelfth kind, the program reads them all when it judges them.
+/// Files read, whole: every fourth kind, the program reads them all when it judges them.
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn files_read() {
     let kinds = kinds(&HAMMER_EFFECTS, &HAMMER_OUTSIDE, 1);
-    kinds.par_iter().step_by(12).for_each(|(kind, seed)| {
+    kinds.par_iter().step_by(4).for_each(|(kind, seed)| {
         let case = hammer_case(kind, *seed);
         let folder = tempfile::tempdir().unwrap();
         let record = read_hammer(&case.write(folder.path())).unwrap();

@@ -54,7 +54,6 @@ fn sizes(
 }
 
 #[test]
-#[ignore = "thorough"]
 fn the_mirror_takes_four_fifths_of_a_coupled_cut_away_and_most_of_it_on_plants_ten_percent_off() {
     let folder = tempfile::tempdir().unwrap();
     let (planned, setup) = ready(&job(folder.path(), CORNER, 1500.0, ""));
@@ -110,7 +109,6 @@ fn corrections_are_normal_to_the_feed_and_smooth() {
 }
 
 #[test]
-#[ignore = "thorough"]
 fn measuring_while_cutting_leaves_about_half_at_the_exit_and_the_pilot_force_takes_it_away() {
     let folder = tempfile::tempdir().unwrap();
     let (planned, setup) = ready(&job(folder.path(), DEEP, 1500.0, ""));

@@ -31,7 +31,6 @@ fn known_to(mut setup: Setup, spread: f64) -> Setup {
 }
 
 #[test]
-#[ignore = "thorough"]
 fn the_interval_of_what_is_left_holds_the_truth_and_yes_is_never_wrong() {
     let asked = std::env::var("IDENT_COVERAGE_PLANTS").ok();
     let plants: u64 = asked.and_then(|n| n.parse().ok()).unwrap_or(8);

@@ -562,7 +562,7 @@ fn only(found: &[(String, String)], effect: &str, site: &str) {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn springs_that_are_softer_than_stated_are_named_and_nothing_where_all_is_right() {
     assert!(named(&|_| 1.0, &NOTHING).is_empty());
     for (site, effect) in [
@@ -640,7 +640,7 @@ fn a_frame_that_moved_is_named() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn a_wrong_load_is_named() {
     let gain = Hidden {
         load: |load| load.map(|x| 1.06 * x),
@@ -682,7 +682,7 @@ fn a_sensor_that_gives_way_and_is_not_stated_is_a_soft_tool() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn a_load_that_reads_wrong_and_points_elsewhere_is_named_as_both() {
     let both = Hidden {
         load: |[a, b, c, d, e, f]| {

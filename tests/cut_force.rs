@@ -124,7 +124,7 @@ fn intervals_hold_the_truth_under_white_noise() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn intervals_hold_the_truth_under_coloured_noise() {
     let share = held("coloured, 800 Hz", &recording(Some(800.0), 4.0, 0.6));
     assert!(share > 0.91, "{share}");
@@ -165,7 +165,7 @@ fn the_runout_is_found_but_for_the_name_of_the_first_tooth() {
 /// The names of the teeth are chosen in every cut so that the runouts point one way: noise must not pass for one by that. At
 /// three deviations, however many names there are, it did on these of the seeds 300 to 399.
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn noise_alone_shows_no_runout() {
     let cutter = Cutter {
         radius: 6e-3,

@@ -101,7 +101,7 @@ fn frac_of_all(document: &Value) -> f64 {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn several_poses_fix_more_than_one() {
     let folder = tempfile::tempdir().unwrap();
     let (first, truth) = strike("kr210", POSE, 1.3);
@@ -124,7 +124,7 @@ fn several_poses_fix_more_than_one() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn the_mass_of_the_tool_is_found_when_released() {
     let folder = tempfile::tempdir().unwrap();
     let (file, _) = strike("kr210", POSE, 1.0);
@@ -157,7 +157,7 @@ fn the_mass_of_the_tool_is_found_when_released() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn elastic_frames_are_tuned_like_joints() {
     let folder = tempfile::tempdir().unwrap();
     let (file, truth) = strike("kr300", [15.0, -80.0, 95.0, 40.0, 50.0, -30.0], 1.5);
@@ -225,7 +225,7 @@ fn universal(path: &Path) -> UniversalFile {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn universal_files_give_what_the_csv_gives() {
     let folder = tempfile::tempdir().unwrap();
     let csv = example("hammer.csv");
@@ -315,7 +315,7 @@ fn constants(site: &str, name: &str) -> [f64; 2] {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn one_direction_invents_nothing_and_its_combinations_hold_the_truth() {
     let folder = tempfile::tempdir().unwrap();
     only_z(folder.path());
@@ -376,7 +376,7 @@ fn remarks(direction: &str, column: usize, factor: f64) -> String {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn broken_reciprocity_and_a_turned_sensor_are_shown() {
     let not_reciprocal = remarks("y", 4, 1.6);
     assert!(

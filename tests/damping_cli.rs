@@ -213,7 +213,7 @@ fn fits_report_and_robot_are_written_and_repeat_byte_for_byte() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn play_is_seen_as_an_frf_that_damping_alone_does_not_meet() {
     let folder = workspace();
     let file = "measurements/kr210/hammer-backlash.csv";

@@ -42,7 +42,7 @@ fn truth(seed: u64) -> Truth {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn intervals_of_dampings_cover_the_truth() {
     let folder = tempfile::tempdir().unwrap();
     let request = Request {

@@ -110,7 +110,7 @@ fn after_nine_points_of_the_workspace() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn after_a_whole_run() {
     let folder = workspace();
     ident(folder.path(), &["run", "measurements/kr210"]);
@@ -161,7 +161,7 @@ fn wrong_stiffnesses_are_held_when_stated_and_named_when_not() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn a_model_that_is_plainly_wrong_tells_no_constants() {
     let folder = workspace();
     let file = "measurements/kr210/hammer-backlash.csv";

@@ -138,7 +138,7 @@ fn intervals_of_dampings_hold_on_robots_of_others() {
 
 /// Eight robots and not fewer: of the first six alone 55 of 62 intervals hold (of thirty, 302 of 314).
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn dampings_are_told_though_nobody_knows_bodies_exactly() {
     holds(&all("uncertain", 8, uncertain_case));
 }

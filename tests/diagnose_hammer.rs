@@ -79,7 +79,7 @@ fn a_wrong_stiffness_is_named_with_its_place_and_size() {
 
 /// Of one hit a direction none can be left out, and no scatter is known: lines are.
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn a_wrong_stiffness_is_named_by_one_hit_a_direction() {
     let mut robot = struck();
     for (site, spring) in robot.springs_mut() {
@@ -104,7 +104,7 @@ fn a_wrong_stiffness_is_named_by_one_hit_a_direction() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn a_missing_tilt_is_named() {
     let mut robot = struck();
     robot.joints[2].tilt = None;
@@ -113,7 +113,7 @@ fn a_missing_tilt_is_named() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn an_instrument_is_blamed_for_its_own_faults() {
     let mut record = example();
     for run in &mut record.runs {
@@ -139,7 +139,7 @@ fn an_instrument_is_blamed_for_its_own_faults() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn an_undeclared_window_is_no_damping() {
     let mut record = example();
     let step = record.interval_s;

@@ -221,7 +221,7 @@ fn a_real_kr300_has_a_skew_on_every_axis_and_no_stiffness() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn thinned_and_cut_the_real_run_says_the_same() {
     let Some((facts, header, rows)) = real_run() else {
         return;

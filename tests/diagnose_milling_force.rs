@@ -157,7 +157,7 @@ fn a_cut_as_it_is_stated_is_sufficient() {
 
 /// A bandwidth is stated to a fifth, so that one that is off by less is no other depth of cut.
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn a_bandwidth_that_is_a_little_off_is_no_cause() {
     for wider in [0.94, 1.07] {
         let mut bench = Bench::new(2);
@@ -197,7 +197,7 @@ fn an_axis_without_ripple_is_no_unrelated_record() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn other_coefficients_are_named() {
     let mut bench = Bench::new(3);
     (0..3).for_each(|j| bench.truth[j] *= 1.25);
@@ -208,7 +208,7 @@ fn other_coefficients_are_named() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn another_engagement_is_named() {
     let mut bench = Bench::new(3);
     bench.done[2..].iter_mut().for_each(|p| p.width += 0.4);
@@ -219,7 +219,7 @@ fn another_engagement_is_named() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn another_speed_is_named_however_many_turns_it_costs() {
     for error in [0.004, -0.03] {
         let mut bench = Bench::new(3);
@@ -233,7 +233,7 @@ fn another_speed_is_named_however_many_turns_it_costs() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn what_the_sensor_makes_of_a_force_is_named() {
     let bench = Bench::new(3);
     is_named(&bench.found(|r| r[3] *= 1.15), "force_gain");
@@ -242,7 +242,7 @@ fn what_the_sensor_makes_of_a_force_is_named() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn what_changes_with_time_is_named() {
     let bench = Bench::new(3);
     is_named(&bench.found(|r| r[2] += 60.0 * r[1]), "thermal_drift");
@@ -257,7 +257,7 @@ fn what_changes_with_time_is_named() {
 
 /// A drift over the root of time is no drift towards an end with an offset beside it, and is told by how far it has come.
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn a_drift_of_another_shape_is_one_drift() {
     let bench = Bench::new(3);
     let rows = bench.rows();
@@ -270,7 +270,7 @@ fn a_drift_of_another_shape_is_one_drift() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn teeth_that_do_not_run_alike_are_named() {
     let mut bench = Bench::new(4);
     bench.cutter.runout = 14e-6;
@@ -286,7 +286,7 @@ fn teeth_that_do_not_run_alike_are_named() {
 /// Of two teeth one is shorter in an eccentric tool as in a broken one; a runout is among what is named all the same, wherever
 /// it points.
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn a_runout_of_two_teeth_is_among_what_is_named() {
     for angle in [0.3, 1.2] {
         let mut bench = Bench::new(2);
@@ -296,7 +296,7 @@ fn a_runout_of_two_teeth_is_among_what_is_named() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn a_sensor_that_rings_is_named_with_its_frequency() {
     let mut bench = Bench::new(3);
     bench.ring = Some([1330.0, 0.06, 1.0]);
@@ -312,7 +312,7 @@ fn a_sensor_that_rings_is_named_with_its_frequency() {
 
 /// An offset that is smaller than what a resonance's law misses is none of what it misses: no resonance shifts a mean.
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn an_offset_beside_a_sensor_that_rings_is_named() {
     let mut bench = Bench::new(3);
     bench.ring = Some([1330.0, 0.06, 1.0]);

@@ -22,7 +22,7 @@ fn slow_noise(rows: &mut [[f64; 5]], channels: std::ops::Range<usize>, size: f64
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn noise_that_rises_towards_low_frequencies_is_no_cause() {
     let bench = Bench::new(3);
     // one amplifier may be worse than the others
@@ -41,7 +41,7 @@ fn noise_that_rises_towards_low_frequencies_is_no_cause() {
 
 /// A spindle that swings by a degree and a half: every reading is that of a moment before or after.
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn a_spindle_that_swings_is_no_chatter() {
     let bench = Bench::new(3);
     let rows = bench.rows();
@@ -108,7 +108,7 @@ fn what_every_laboratory_has_is_no_fault() {
 
 /// A charge that leaks away within a fifth of a second of cutting: what lasts is forgotten.
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn a_charge_that_leaks_is_no_story_of_drift_and_offset() {
     let bench = Bench::new(3);
     let mut rows = bench.rows();

@@ -41,7 +41,7 @@ fn tuned(seed: u64, stiffness: bool, only_z: bool) -> Account {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn most_starts_reach_the_same_place() {
     let cases = [
         (false, false, 1.0),
@@ -57,7 +57,6 @@ fn most_starts_reach_the_same_place() {
 }
 
 #[test]
-#[ignore = "thorough"]
 fn the_result_does_not_depend_on_the_threads() {
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);

@@ -229,7 +229,7 @@ fn windowed_noise(pair: &Measured, random: &mut Random) -> Vec<Complex64> {
 
 /// Early modes end before the window does, late ones long after: each by its own measure.
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn intervals_hold_for_every_constant_under_a_window() {
     const TESTS: u64 = 60;
     let mut squares = [0.0; BLIND];

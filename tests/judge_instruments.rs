@@ -97,7 +97,7 @@ fn a_hum_is_no_chatter() {
 /// What the straight line of a cause misses on its way is no second cause: a runout was named beside worn edges, a width
 /// and another channel's gain in the place of one gain.
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn a_bend_is_no_companion() {
     for (seed, name) in some([
         (46_400_025, "edge_coefficients"),
@@ -110,7 +110,7 @@ fn a_bend_is_no_companion() {
 /// A depth stood beside what rings and a width: it fitted only where all that is uncertain moved against it, and tripled the error of the
 /// simulation as it is used. A drift does that as well where it is all that is wrong, and unseen rows tell of it.
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn a_companion_that_makes_the_simulation_worse_is_none() {
     for (seed, expected) in some([
         (50_100_009, vec!["sensor_resonance", "width_of_cut"]),
@@ -125,7 +125,7 @@ fn a_companion_that_makes_the_simulation_worse_is_none() {
 /// A speed that is accounted for turns no tooth: the angles were sought again as if it were not, and a depth was named in the
 /// one, a drift in the other.
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn an_offset_beside_a_wrong_speed_is_found() {
     for seed in some([43_300_012, 43_400_012]) {
         let mut all = names(seed);
@@ -172,7 +172,7 @@ fn on_the_floor(text: &str, random: &mut Random) -> String {
 /// A cube of the foundation may sit on the foot, which a soft foundation lets move, or on the floor beside it: it is loose in
 /// neither case.
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn a_cube_on_the_floor_is_not_loose() {
     let is_soft =
         |case: &judge::Case| matches!(&case.truths[..], [t] if t.effect == "base_compliance");

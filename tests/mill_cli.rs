@@ -275,7 +275,7 @@ fn a_controller_that_leads_beside_the_path_is_in_the_deviation() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn limits_along_the_path_are_those_of_its_stations() {
     let folder = job();
     let here = folder.path();

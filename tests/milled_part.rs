@@ -279,7 +279,7 @@ fn single_causes_are_named_and_sound_parts_are_left_alone() {
 
 /// A probe that reads by direction is no rival of an offset where all walls face one way: the program had called it one.
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn a_slot_tells_an_offset_and_no_lobes() {
     let folder = tempfile::tempdir().unwrap();
     let (_, setup) = ready(&job(folder.path(), SLOT, 1200.0, ""));
@@ -291,7 +291,7 @@ fn a_slot_tells_an_offset_and_no_lobes() {
 
 /// A block that stands elsewhere is cut elsewhere, and what that changes is neither harder nor softer material.
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn a_block_that_stands_elsewhere_is_told_alone() {
     let offset_mm = [0.25, -0.2, 0.3];
     let folder = tempfile::tempdir().unwrap();

@@ -149,7 +149,7 @@ fn before_and_after(joint: usize) -> [Value; 2] {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn a_straight_wrist_cannot_tell_a4_from_a6_and_the_proposed_set_ups_name_a4() {
     let [first, next] = before_and_after(3);
     assert_eq!(first["verdict"], "cannot-tell", "{first:#}");

@@ -123,7 +123,6 @@ fn median(sorted: &[f64]) -> f64 {
 }
 
 #[test]
-#[ignore = "thorough"]
 fn intervals_cover_as_often_as_they_say() {
     let truth = truth();
     let runs: Vec<(&LoadCycleTruth, u64)> = truth
@@ -169,7 +168,7 @@ fn intervals_cover_as_often_as_they_say() {
 const MAY_BE_ABSENT: [&str; 4] = ["backlash", "width", "hysteresis_loss", "loss_factor"];
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn what_may_be_absent_is_a_limit_and_never_an_interval_around_zero() {
     let truth = truth();
     let plain = LoadCycleTruth {

@@ -70,7 +70,7 @@ fn check(answer: &Value, points: &[Point], [hz, damping, mac]: [f64; 3]) {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn shapes_at_109_points_come_back_with_noise() {
     let points = points();
     assert_eq!(points.len(), 109);

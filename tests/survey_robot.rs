@@ -207,7 +207,7 @@ fn every_measured_mode_finds_its_simulated_one() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn what_is_not_certain_is_refused() {
     let says = |links: &str, told: &str| {
         let (bench, _) = laboratory(links);

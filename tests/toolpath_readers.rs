@@ -631,7 +631,7 @@ fn a_format_is_recognised_by_its_first_lines_and_binary_files_are_refused() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn ten_megabytes_are_read_in_seconds() {
     let start = std::time::Instant::now();
     let many = 10_000_000 / 30;

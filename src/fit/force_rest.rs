@@ -3,7 +3,7 @@
 use super::force_steps::{Reading, SetupSteps, WILD, Weighted, spread, weighted};
 use super::rounding::Rounding;
 
-/// No mean of readings is known better, m: readings that are made may have no noise at all.
+/// No mean of readings is known better, m: readings that are made may have no noise at all. Below every sensor; else a choice.
 const EXACT: f64 = 1e-12;
 
 /// What the line of one component in one set-up leaves.

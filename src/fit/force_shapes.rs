@@ -69,7 +69,7 @@ impl Shapes {
                 let squares: f64 = left.iter().zip(&rest.kept).map(|(l, w)| w * l * l).sum();
                 let freedom = used - 1.0 - rest.cycles as f64;
                 line.slope = fit.slope;
-                // readings as few as unknowns do not scatter: they were used for the noise that is stated
+                // no more readings than unknowns do not scatter: only a stated noise made a line of them
                 let scatter = match freedom > 0.0 {
                     true => (squares / freedom).sqrt(),
                     false => self.stated.unwrap_or(line.scatter),

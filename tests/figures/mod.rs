@@ -116,7 +116,7 @@ fn nothing_to_draw_is_no_reason_to_panic() {
 }
 
 #[test]
-#[ignore = "thorough"]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn a_million_points_stay_small() {
     let wave = |i: usize| (i as f64 * 1e-4).sin() + 0.1 * noise(i);
     let in_time: Vec<[f64; 2]> = (0..1_000_000).map(|i| [i as f64, wave(i)]).collect();
