@@ -153,6 +153,95 @@ fn small_causes_are_named_beside_a_large_delay() {
     }
 }
 
+/// A joint that gravity does not load, swung by two sines: a row per reading with the twist and the torque (N·m behind the gear) of
+/// time, speed and acceleration, encoders that scatter by 8 µrad, torques by a hundredth.
+fn swung(rate_hz: f64, rows: usize, of: impl Fn([f64; 4]) -> [f64; 2]) -> String {
+    let mut random = Random::new(11);
+    let mut text = String::from(
+        "# kind = \"joint-motion\"\n# gear_ratio = [100.0]\n\
+         time_s,motor_angle_rad_1,link_angle_rad_1,motor_torque_Nm_1\n",
+    );
+    let (slow, fast) = ([0.5, 1.1, 0.3], [0.2, 2.9, 1.0]);
+    for i in 0..rows {
+        let t = i as f64 / rate_hz;
+        let sum = |f: &dyn Fn([f64; 3]) -> f64| f(slow) + f(fast);
+        let angle = sum(&|[a, w, p]| a * (w * t + p).sin());
+        let speed = sum(&|[a, w, p]| a * w * (w * t + p).cos());
+        let acceleration = sum(&|[a, w, p]| -a * w * w * (w * t + p).sin());
+        let [twist, torque] = of([t, angle, speed, acceleration]);
+        let link = angle + twist + 8e-6 * random.normal();
+        let torque = 1e-2 * torque + 2e-2 * random.normal();
+        text += &format!("{t:.4},{angle:.8},{link:.8},{torque:.5}\n");
+    }
+    text
+}
+
+const SPRING: f64 = 4e5;
+const INERTIA: f64 = 300.0;
+const OIL: f64 = 90.0;
+
+fn effects(text: &str) -> Vec<&'static str> {
+    let found = diagnose(&read(text), None);
+    found.answer.causes.iter().map(|c| c.effect).collect()
+}
+
+/// Where the torque pays for inertia and friction alone and nobody states a spring, twist that follows the acceleration alone passed as
+/// right whatever friction took of the torque. Friction of the link goes through the spring, whatever the rotor's inertia adds.
+#[test]
+fn friction_of_an_unloaded_drive_is_told_without_a_stated_spring() {
+    for rotor in [0.0, 0.3, 1.0] {
+        let drag = |v: f64, a: f64| (1.0 + rotor) * INERTIA * a + OIL * v;
+        let of_drive = swung(100.0, 1500, |[_, _, v, a]| {
+            [-INERTIA * a / SPRING, drag(v, a)]
+        });
+        let found = diagnose(&read(&of_drive), None);
+        assert!(
+            holds(&said(&found), "viscous_friction"),
+            "{rotor}: {:?}",
+            said(&found)
+        );
+        let through = |v: f64, a: f64| -(INERTIA * a + OIL * v) / SPRING;
+        let of_link = swung(100.0, 1500, |[_, _, v, a]| [through(v, a), drag(v, a)]);
+        assert_eq!(effects(&of_link), Vec::<&str>::new(), "{rotor}");
+    }
+}
+
+/// A torque that was not measured tells nothing, and gives no numbers that are none.
+#[test]
+fn without_any_torque_nothing_is_presumed() {
+    let text = swung(100.0, 1500, |[_, _, _, a]| [-INERTIA * a / SPRING, 0.0]);
+    let none: String = text
+        .lines()
+        .map(|line| match line.rsplit_once(',') {
+            Some((rest, torque)) if torque.parse::<f64>().is_ok() => format!("{rest},0.0\n"),
+            _ => format!("{line}\n"),
+        })
+        .collect();
+    let found = diagnose(&read(&none), None);
+    let joint = &found.joints[0];
+    assert!(
+        joint
+            .explained
+            .iter()
+            .chain(&joint.simulated)
+            .all(|v| v.is_finite())
+    );
+    assert!(found.answer.discrepancy.rms.is_finite());
+}
+
+/// A link crosses its gap in tens of milliseconds, and comes to rest anywhere in it.
+#[test]
+fn a_gap_that_is_crossed_in_time_is_a_gap() {
+    let at = std::cell::Cell::new(0.0);
+    let text = swung(200.0, 3000, |[_, _, _, a]| {
+        let torque = INERTIA * a;
+        let side = -1e-4 * torque.signum();
+        at.set(at.get() + (side - at.get()) * (1.0 - (-0.005_f64 / 0.05).exp()));
+        [at.get() - torque / SPRING, torque]
+    });
+    assert_eq!(effects(&text), ["backlash"]);
+}
+
 /// The real run: front matter, header, rows.
 fn real_run() -> Option<(Vec<String>, String, Vec<String>)> {
     let text = std::fs::read_to_string(common::shared("kr300/run_a.csv")?).unwrap();

@@ -46,6 +46,8 @@ pub struct Channels {
     pub zero: f64,
     /// Wild readings that were replaced by their neighbours.
     pub wild: usize,
+    /// Readings that were averaged to a row.
+    pub block: usize,
     width: usize,
 }
 
@@ -85,6 +87,7 @@ impl Channels {
             time,
             zero,
             wild: wild.len(),
+            block,
         };
         channels.trim();
         channels

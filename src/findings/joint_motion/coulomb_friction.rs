@@ -11,7 +11,7 @@ use crate::findings::table::{Effect, Place};
 /// Shares of the top speed over which friction changes sign.
 const SIGN_WIDTHS: [f64; 3] = [0.005, 0.03, 0.1];
 /// Share of the top speed below which a joint rests.
-const AT_REST: f64 = 0.01;
+pub(super) const AT_REST: f64 = 0.01;
 /// What of the friction of the last motion may hold through a rest.
 const HELD: [f64; 2] = [0.6, 1.0];
 

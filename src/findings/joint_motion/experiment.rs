@@ -4,7 +4,7 @@ use super::channels::{Channels, largest};
 use super::joint::{Joint, TORQUE};
 use super::patterns::PATTERNS;
 use super::projection::partial;
-use super::{EFFECTS, ripple, sensor_offset};
+use super::{EFFECTS, backlash, ripple, sensor_offset};
 use crate::findings::engine::{
     Aspects, Blamed, Experiment, Judgement, Nuisance, Remaining, Statement, Suspect,
 };
@@ -67,7 +67,7 @@ impl Experiment for Joint {
 
     fn state_beside(&self, about: &[Blamed], uncertain: &[f64]) -> Statement {
         // the torque is among the nuisances: its amount is the compliance, turned round
-        let presumed = self.presumed.unwrap_or(0.0);
+        let presumed = self.presumed_compliance();
         let compliance = uncertain.get(TORQUE).map_or(presumed, |a| presumed - a);
         let parts: Vec<Vec<f64>> = about.iter().map(|b| b.part.clone()).collect();
         match parts.is_empty() {
@@ -175,13 +175,16 @@ impl Joint {
         let known = |column: Vec<f64>, spread: f64| Nuisance { column, spread };
         let free = |column| known(column, f64::INFINITY);
         let mut all: Vec<Nuisance> = self.base().into_iter().map(free).collect();
-        all[TORQUE].spread = self.spring_spread();
+        all[TORQUE].spread = self.spring_spread(about);
         let declared = DECLARED * self.declared.map_or(0.0, f64::abs);
         all.push(known(data.speed.clone(), declared));
         let lag = LAG_S * partial(&self.beside_torque(), &data.torque, &data.twist).slope;
         all.push(known(data.torque_rate.clone(), lag.abs()));
+        all.extend(self.softer().map(free));
         all.extend(self.missed(about));
         all.extend(self.begun(about));
+        let gaps = about.iter().filter(|b| b.effect == backlash::EFFECT.name);
+        all.extend(gaps.flat_map(|b| backlash::flanks(self, b)));
         let small = self.waves.iter().filter(|w| w.is_small);
         all.extend(small.flat_map(|w| w.columns.clone()).map(free));
         all.retain(|n| n.spread > 0.0);

@@ -64,7 +64,8 @@ pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
         true => Err("the twist bends with the torque, so that there is no one stiffness"),
         false => compliance(&joint, &others("")),
     };
-    let told = match joint.presumed {
+    let stated = joint.presumed.filter(|p| p.is_stated);
+    let told = match stated {
         Some(_) => Err(ROTOR),
         None => spring,
     };
@@ -78,7 +79,7 @@ pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
     zero.into_iter().for_each(|s| add(&mut answer, s));
     if let Some(c) = spring.ok().filter(|_| !is_loop) {
         let other = joint.other_stiffness(c, &others(""));
-        let is_rotor = joint.presumed.is_some_and(|presumed| c.value < presumed);
+        let is_rotor = stated.is_some_and(|presumed| c.value < presumed.compliance);
         other.into_iter().for_each(|s| match is_rotor {
             true => ask(&mut answer, s),
             false => add(&mut answer, s),
@@ -136,10 +137,7 @@ fn ask(answer: &mut Answer, cause: Cause) {
 /// The noise, and what is left beyond it where more is wrong than is named, rms, rad.
 fn sizes(answer: &Answer, left: &[f64]) -> (f64, f64) {
     let noise = answer.discrepancy.noise_rms;
-    let is_open = matches!(
-        answer.verdict,
-        Verdict::UnknownCause | Verdict::PartlyExplained
-    );
+    let is_open = answer.is_open();
     let beyond = (rms(left).powi(2) - noise * noise).max(0.0).sqrt();
     (noise, if is_open { beyond } else { 0.0 })
 }
@@ -171,11 +169,9 @@ impl Joint {
 
     /// The pattern that is seen and not named; of meshing teeth with their orders.
     fn seen(&self, answer: &Answer) -> Option<String> {
-        let open = matches!(
-            answer.verdict,
-            Verdict::UnknownCause | Verdict::PartlyExplained
-        );
-        let seen = open.then(|| answer.unexplained.description.clone())?;
+        let seen = answer
+            .is_open()
+            .then(|| answer.unexplained.description.clone())?;
         if seen != MESHING {
             return Some(seen);
         }

@@ -65,9 +65,18 @@ impl Friction {
 
     /// A torque less this friction.
     pub fn less(&self, data: &Channels, torque: &[f64]) -> Vec<f64> {
+        self.added(data, torque, -1.0)
+    }
+
+    /// A torque with this friction.
+    pub fn with(&self, data: &Channels, torque: &[f64]) -> Vec<f64> {
+        self.added(data, torque, 1.0)
+    }
+
+    fn added(&self, data: &Channels, torque: &[f64], times: f64) -> Vec<f64> {
         let sign = sign(data);
         let viscous = self.viscous.max(0.0);
-        let less = |i: usize| torque[i] - self.dry * sign[i] - viscous * data.speed[i];
-        (0..data.rows()).map(less).collect()
+        let sum = |i: usize| torque[i] + times * (self.dry * sign[i] + viscous * data.speed[i]);
+        (0..data.rows()).map(sum).collect()
     }
 }

@@ -7,7 +7,7 @@ use super::gear_torque::gear_torque;
 use super::jumps::jumps;
 use super::missed::SMOOTH;
 use super::noise::Coloured;
-use super::presumed::presumed;
+use super::presumed::{Presumed, presumed};
 use super::projection::{self, partial};
 use super::ripple::{Wave, waves};
 use crate::findings::engine::Suspect;
@@ -37,8 +37,8 @@ pub struct Joint {
     pub zero_std: Option<f64>,
     /// The present simulation.
     pub nominal: Nominal,
-    /// Its compliance where the motion shows none, rad/(N·m).
-    pub presumed: Option<f64>,
+    /// Its spring where the motion shows none.
+    pub presumed: Option<Presumed>,
     /// Its channels.
     pub data: Channels,
     /// Torque in the gear, N·m.
@@ -71,7 +71,7 @@ impl Joint {
             zero_std: record.zero_std,
             nominal,
             presumed,
-            geared: gear_torque(&data, &data.twist, presumed),
+            geared: gear_torque(&data, &data.twist, presumed.map(|p| p.compliance)),
             friction: Friction::of(&data),
             jumps: jumps(&rough),
             waves: waves(&data, &rough, record.ratio),
@@ -99,7 +99,7 @@ impl Joint {
         let part = |i: usize| parts.iter().map(|p| p[i]).sum::<f64>();
         let twist: Vec<f64> = self.column(|i| self.data.twist[i] - part(i));
         let rough = rough(&self.data, &twist);
-        joint.geared = gear_torque(&self.data, &twist, self.presumed);
+        joint.geared = gear_torque(&self.data, &twist, self.presumed.map(|p| p.compliance));
         let new = jumps(&rough).into_iter();
         joint
             .jumps

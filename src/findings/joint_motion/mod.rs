@@ -22,6 +22,7 @@ mod joint;
 mod jumps;
 mod missed;
 mod noise;
+mod orders;
 mod patterns;
 mod presliding;
 mod presumed;

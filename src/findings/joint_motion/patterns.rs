@@ -33,7 +33,7 @@ pub(super) const PATTERNS: &[Pattern<Joint>] = &[
     Pattern {
         name: "late",
         summary: "a twist that follows the torque late, as what creeps does",
-        members: |joint| flexible(LATE_S.map(|late| lagging(joint, late)).to_vec()),
+        members: |joint| flexible(LATE_S.map(|late| creeping(joint, late)).to_vec()),
     },
     Pattern {
         name: "angle",
@@ -77,13 +77,18 @@ fn changed(joint: &Joint) -> Vec<Member> {
 const LATE_S: [f64; 3] = [0.1, 0.3, 0.9];
 
 /// What the torque's recent past adds to the twist beyond the torque itself.
-fn lagging(joint: &Joint, late: f64) -> Vec<f64> {
-    let (time, torque) = (&joint.data.time, &joint.geared);
-    let mut at = torque[0];
+fn creeping(joint: &Joint, late: f64) -> Vec<f64> {
+    let past = lagging(&joint.data.time, &joint.geared, late);
+    joint.column(|i| past[i] - joint.geared[i])
+}
+
+/// What follows values with a time constant, s.
+pub(super) fn lagging(time: &[f64], values: &[f64], late: f64) -> Vec<f64> {
+    let mut at = values[0];
     let of = |i: usize| {
         let step = time[i] - time[i.saturating_sub(1)];
-        at += (torque[i] - at) * (1.0 - (-step / late).exp());
-        at - torque[i]
+        at += (values[i] - at) * (1.0 - (-step / late).exp());
+        at
     };
     (0..time.len()).map(of).collect()
 }

@@ -1,34 +1,134 @@
 //! A spring that a motion does not show: torque that pays for inertia and friction alone, as where gravity loads no joint. The
 //! inertia of the rotor, which nobody states, would make any twist of it, so that the spring of the simulation, as well as it
-//! is known, takes the place of one that is fitted.
+//! is known, takes the place of one that is fitted; where nobody states any, the stiffest that there can be.
 
 use super::channels::Channels;
 use super::coulomb_friction::dry;
 use super::joint::{Joint, Nominal, TORQUE, base};
-use super::projection::left;
+use super::projection::{left, partial};
+use super::{backlash, hysteresis};
+use crate::findings::engine::Blamed;
 use crate::ground::stats::{mean, rms};
 
 /// Share of the torque, rms, that inertia and friction must leave of it: laws of friction miss less.
 const OWN: f64 = 0.1;
 
-/// Compliance that is presumed, rad/(N·m); none where the motion shows one, or nobody says any.
-pub(super) fn presumed(data: &Channels, ratio: Option<f64>, nominal: Nominal) -> Option<f64> {
-    let stiffness = nominal.stiffness.filter(|_| ratio.is_some())?;
-    let mut beside = base(data);
-    beside.remove(TORQUE);
-    beside.push(data.speed.clone());
-    beside.extend(dry(data));
+/// Standard errors that a slope over the acceleration must be away from none, as errors of rows that depend on one another are
+/// larger than they say; and the share of a compliance to which dry friction must tell it. Choices.
+const SEEN: f64 = 10.0;
+const KNOWN: f64 = 0.1;
+/// Relative standard deviation of a spring that is the stiffest there can be: of the slopes that it is told from. A choice.
+const STIFFEST: f64 = 0.05;
+/// The same where a gap or a loop was among them. A choice.
+const MIXED: f64 = 0.5;
+
+/// A spring that is presumed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Presumed {
+    /// Compliance, rad/(N·m).
+    pub compliance: f64,
+    /// Its relative standard deviation.
+    pub rel_std: f64,
+    /// Whether it is the simulation's, and not the stiffest with which the torque makes such a twist.
+    pub is_stated: bool,
+}
+
+/// What is presumed; nothing where the motion shows a spring, or the twist none.
+pub(super) fn presumed(data: &Channels, ratio: Option<f64>, nominal: Nominal) -> Option<Presumed> {
     let middle = mean(&data.torque);
     let whole: Vec<f64> = data.torque.iter().map(|t| t - middle).collect();
-    let is_shown = rms(&left(&beside, &data.torque)) > OWN * rms(&whole);
-    (!is_shown).then_some(1.0 / stiffness)
+    if rms(&beyond(data)) > OWN * rms(&whole) {
+        return None;
+    }
+    let stated = nominal.stiffness.filter(|_| ratio.is_some());
+    match stated {
+        Some(stiffness) => Some(Presumed {
+            compliance: 1.0 / stiffness,
+            rel_std: nominal.rel_std,
+            is_stated: true,
+        }),
+        None => stiffest(data),
+    }
+}
+
+/// What inertia and friction leave of the torque, N·m.
+fn beyond(data: &Channels) -> Vec<f64> {
+    let mut beside = without_inertia(data);
+    beside.push(data.acceleration.clone());
+    left(&beside, &data.torque)
+}
+
+/// Zero, friction by any of its laws, and what smoothing takes.
+fn without_inertia(data: &Channels) -> Vec<Vec<f64>> {
+    let mut columns = base(data);
+    columns.remove(ACCELERATION);
+    columns.remove(TORQUE);
+    columns.push(data.speed.clone());
+    columns.extend(dry(data));
+    columns
+}
+
+/// Stiffest spring with which the torque makes such a twist: of a rotor without inertia, by the twist over the torque of the
+/// acceleration, since the rotor's share of that torque makes the spring softer, never stiffer; or a softer one, where friction of the
+/// link makes twist beyond that. A spring without compliance would leave a twist that nothing makes.
+fn stiffest(data: &Channels) -> Option<Presumed> {
+    let beside = without_inertia(data);
+    let twist = told(&beside, &data.acceleration, &data.twist);
+    let torque = told(&beside, &data.acceleration, &data.torque);
+    let is_seen = |t: &Told| t.slope.abs() > SEEN * t.error;
+    if !is_seen(&twist) || !is_seen(&torque) || twist.slope * torque.slope >= 0.0 {
+        return None;
+    }
+    let rigid = -twist.slope / torque.slope;
+    let compliance = rigid.max(by_friction(data, KNOWN * rigid));
+    Some(Presumed {
+        compliance,
+        // a gap makes such twist as well: anything down to the rigid rotor's lies within two deviations
+        rel_std: STIFFEST.max(0.5 * (1.0 - rigid / compliance)),
+        is_stated: false,
+    })
+}
+
+/// Compliance by the twist over friction that the torque shows: by dry friction alone, where it tells one to within an error, so that a
+/// late encoder makes none of it; else by all of it.
+fn by_friction(data: &Channels, error: f64) -> f64 {
+    let mut beside = base(data);
+    beside.remove(TORQUE);
+    let all = told(&beside, &data.torque, &data.twist);
+    beside.push(data.speed.clone());
+    let dry = told(&beside, &data.torque, &data.twist);
+    -if dry.error < error {
+        dry.slope
+    } else {
+        all.slope
+    }
+}
+
+/// A slope with its standard error.
+struct Told {
+    slope: f64,
+    error: f64,
+}
+
+fn told(beside: &[Vec<f64>], channel: &[f64], reading: &[f64]) -> Told {
+    let found = partial(beside, channel, reading);
+    let all = [beside, &[channel.to_vec()]].concat();
+    Told {
+        slope: found.slope,
+        error: rms(&left(&all, reading)) / found.square.sqrt(),
+    }
 }
 
 impl Joint {
     /// The twist less that of a presumed spring, rad.
     pub(super) fn reading(&self) -> Vec<f64> {
-        let compliance = self.presumed.unwrap_or(0.0);
+        let compliance = self.presumed_compliance();
         self.column(|i| self.data.twist[i] + compliance * self.data.torque[i])
+    }
+
+    /// Compliance that is presumed, rad/(N·m); 0 without one.
+    pub(super) fn presumed_compliance(&self) -> f64 {
+        self.presumed.map_or(0.0, |p| p.compliance)
     }
 
     /// Columns of every model of whose amounts nothing is known.
@@ -39,17 +139,30 @@ impl Joint {
         }
     }
 
-    /// Standard deviation of the twist per torque beside the reading, rad/(N·m).
-    pub(super) fn spring_spread(&self) -> f64 {
-        let known = |compliance: f64| compliance * self.nominal.rel_std.max(f64::EPSILON);
+    /// Standard deviation of the twist per torque beside the reading, rad/(N·m). Slopes that told a spring nobody states told that of
+    /// a gap or a loop with it.
+    pub(super) fn spring_spread(&self, about: &[Blamed]) -> f64 {
+        let follows = [backlash::EFFECT.name, hysteresis::EFFECT.name];
+        let is_mixed = about.iter().any(|b| follows.contains(&b.effect));
+        let known = |p: Presumed| {
+            let mixed = if is_mixed && !p.is_stated { MIXED } else { 0.0 };
+            p.compliance * p.rel_std.max(mixed).max(f64::EPSILON)
+        };
         self.presumed.map_or(f64::INFINITY, known)
+    }
+
+    /// What a spring makes of torque that is neither inertia nor friction: any, where the stiffest is presumed, since the true
+    /// one is softer by what nobody knows.
+    pub(super) fn softer(&self) -> Option<Vec<f64>> {
+        let is_stiffest = self.presumed.is_some_and(|p| !p.is_stated);
+        is_stiffest.then(|| beyond(&self.data))
     }
 
     /// Columns beside which a spring is told: where one is presumed, of a rotor without inertia, which makes it as stiff as
     /// it can be.
     pub(super) fn beside_spring(&self) -> Vec<Vec<f64>> {
         let mut columns = self.base();
-        if self.presumed.is_some() {
+        if self.presumed.is_some_and(|p| p.is_stated) {
             columns.remove(ACCELERATION);
         }
         columns.remove(TORQUE);

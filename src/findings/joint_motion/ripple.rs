@@ -1,24 +1,15 @@
-//! Errors periodic in the angle of an encoder: their orders, and whose they can be.
+//! Errors periodic in the angle of an encoder, and whose they can be.
 //!
 //! An encoder closes on itself: its errors repeat with whole turns of its own shaft, and are as large
 //! in slow as in fast motion. Meshing teeth make orders of their own, whose size changes with speed.
 
-use super::channels::{Channels, largest, range};
+use super::channels::Channels;
+use super::orders::{BINS, orders, resolution, wave};
 use super::projection::{left, partial};
 use crate::ground::stats::{length, rms};
-use rustfft::FftPlanner;
-use rustfft::num_complex::Complex64;
-use std::f64::consts::TAU;
 
-/// Bins of an angle's range, and of its spectrum.
-const BINS: usize = 4096;
-const PADDED: usize = 8 * BINS;
-/// Periods that must lie in the range of the motion.
-const FEWEST_PERIODS: f64 = 2.5;
 /// Speed, as a share of the largest, below which rows do not count.
 const MOVING: f64 = 0.04;
-/// Peaks followed per angle.
-const PEAKS: usize = 2;
 /// Highest order per turn of the link that is taken for a link encoder's without further proof.
 const FEW_PER_TURN: f64 = 64.0;
 /// Highest order per turn of the motor that is taken for a motor encoder's.
@@ -72,7 +63,7 @@ pub fn waves(data: &Channels, residual: &[f64], ratio: Option<f64>) -> Vec<Wave>
     let (twist, rest) = (rms(&left(&base, &data.twist)), rms(residual));
     let mut found: Vec<Wave> = Vec::new();
     for angle in [&data.link, &data.motor] {
-        for order in orders(angle, residual, &rows) {
+        for order in orders(data, angle, residual, &rows) {
             let near = |w: &Wave| (w.order - order).abs() < resolution(angle);
             if found.iter().any(near) {
                 continue;
@@ -80,8 +71,8 @@ pub fn waves(data: &Channels, residual: &[f64], ratio: Option<f64>) -> Vec<Wave>
             let whose = whose(data, angle, order, &rows, ratio);
             found.push(Wave {
                 of_encoder: whose != Whose::Teeth,
-                is_small: size(&wave(angle, order), residual) < whose.least(twist, rest),
-                columns: wave(angle, order),
+                is_small: size(&wave(data, angle, order), residual) < whose.least(twist, rest),
+                columns: wave(data, angle, order),
                 order,
             });
         }
@@ -95,86 +86,11 @@ fn size(wave: &[Vec<f64>], residual: &[f64]) -> f64 {
     (rms(residual).powi(2) - less).max(0.0).sqrt()
 }
 
-fn wave(angle: &[f64], order: f64) -> Vec<Vec<f64>> {
-    let one = |f: fn(f64) -> f64| angle.iter().map(|q| f(order * q)).collect();
-    vec![one(f64::sin), one(f64::cos)]
-}
-
 fn moving(data: &Channels) -> Vec<usize> {
     let still = MOVING * data.top_speed();
     (0..data.rows())
         .filter(|i| data.speed[*i].abs() > still)
         .collect()
-}
-
-fn resolution(angle: &[f64]) -> f64 {
-    let (low, high) = range(angle);
-    TAU / (high - low).max(f64::MIN_POSITIVE)
-}
-
-/// Highest order that is sought: one sample per period at top speed. Speeds vary, so that orders beyond
-/// half the sampling rate are not mistaken for others.
-fn highest(angle: &[f64]) -> f64 {
-    let steps: Vec<f64> = angle.windows(2).map(|w| w[1] - w[0]).collect();
-    TAU / largest(&steps).max(f64::MIN_POSITIVE)
-}
-
-/// Orders (rad per rad) of the largest peaks of the spectrum over the angle, each beside those before: side lobes are none.
-fn orders(angle: &[f64], residual: &[f64], rows: &[usize]) -> Vec<f64> {
-    let mut rest = residual.to_vec();
-    let one = |_| {
-        let order = refined(angle, &rest, rows, peak(angle, &rest, rows)?);
-        rest = left(&wave(angle, order), &rest);
-        Some(order)
-    };
-    (0..PEAKS).map_while(one).collect()
-}
-
-/// Order of the largest peak.
-fn peak(angle: &[f64], residual: &[f64], rows: &[usize]) -> Option<f64> {
-    let (low, high) = range(angle);
-    let width = (high - low) / BINS as f64;
-    if width <= 0.0 || rows.len() < 64 {
-        return None;
-    }
-    let power = spectrum(angle, residual, rows, low, width);
-    let order = |k: usize| TAU * k as f64 / (PADDED as f64 * width);
-    let first = (FEWEST_PERIODS * PADDED as f64 / BINS as f64) as usize;
-    let last = (1..PADDED / 2)
-        .take_while(|k| order(*k) < highest(angle))
-        .last()
-        .unwrap_or(0);
-    let tops = (first..last).filter(|k| power[*k] > power[k - 1] && power[*k] >= power[k + 1]);
-    tops.max_by(|a, b| power[*a].total_cmp(&power[*b]))
-        .map(order)
-}
-
-/// The order near a peak that fits the rows best: rows dwell unevenly over the angle, and shift peaks.
-fn refined(angle: &[f64], residual: &[f64], rows: &[usize], order: f64) -> f64 {
-    let taken = |values: &[f64]| rows.iter().map(|i| values[*i]).collect::<Vec<f64>>();
-    let (angles, reading) = (taken(angle), taken(residual));
-    let misfit = |order: f64| rms(&left(&wave(&angles, order), &reading));
-    let mut best = order;
-    for width in [0.1, 0.02] {
-        let step = width * resolution(angle);
-        let around = (-5..=5).map(|k| best + f64::from(k) * step);
-        let tried: Vec<(f64, f64)> = around.map(|o| (misfit(o), o)).collect();
-        let least = tried.iter().min_by(|a, b| a.0.total_cmp(&b.0));
-        best = least.map_or(best, |t| t.1);
-    }
-    best
-}
-
-fn spectrum(angle: &[f64], residual: &[f64], rows: &[usize], low: f64, width: f64) -> Vec<f64> {
-    let mut bins = vec![Complex64::new(0.0, 0.0); PADDED];
-    for i in rows {
-        let bin = (((angle[*i] - low) / width) as usize).min(BINS - 1);
-        bins[bin].re += residual[*i];
-    }
-    FftPlanner::new()
-        .plan_fft_forward(PADDED)
-        .process(&mut bins);
-    bins.iter().map(|z| z.norm_sqr()).collect()
 }
 
 /// Who makes a ripple.
@@ -241,7 +157,7 @@ fn size_in(rows: &[usize], data: &Channels, angle: &[f64], order: f64) -> [f64; 
     let reading = taken(&data.twist);
     let mut base = [angle, &data.torque, &data.speed].map(taken).to_vec();
     base.push(vec![1.0; rows.len()]);
-    let waves = wave(angle, order);
+    let waves = wave(data, angle, order);
     let [sine, cosine] = [0, 1].map(|k| taken(&waves[k]));
     let beside = |other: &Vec<f64>| [base.as_slice(), std::slice::from_ref(other)].concat();
     let parts = [
@@ -254,4 +170,39 @@ fn size_in(rows: &[usize], data: &Channels, angle: &[f64], order: f64) -> [f64; 
         length(&parts.map(|p| p.slope)),
         variance.iter().sum::<f64>().sqrt(),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Channels, partial, wave};
+    use crate::measurement::joint_motion::JointRecord;
+    use std::f64::consts::TAU;
+
+    /// At constant speed, three readings to a row and three rows to a period: a row shows five sixths of a ripple.
+    #[test]
+    fn averaged_rows_show_a_fast_ripple_as_it_is() {
+        let rows = 9000;
+        let time: Vec<f64> = (0..rows).map(|i| f64::from(i) * 0.004).collect();
+        let motor: Vec<f64> = time.iter().map(|t| 0.5 * t).collect();
+        let order = TAU / (0.5 * 9.0 * 0.004);
+        let link = motor.iter().map(|q| q + 4e-5 * (order * q).sin());
+        let record = JointRecord {
+            number: 1,
+            link: link.collect(),
+            torque: vec![0.0; motor.len()],
+            ratio: None,
+            delay: None,
+            nominal_stiffness: None,
+            nominal_rel_std: 0.1,
+            zero_std: None,
+            left_out: 0,
+            motor,
+            time,
+        };
+        let data = Channels::of(&record);
+        assert_eq!(data.block, 3);
+        let [sine, cosine] = [0, 1].map(|k| wave(&data, &data.motor, order)[k].clone());
+        let size = partial(&[cosine], &sine, &data.twist).slope;
+        assert!((size / 4e-5 - 1.0).abs() < 1e-3, "{size}");
+    }
 }
