@@ -85,9 +85,12 @@ fn only_a_drawn_path_that_cuts_judges_the_part() {
     assert!(said.contains("beyond the 0.0100 mm"), "{said}");
     let corrected = PATH.replace("\nx_mm", "\n# method = \"mirror\"\nx_mm");
     let above = PATH.replace(",-2,", ",12,");
-    for (path, word) in [(&corrected, "corrected"), (&above, "cuts nothing")] {
+    for (path, word, is_fine) in [
+        (&corrected, "corrected", true),
+        (&above, "cuts nothing", false),
+    ] {
         let (status, said) = judged(path);
-        assert_eq!(status, Some(0), "{said}");
+        assert_eq!(status, Some(i32::from(!is_fine)), "{said}");
         assert!(
             said.contains(word) && !said.contains("that the part allows"),
             "{said}"
@@ -98,6 +101,8 @@ fn only_a_drawn_path_that_cuts_judges_the_part() {
         &["mill", "--static", "--no-interval", "job.toml"],
     );
     assert!(body["mean_force_N"].is_null(), "{body}");
+    let remarks = body["remarks"].to_string();
+    assert!(remarks.contains("cuts nothing"), "{remarks}");
     let output = ident(folder.path(), &["compensate", "--static", "job.toml"]);
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{said}");
@@ -106,6 +111,34 @@ fn only_a_drawn_path_that_cuts_judges_the_part() {
         "{said}"
     );
     assert!(output.stdout.is_empty());
+}
+
+/// The verdict holds for all of the interval, as that of `compensate`.
+#[test]
+fn a_deviation_whose_interval_crosses_what_the_part_allows_is_not_certain() {
+    let folder = job();
+    let here = folder.path();
+    let allowing = |mm: f64| {
+        let job = JOB
+            .replace("Kae_N_mm = 2.05", "Kae_N_mm = 2.05\nrel_std = 0.1")
+            .replace("[limits]", &format!("[limits]\ntolerance_mm = {mm}"));
+        std::fs::write(here.join("job.toml"), job).unwrap();
+        let output = ident(here, &["mill", "--static", "--dry-run", "job.toml"]);
+        let said = String::from_utf8_lossy(&output.stdout).to_string();
+        (output.status.code(), said)
+    };
+    let body = json(here, &["mill", "--static", "--dry-run", "job.toml"]);
+    let max = body["deviation_mm"]["max"].as_f64().unwrap();
+    for (share, status, word) in [
+        (2.0, 0, "That is within"),
+        (1.02, 1, "not certain"),
+        (0.98, 1, "not certain"),
+        (0.4, 1, "That is beyond"),
+    ] {
+        let (code, said) = allowing(share * max);
+        assert_eq!(code, Some(status), "{share}: {said}");
+        assert!(said.contains(word), "{share}: {said}");
+    }
 }
 
 /// Found by fuzzing: runs of minutes, each a unit gone wrong.
@@ -125,6 +158,18 @@ fn what_no_cutter_is_or_does_is_refused() {
             "feed_mm_min = 1.0",
             "job.toml:5",
             "µm per tooth",
+        ),
+        (
+            "spindle_rpm = 10000.0",
+            "spindle_rpm = 10.0",
+            "job.toml:5",
+            "mm per tooth",
+        ),
+        (
+            "start_joints_deg = [0, -90, 90, 0, 0, 0]",
+            "start_joints_deg = [0, 90, 90, 0, 0, 0]",
+            "job.toml:8",
+            "joint 2",
         ),
     ];
     for (right, wrong, place, word) in whats {
@@ -264,6 +309,13 @@ fn a_controller_that_leads_beside_the_path_is_in_the_deviation() {
     assert!((0.5..0.56).contains(&off), "{off}");
     let deviation = driven["deviation_mm"]["max"].as_f64().unwrap();
     assert!((0.5..0.56).contains(&deviation), "{deviation}");
+    let all = turned(0.02);
+    let half: Vec<&str> = all.lines().take(all.lines().count() / 2).collect();
+    std::fs::write(here.join("half.csv"), half.join("\n") + "\n").unwrap();
+    let output = ident(here, &[&mill[..], &["half.csv"]].concat());
+    let said = String::from_utf8_lossy(&output.stderr).to_string();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("not milled, and not judged"), "{said}");
     std::fs::write(here.join("other.csv"), turned(3.0)).unwrap();
     let output = ident(here, &[&mill[..], &["other.csv"]].concat());
     let said = String::from_utf8_lossy(&output.stderr).to_string();

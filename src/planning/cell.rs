@@ -2,6 +2,7 @@
 
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{Pose, V3, add, product, rotate, rotate_back, sub, transpose};
+use crate::ground::units::DEGREE;
 use crate::measurement::job::{Job, Spindle};
 use crate::motion::inverse::SphericalWrist;
 use crate::motion::{self, Chain, Work, forward_kinematics};
@@ -104,14 +105,39 @@ fn start(job: &Job, limits: &[[f64; 2]]) -> Outcome<[f64; JOINTS]> {
         let middle: Vec<f64> = limits.iter().map(middle).collect();
         return Ok(middle.try_into().unwrap_or([0.0; JOINTS]));
     };
-    given.as_slice().try_into().map_err(|_| {
-        Problem::new(
-            format!("has {} angles, the robot six joints", given.len()),
+    let here = |problem: Problem| problem.at_key(&job.path, "start_joints_deg");
+    let start: [f64; JOINTS] = given.as_slice().try_into().map_err(|_| {
+        let what = format!("has {} angles, the robot six joints", given.len());
+        here(Problem::new(
+            what,
             "write one angle per joint: `[0, -90, 90, 0, 0, 0]`",
-        )
-        .at_key(&job.path, "start_joints_deg")
-    })
+        ))
+    })?;
+    let beyond = |k: &usize| !within(start[*k], limits[*k]);
+    match (0..JOINTS.min(limits.len())).find(beyond) {
+        None => Ok(start),
+        Some(k) => {
+            let [low, high] = limits[k].map(|q| q / DEGREE);
+            let what = format!(
+                "has {} degrees for joint {}, which moves from {low:.1} to {high:.1}",
+                start[k] / DEGREE,
+                k + 1
+            );
+            Err(here(Problem::new(
+                what,
+                "check sign and order of the angles, and the limits of the robot file",
+            )))
+        }
+    }
 }
+
+/// Whether an angle lies in a range, to within what is rounded in files.
+fn within(q: f64, [low, high]: [f64; 2]) -> bool {
+    (low - ROUNDING..=high + ROUNDING).contains(&q)
+}
+
+/// A hundredth of a degree, rad.
+const ROUNDING: f64 = 0.01 * DEGREE;
 
 fn mount(robot: &mut Robot, spindle: &Spindle) {
     let tool = &mut robot.tool;

@@ -47,11 +47,14 @@ fn check_feeds(job: &Job, toolpath: &Toolpath) -> Outcome<()> {
     for step in toolpath.moves.iter().skip(1).filter(|step| !step.rapid) {
         let speed = cutter.spindle.or(step.spindle).map_or(0.0, f64::abs);
         let teeth = cutter.teeth as f64 * speed / TAU;
-        let feed = job.feed.or(step.feed);
-        let Some(feed) = feed.filter(|feed| *feed < THINNEST * teeth) else {
+        let Some(feed) = job.feed.or(step.feed) else {
             continue;
         };
-        let problem = too_slow(feed, teeth);
+        let problem = match feed {
+            slow if slow < THINNEST * teeth => too_slow(feed, teeth),
+            fast if teeth > 0.0 && fast > 0.5 * cutter.diameter * teeth => too_fast(feed, teeth),
+            _ => continue,
+        };
         return Err(match job.feed {
             Some(_) => problem.at_key(&job.path, "feed_mm_min"),
             None => problem.at_line(step.line).in_file(&toolpath.path),
@@ -62,13 +65,27 @@ fn check_feeds(job: &Job, toolpath: &Toolpath) -> Outcome<()> {
 
 /// Feed, m/s, at so many teeth a second.
 fn too_slow(feed: f64, teeth: f64) -> Problem {
-    let what = format!(
-        "a feed of {} mm/min is {} µm per tooth, which no edge cuts",
-        significant(feed * 60e3, 3),
-        significant(feed / teeth * 1e6, 3)
-    );
+    let per_tooth = significant(feed / teeth * 1e6, 3);
+    no_feed(
+        feed,
+        &format!("{per_tooth} µm per tooth, which no edge cuts"),
+    )
+}
+
+fn too_fast(feed: f64, teeth: f64) -> Problem {
+    let per_tooth = significant(feed / teeth * 1e3, 3);
+    no_feed(
+        feed,
+        &format!("{per_tooth} mm per tooth, more than the radius of the tool"),
+    )
+}
+
+fn no_feed(feed: f64, per_tooth: &str) -> Problem {
     Problem::new(
-        what,
+        format!(
+            "a feed of {} mm/min is {per_tooth}",
+            significant(feed * 60e3, 3)
+        ),
         "check the unit of the feed, and the speed of the spindle",
     )
 }

@@ -18,11 +18,15 @@ pub struct Recorded {
     pub way: Way,
     /// Time (s) and how far the recorded tip is from the path, m, workpiece frame.
     aside: Vec<(f64, V3)>,
+    /// How far along the path it leads, m, where cuts of the path lie beyond that.
+    ends_at: Option<f64>,
 }
 
 /// A recording that never comes as near to the path's begin, or is half of the time farther from the path
 /// than this, is one of another job, m.
 const ANOTHER_JOB: f64 = 0.02;
+/// What a recording may miss of the last cut, m: controllers round, and stop to log.
+const LAST: f64 = 2e-3;
 /// How far ahead of the last place the next is looked for: m, and per way of the recorded tip.
 const AHEAD: f64 = 1e-3;
 const FASTER: f64 = 3.0;
@@ -54,6 +58,7 @@ impl Recorded {
             let off = sub(rows[i].tip, plan.path.point(s));
             aside.push((rows[i].time_s, if counts { off } else { [0.0; 3] }));
         }
+        let ends_at = Some(s).filter(|s| is_cut_beyond(&plan.path, *s));
         let way = Way::new(rows).ok_or_else(|| Problem::new("holds no motion", "record the job"));
         let far = stats::median(
             &aside[begin..]
@@ -62,9 +67,18 @@ impl Recorded {
                 .collect::<Vec<f64>>(),
         );
         match far <= ANOTHER_JOB {
-            true => Ok(Self { way: way?, aside }),
+            true => Ok(Self {
+                way: way?,
+                aside,
+                ends_at,
+            }),
             false => Err(another(far).in_file(&recorded.path)),
         }
+    }
+
+    /// How far along the path it leads, m, where cuts of the path lie beyond that.
+    pub fn ends_at(&self) -> Option<f64> {
+        self.ends_at
     }
 
     /// How far the recorded tip was from the path, largest and root mean square, m.
@@ -94,6 +108,13 @@ impl Recorded {
             false => b.1,
         }
     }
+}
+
+/// Whether the path still cuts, more than a little after this arc length, m.
+fn is_cut_beyond(path: &Path, s: f64) -> bool {
+    let left = path.length - s - LAST;
+    let places = (left / AHEAD).max(0.0) as usize;
+    (1..=places).any(|i| !path.is_rapid(s + LAST + AHEAD * i as f64))
 }
 
 fn another(off: f64) -> Problem {

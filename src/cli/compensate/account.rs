@@ -30,7 +30,14 @@ pub fn sentences(result: &Corrected) -> Vec<String> {
         format!(", {} % {than}", significant(percent.abs(), 3))
     });
     let left = match result.certainty.ci95 {
-        Some([low, high]) => format!(" (95 %: {} to {} mm)", mm(low), mm(high)),
+        Some([low, high]) => {
+            let of = if result.plant.is_some() {
+                " without the plant"
+            } else {
+                ""
+            };
+            format!(" (95 %{of}: {} to {} mm)", mm(low), mm(high))
+        }
         None => String::new(),
     };
     let mut said = vec![format!(
@@ -119,6 +126,9 @@ pub fn remarks(result: &Corrected) -> Vec<String> {
         said.push(
             "the corrected path leaves more than the programmed one: do not run it; try another --method, or plunge more gently".into(),
         );
+    }
+    if result.checked.iter().any(|c| !c.ok) {
+        said.push("the corrected path exceeds a limit that was checked: do not run it".into());
     }
     if !result.found.converged {
         said.push(

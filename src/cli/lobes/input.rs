@@ -142,7 +142,7 @@ fn of_job(arguments: &Arguments, job: &Job, inputs: Vec<(String, String)>) -> Ou
         modes: Vec::new(),
         tool: tool(cutter),
         material: material(job.material()?),
-        width_m: width(arguments.width_mm, cutter)?,
+        width_m: width(arguments, cutter)?,
         side: side(found.map_or(CutSide::Slot, |s| s.1)),
         spindle_rad_s: cutter.spindle,
         remarks: counted(cutter, &material(job.material()?)),
@@ -182,9 +182,15 @@ fn at_start(arguments: &Arguments) -> Outcome<Case> {
     Ok(case)
 }
 
-fn width(width_mm: Option<f64>, cutter: &Cutter) -> Outcome<f64> {
-    match width_mm {
+fn width(arguments: &Arguments, cutter: &Cutter) -> Outcome<f64> {
+    let is_full = |mm: f64| (1e-3 * mm / cutter.diameter - 1.0).abs() < 1e-9;
+    match arguments.width_mm {
         None => Ok(cutter.diameter),
+        Some(mm) if arguments.cut == SIDES[0].0 && !is_full(mm) => Err(Problem::new(
+            format!("is {mm}, and a slot is as wide as the tool"),
+            "leave it out, or ask with --cut up or --cut down",
+        )
+        .in_column("--width-mm")),
         Some(mm) if mm > 0.0 && 1e-3 * mm <= cutter.diameter * (1.0 + 1e-9) => Ok(1e-3 * mm),
         Some(mm) => Err(Problem::new(
             format!("is {mm}"),

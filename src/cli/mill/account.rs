@@ -1,6 +1,6 @@
 //! What `ident mill` says in words.
 
-use super::{Driven, Result, Written};
+use super::{Driven, Holds, Result, Written};
 use crate::ground::spatial::norm;
 use crate::process::run::NOTHING_CUT;
 use crate::process::setup::Support;
@@ -55,16 +55,18 @@ fn deviation(result: &Result) -> Option<String> {
         "Largest deviation {size} mm at {place:.1} mm of the path, root mean square {} mm.",
         significant(1e3 * rms, 3)
     );
-    let tolerance = result.planned.job.limits.tolerance;
-    if let Some(tolerance) = tolerance.filter(|_| result.judges_the_part()) {
-        let holds = worst.size <= tolerance;
-        let verdict = if holds { "within" } else { "beyond" };
-        said += &format!(
-            " That is {verdict} the {} mm that the part allows.",
-            significant(1e3 * tolerance, 3)
-        );
-    }
+    said.extend(verdict(result));
     Some(said)
+}
+
+fn verdict(result: &Result) -> Option<String> {
+    let allowed = significant(1e3 * result.planned.job.limits.tolerance?, 3);
+    let allowed = format!("the {allowed} mm that the part allows");
+    Some(match result.holds()? {
+        Holds::Within => format!(" That is within {allowed}."),
+        Holds::Beyond => format!(" That is beyond {allowed}."),
+        Holds::NotCertain => format!(" Whether that is within {allowed} is not certain."),
+    })
 }
 
 fn steps(result: &Result) -> String {
@@ -99,6 +101,13 @@ pub fn remarks(result: &Result) -> Vec<String> {
     if left_out > 0 {
         said.push(format!(
             "{left_out} rows of the recorded joint angles are left out for an empty cell"
+        ));
+    }
+    if let Some(s) = result.ends_at() {
+        said.push(format!(
+            "the recorded joint angles end at {} of {} mm of the path: what it cuts beyond that is not milled, and not judged",
+            significant(1e3 * s, 4),
+            significant(1e3 * result.planned.plan.path.length, 4)
         ));
     }
     if result.milled.removed_m3 == 0.0 {

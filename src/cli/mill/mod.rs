@@ -85,6 +85,14 @@ struct Worst {
     ci95: Option<[f64; 2]>,
 }
 
+/// Whether a deviation is within what the part allows.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Holds {
+    Within,
+    Beyond,
+    NotCertain,
+}
+
 /// A milled job.
 struct Result {
     planned: Planned,
@@ -236,14 +244,29 @@ impl Result {
         self.milled.removed_m3 > 0.0 && !self.planned.toolpath.corrected
     }
 
-    /// A limit of the robot or of the part is exceeded.
-    fn needs_attention(&self) -> bool {
+    /// Whether the part allows what is deviated, by all of its interval; `None`: nobody asks, or nothing is cut.
+    fn holds(&self) -> Option<Holds> {
         let tolerance = self.planned.job.limits.tolerance;
-        let over = tolerance
-            .filter(|_| self.judges_the_part())
-            .zip(self.worst.as_ref())
-            .is_some_and(|(t, w)| w.size > t);
-        over || !self.planned.plan.exceeded.is_empty()
+        let tolerance = tolerance.filter(|_| self.judges_the_part())?;
+        let worst = self.worst.as_ref()?;
+        let [low, high] = worst.ci95.unwrap_or([worst.size; 2]);
+        Some(match tolerance {
+            t if high <= t => Holds::Within,
+            t if low > t => Holds::Beyond,
+            _ => Holds::NotCertain,
+        })
+    }
+
+    /// How far along the path recorded joint angles lead, m, where it cuts beyond that.
+    fn ends_at(&self) -> Option<f64> {
+        self.driven.as_ref().and_then(|d| d.recorded.ends_at())
+    }
+
+    /// A limit of the robot or of the part is or may be exceeded, or the part is not milled.
+    fn needs_attention(&self) -> bool {
+        let holds = self.holds().is_none_or(|holds| holds == Holds::Within);
+        let is_whole = self.milled.removed_m3 > 0.0 && self.ends_at().is_none();
+        !(holds && is_whole && self.planned.plan.exceeded.is_empty())
     }
 }
 

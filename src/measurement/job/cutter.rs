@@ -65,7 +65,7 @@ impl Cutter {
             corner_radius: corner_radius(keys, diameter)?,
             flute: keys.positive("flute_mm")?.map(|mm| mm * 1e-3),
             spindle: spindle(keys)?,
-            runout: keys.not_negative("runout_um")?.unwrap_or(0.0) * 1e-6,
+            runout: runout(keys, diameter)?,
             runout_angle: keys.number("runout_angle_deg")?.unwrap_or(0.0) * DEGREE,
         })
     }
@@ -114,6 +114,13 @@ fn corner_radius(keys: &Keys<'_>, diameter: f64) -> Outcome<f64> {
     let what = format!("is {} mm, more than half the diameter", radius * 1e3);
     let remedy = "write 0 for a square end, half the diameter for a ball end";
     Err(keys.problem("corner_radius_mm", what, remedy))
+}
+
+fn runout(keys: &Keys<'_>, diameter: f64) -> Outcome<f64> {
+    let is_one = |um: f64| um >= 0.0 && 1e-6 * um < 0.5 * diameter;
+    let remedy = "write how far the tool's axis is from the spindle's in micrometres: some 5 to 50, less than its radius";
+    let um = keys.judged("runout_um", is_one, "no runout of this tool", remedy)?;
+    Ok(1e-6 * um.unwrap_or(0.0))
 }
 
 fn spindle(keys: &Keys<'_>) -> Outcome<Option<f64>> {

@@ -21,8 +21,8 @@ pub struct Material {
     pub ci95: [Option<[f64; 2]>; 6],
 }
 
-/// A coefficient, its interval, the factor to SI, and the most that it may be.
-type Key = (&'static str, &'static str, f64, f64);
+/// A coefficient, its interval, the factor to SI, and the least and the most that it may be.
+type Key = (&'static str, &'static str, f64, [f64; 2]);
 
 /// A force law as files name it, with its coefficients and where to look where one is impossible.
 struct Form {
@@ -35,29 +35,33 @@ struct Form {
 const HARDEST: f64 = 1e6;
 /// Most that a force may fall with the chip: it would not fall with it altogether.
 const STEEPEST: f64 = 0.99;
+/// Along the edge a force has either sign; that against the cut has one, and falls as chips grow.
+const EITHER: [f64; 2] = [-HARDEST, HARDEST];
+const AGAINST: [f64; 2] = [0.0, HARDEST];
+const FALLS: [f64; 2] = [0.0, STEEPEST];
 
 const FORMS: [Form; 2] = [
     Form {
         law: "linear_edge",
         keys: [
-            ("Ktc_N_mm2", "Ktc_ci95_N_mm2", 1e6, HARDEST),
-            ("Krc_N_mm2", "Krc_ci95_N_mm2", 1e6, HARDEST),
-            ("Kac_N_mm2", "Kac_ci95_N_mm2", 1e6, HARDEST),
-            ("Kte_N_mm", "Kte_ci95_N_mm", 1e3, HARDEST),
-            ("Kre_N_mm", "Kre_ci95_N_mm", 1e3, HARDEST),
-            ("Kae_N_mm", "Kae_ci95_N_mm", 1e3, HARDEST),
+            ("Ktc_N_mm2", "Ktc_ci95_N_mm2", 1e6, AGAINST),
+            ("Krc_N_mm2", "Krc_ci95_N_mm2", 1e6, EITHER),
+            ("Kac_N_mm2", "Kac_ci95_N_mm2", 1e6, EITHER),
+            ("Kte_N_mm", "Kte_ci95_N_mm", 1e3, EITHER),
+            ("Kre_N_mm", "Kre_ci95_N_mm", 1e3, EITHER),
+            ("Kae_N_mm", "Kae_ci95_N_mm", 1e3, EITHER),
         ],
         hard: "write it in N/mm² (edge: N/mm): steel has some 2000 and 30",
     },
     Form {
         law: "kienzle",
         keys: [
-            ("kt11_N_mm2", "kt11_ci95_N_mm2", 1e6, HARDEST),
-            ("kr11_N_mm2", "kr11_ci95_N_mm2", 1e6, HARDEST),
-            ("ka11_N_mm2", "ka11_ci95_N_mm2", 1e6, HARDEST),
-            ("mt", "mt_ci95", 1.0, STEEPEST),
-            ("mr", "mr_ci95", 1.0, STEEPEST),
-            ("ma", "ma_ci95", 1.0, STEEPEST),
+            ("kt11_N_mm2", "kt11_ci95_N_mm2", 1e6, AGAINST),
+            ("kr11_N_mm2", "kr11_ci95_N_mm2", 1e6, EITHER),
+            ("ka11_N_mm2", "ka11_ci95_N_mm2", 1e6, EITHER),
+            ("mt", "mt_ci95", 1.0, FALLS),
+            ("mr", "mr_ci95", 1.0, [-STEEPEST, STEEPEST]),
+            ("ma", "ma_ci95", 1.0, [-STEEPEST, STEEPEST]),
         ],
         hard: "write k 1.1 in N/mm² (chips of 1 mm) and the fall m as a number below 1: steel has some 1700 and 0.25",
     },
@@ -127,13 +131,13 @@ impl Material {
         }
         let mut coefficients = [0.0; 6];
         let mut ci95 = [None; 6];
-        for (i, (key, interval, factor, most)) in form.keys.iter().enumerate() {
-            let value = keys.judged(key, |k| k.abs() <= *most, "no material's", form.hard)?;
+        for (i, (key, interval, factor, [least, most])) in form.keys.iter().enumerate() {
+            let may_be = |k: f64| (*least..=*most).contains(&k);
+            let value = keys.judged(key, may_be, "no material's", form.hard)?;
             let example = format!("{key} = ...; 0.0 where it does not act");
-            coefficients[i] = factor * value.ok_or_else(|| keys.missing(key, &example))?;
-            ci95[i] = keys
-                .array::<2>(interval)?
-                .map(|ends| ends.map(|x| x * factor));
+            let value = value.ok_or_else(|| keys.missing(key, &example))?;
+            coefficients[i] = factor * value;
+            ci95[i] = about(keys, interval, value)?.map(|ends| ends.map(|x| x * factor));
         }
         Ok(Self {
             name: keys.text("name")?.unwrap_or("material").to_string(),
@@ -142,6 +146,22 @@ impl Material {
             rel_std: rel_std(keys)?,
             ci95,
         })
+    }
+}
+
+/// A 95 % interval, which holds its value.
+fn about(keys: &Keys<'_>, interval: &str, value: f64) -> Outcome<Option<[f64; 2]>> {
+    let Some([low, high]) = keys.array::<2>(interval)? else {
+        return Ok(None);
+    };
+    let rounding = 1e-9 * value.abs();
+    match low - rounding <= value && value <= high + rounding {
+        true => Ok(Some([low, high])),
+        false => Err(keys.problem(
+            interval,
+            format!("runs from {low} to {high} and does not hold {value}"),
+            "write the lower end first, then the upper one, about the value",
+        )),
     }
 }
 

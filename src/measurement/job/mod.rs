@@ -112,6 +112,8 @@ const KEYS: &[&str] = &[
 
 /// Cycle of a controller that is not stated, ms (KRC2, source 000).
 const CYCLE_MS: f64 = 12.0;
+/// No controller is slower, ms: between its points a joint moves as it likes.
+const SLOWEST_MS: f64 = 100.0;
 /// m/s per mm/min.
 const MM_MIN: f64 = 1e-3 / 60.0;
 /// Most joints that a robot may have.
@@ -147,7 +149,7 @@ impl Job {
             blend_radius: keys.not_negative("blend_radius_mm")?.map(|mm| mm * 1e-3),
             orientation: turning(&keys)?,
             spin: keys.choice("spin", SPINS)?.unwrap_or(Spin::Smooth),
-            cycle: keys.positive("cycle_ms")?.unwrap_or(CYCLE_MS) * 1e-3,
+            cycle: cycle(&keys)?,
             start_joints: start_joints(&keys)?,
             workpiece: Workpiece::of(&keys, path)?,
             cutter: Cutter::of(&keys)?,
@@ -243,6 +245,15 @@ fn robot(keys: &Keys<'_>, job: &Path) -> Outcome<String> {
         true => file.display().to_string(),
         false => name.to_string(),
     })
+}
+
+/// Cycle of the controller, s.
+fn cycle(keys: &Keys<'_>) -> Outcome<f64> {
+    let is_one = |ms: f64| ms > 0.0 && ms <= SLOWEST_MS;
+    let remedy =
+        "write the interpolation cycle in milliseconds, at most 100: controllers have 1 to 20";
+    let ms = keys.judged("cycle_ms", is_one, "no cycle of a controller", remedy)?;
+    Ok(ms.unwrap_or(CYCLE_MS) * 1e-3)
 }
 
 /// `feed = "adapt"`, or `"keep"`, which is the same as leaving it out.
