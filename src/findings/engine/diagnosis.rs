@@ -1,6 +1,7 @@
 //! The whole way: from a kind's statement to its answer.
 
 use super::bank::{Bank, Fit};
+use super::beside_rest::doubting;
 use super::choice::{material, nothing};
 use super::judgement::Judgement;
 use super::leaves::{Leaves, Weighing};
@@ -53,10 +54,11 @@ pub(super) type Raised = [(Names, f64)];
 pub fn diagnose(experiment: &dyn Experiment, judgement: &Judgement) -> Found {
     let first = stated(experiment, &[], &[]);
     let found = about(experiment, (&first, &first.reading), &[], judgement);
-    match experiment.is_linear() || found.lead.is_empty() {
+    let found = match experiment.is_linear() || found.lead.is_empty() {
         true => found,
         false => rounds::settled(experiment, (first, found), judgement),
-    }
+    };
+    doubting(experiment, found, judgement)
 }
 
 /// The statement without suspects that change nothing here: they have no column to be compared by.

@@ -13,12 +13,14 @@
 //! 5. [`unseen`]: the gain on rows that were not fitted, and `carried`, the same as it is told: for the simulation as it
 //!    is used;
 //! 6. [`rest`]: whether structure is left that no named cause makes;
-//! 7. [`verdict`]: causes, groups, the verdict.
+//! 7. [`verdict`]: causes, groups, the verdict;
+//! 8. `beside_rest`: names that what is left makes doubtful.
 //!
 //! Every number that decides stands in [`Judgement`], with its reason.
 
 mod aspect;
 pub mod bank;
+mod beside_rest;
 mod carried;
 mod choice;
 pub mod diagnosis;
@@ -43,6 +45,7 @@ pub mod verdict;
 mod tests;
 
 pub use aspect::Aspects;
+pub use beside_rest::EVEN;
 pub use diagnosis::{Found, diagnose};
 pub use judgement::Judgement;
 pub use nuisances::ALLOWED;

@@ -239,6 +239,38 @@ fn a_cause_stays_where_all_that_is_uncertain_would_have_to_stand_in_for_it() {
     }
 }
 
+/// A gap that takes an eighth of what a wave nobody makes leaves may be what the wave makes; one that takes most of the error is there,
+/// though less surely than where nothing is left.
+#[test]
+fn beside_structure_that_nobody_makes_a_name_that_takes_little_is_none() {
+    let sure = Judgement {
+        beside_rest: 50.0,
+        ..Judgement::default()
+    };
+    for seed in 0..5 {
+        let toy = |size: f64| {
+            let wave = |i: usize| 8.0 * (i as f64 * 0.031).sin();
+            Toy::new(seed, 252, cycle, move |i| {
+                wave(i) + size * (load(i) / 0.05).tanh()
+            })
+        };
+        let little = toy(3.0);
+        let named = |judgement: &Judgement| diagnose(&little, judgement);
+        assert_eq!(named(&sure).blamed.len(), 1);
+        let found = named(&Judgement::default());
+        assert!(found.answer.causes.is_empty() && found.blamed.is_empty());
+        assert_eq!(found.answer.verdict, Verdict::UnknownCause);
+        assert!(found.explained.iter().all(|e| e.abs() < 1e-9));
+        let much = diagnose(&toy(16.0), &Judgement::default());
+        let [cause] = &much.answer.causes[..] else {
+            panic!("{:?}", much.answer.causes);
+        };
+        let stated = Judgement::default().beside_rest(&cause.gain);
+        assert!(cause.probability <= stated && (0.5..0.9).contains(&stated));
+        assert_eq!(much.blamed.len(), 1);
+    }
+}
+
 fn bent(rows: usize) -> Causes {
     let of = |more: f64| {
         let column = |i: usize| 3.0 * (i as f64 / 15.0).sin() + more * bend(i);

@@ -23,7 +23,6 @@ pub(super) fn answer(
 ) -> Answer {
     let noise = rms(statement.noise.spread()) * set.fit.posterior.noise_variance.sqrt();
     let before = rms(missed);
-    let share = (rms(left).powi(2) - noise * noise) / before.powi(2).max(f64::MIN_POSITIVE);
     let remaining = experiment.remaining(left);
     Answer {
         verdict: verdict(&named, &rest, judgement),
@@ -35,7 +34,7 @@ pub(super) fn answer(
         causes: named.causes,
         groups: named.groups,
         unexplained: Structure {
-            share_of_variance: share.clamp(0.0, 1.0),
+            share_of_variance: share_left(left, (noise, missed)),
             shape: remaining.shape,
             over_time: remaining.over_time,
             description: remaining.description,
@@ -52,6 +51,12 @@ pub(super) fn answer(
         unstated: false,
         doubts: Vec::new(),
     }
+}
+
+/// Share of what is missed that is left beyond the noise (rms), of its variance.
+pub(super) fn share_left(left: &[f64], (noise, missed): (f64, &[f64])) -> f64 {
+    let all = rms(missed).powi(2).max(f64::MIN_POSITIVE);
+    ((rms(left).powi(2) - noise * noise) / all).clamp(0.0, 1.0)
 }
 
 fn candidate(bank: &Bank, set: &Scored, p: f64, posterior: &Posterior) -> Candidate {

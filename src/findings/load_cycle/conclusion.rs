@@ -18,8 +18,7 @@ impl Case<'_> {
         scaled: bool,
     ) -> Diagnosis {
         let judged = self.found.answer.verdict;
-        let engine = matches!(judged, Verdict::UnknownCause | Verdict::PartlyExplained);
-        let left = (engine || self.restless) && !self.within_step();
+        let left = (self.found.answer.is_open() || self.restless) && !self.within_step();
         let story = !(left && judged == Verdict::UnknownCause);
         let mut named = if story { shapes } else { Named::default() };
         named.extend(others);
