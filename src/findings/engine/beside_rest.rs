@@ -79,3 +79,53 @@ pub(super) fn doubting(
     unexplained.over_time = remaining.over_time;
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::findings::Verdict;
+    use crate::findings::engine::tests::{Toy, cycle, load};
+    use crate::findings::engine::{Judgement, diagnose};
+
+    /// A gap that takes little of the error beside a wave that nobody makes may be what the wave makes; one that takes most of it is there,
+    /// though less surely than where nothing is left. As gaps grow, they are silent, then doubtful, then named.
+    #[test]
+    fn beside_structure_that_nobody_makes_a_name_that_takes_little_is_none() {
+        let asked = Judgement::default();
+        let sure = Judgement {
+            beside_rest: 50.0,
+            ..asked
+        };
+        let [mut kept, mut dropped] = [0, 0];
+        for (seed, size) in (0..5).flat_map(|seed| (2..16).map(move |size| (seed, f64::from(size))))
+        {
+            let wave = |i: usize| 8.0 * (i as f64 * 0.031).sin();
+            let gap = move |i: usize| size * (load(i) / 0.05).tanh();
+            let toy = Toy::new(seed, 252, cycle, move |i| wave(i) + gap(i));
+            let [before, found] = [&sure, &asked].map(|judgement| diagnose(&toy, judgement));
+            if !before.answer.is_open() {
+                continue;
+            }
+            for cause in &before.answer.causes {
+                let likely = asked.beside_rest(&cause.gain);
+                let told = found
+                    .answer
+                    .causes
+                    .iter()
+                    .find(|c| c.effect == cause.effect);
+                match told {
+                    Some(told) => assert_eq!(told.probability, cause.probability.min(likely)),
+                    None => assert!(likely < 0.5, "{likely}"),
+                }
+                kept += usize::from(told.is_some());
+                dropped += usize::from(told.is_none());
+            }
+            let names = found.answer.causes.len() + found.answer.groups.len();
+            assert_eq!(found.blamed.len(), names);
+            if found.blamed.is_empty() {
+                assert_eq!(found.answer.verdict, Verdict::UnknownCause);
+                assert!(found.explained.iter().all(|e| e.abs() < 1e-9));
+            }
+        }
+        assert!(kept > 4 && dropped > 0, "{kept} {dropped}");
+    }
+}

@@ -249,11 +249,15 @@ fn robot(keys: &Keys<'_>, job: &Path) -> Outcome<String> {
 
 /// Cycle of the controller, s.
 fn cycle(keys: &Keys<'_>) -> Outcome<f64> {
-    let is_one = |ms: f64| ms > 0.0 && ms <= SLOWEST_MS;
-    let remedy =
-        "write the interpolation cycle in milliseconds, at most 100: controllers have 1 to 20";
-    let ms = keys.judged("cycle_ms", is_one, "no cycle of a controller", remedy)?;
-    Ok(ms.unwrap_or(CYCLE_MS) * 1e-3)
+    let ms = keys.positive("cycle_ms")?.unwrap_or(CYCLE_MS);
+    match ms <= SLOWEST_MS {
+        true => Ok(1e-3 * ms),
+        false => Err(keys.problem(
+            "cycle_ms",
+            format!("is {ms}, no cycle of a controller"),
+            "write the interpolation cycle in milliseconds, at most 100: controllers have 1 to 20",
+        )),
+    }
 }
 
 /// `feed = "adapt"`, or `"keep"`, which is the same as leaving it out.
