@@ -132,7 +132,7 @@ fn a_deviation_whose_interval_crosses_what_the_part_allows_is_not_certain() {
     for (share, status, word) in [
         (2.0, 0, "That is within"),
         (1.02, 1, "not certain"),
-        (0.98, 1, "not certain"),
+        (0.98, 1, "That is beyond"),
         (0.4, 1, "That is beyond"),
     ] {
         let (code, said) = allowing(share * max);
@@ -282,6 +282,41 @@ fn the_plans_own_joint_angles_mill_the_plans_part() {
     }
 }
 
+/// A recording may end where nothing is cut any more.
+#[test]
+fn a_recording_that_lacks_the_way_out_of_the_part_is_whole() {
+    let folder = job();
+    let here = folder.path();
+    let out = "# kind = \"path\"\nx_mm,y_mm,z_mm,i,j,k\n\
+        -12,0,-2,0,0,1\n18,0,-2,0,0,1\n18,0,30,0,0,1\n";
+    std::fs::write(here.join("slot.csv"), out).unwrap();
+    let plan = json(here, &["plan", "job.toml"]);
+    let text = std::fs::read_to_string(here.join(plan["trajectory"].as_str().unwrap())).unwrap();
+    let rows: Vec<&str> = text.lines().collect();
+    let first = rows.iter().position(|r| r.starts_with("time_s")).unwrap() + 1;
+    let cell = |row: &str, k: usize| row.split(',').nth(k).unwrap().parse::<f64>().unwrap();
+    let until = |end: &dyn Fn(&str) -> bool| {
+        let last = rows[first..].iter().position(|r| end(r)).unwrap();
+        let text = rows[..first + last].join("\n") + "\n";
+        std::fs::write(here.join("part.csv"), text).unwrap();
+        let mill = [
+            "mill",
+            "--rigid",
+            "--dry-run",
+            "job.toml",
+            "--joints",
+            "part.csv",
+        ];
+        let body = json(here, &mill);
+        body["remarks"].to_string().contains("not milled")
+    };
+    assert!(!until(&|row| cell(row, 3) > 1.0), "the retract is missing");
+    assert!(
+        until(&|row| cell(row, 1) > 10.0),
+        "a third of the slot is missing"
+    );
+}
+
 /// Half a millimetre beside the path everywhere but at the foot: A1 is 0.02 degrees off.
 #[test]
 fn a_controller_that_leads_beside_the_path_is_in_the_deviation() {
@@ -304,6 +339,7 @@ fn a_controller_that_leads_beside_the_path_is_in_the_deviation() {
     std::fs::write(here.join("turned.csv"), turned(0.02)).unwrap();
     let mill = ["mill", "job.toml", "--rigid", "--dry-run", "--joints"];
     let driven = json(here, &[&mill[..], &["turned.csv"]].concat());
+    assert_eq!(driven["remarks"].as_array().unwrap().len(), 0, "{driven}");
     // the way of the tool from A1: 1.5 m, of which the part across the feed counts
     let off = driven["joints"]["off_path_mm"]["max"].as_f64().unwrap();
     assert!((0.5..0.56).contains(&off), "{off}");

@@ -55,7 +55,7 @@ impl Met {
     }
 
     /// From what is left (m), what it will not exceed (m) and the tolerance.
-    fn of(max: f64, at_most: Option<f64>, tolerance: Option<f64>) -> Self {
+    pub fn of(max: f64, at_most: Option<f64>, tolerance: Option<f64>) -> Self {
         match (at_most, tolerance) {
             (_, Some(tolerance)) if max > tolerance => Self::No,
             (Some(at_most), Some(tolerance)) if at_most <= tolerance => Self::Yes,

@@ -3,13 +3,16 @@
 
 use super::run::Outcome as Milled;
 use super::way::{Row, Way};
+use crate::cutting::cutter::Cutter;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{V3, add, dot, norm, rotate, scale, sub};
 use crate::ground::stats;
 use crate::measurement::recorded_joints::RecordedJoints;
 use crate::motion::{Work, forward_kinematics};
 use crate::path::Path;
+use crate::path::build::Side;
 use crate::planning::Plan;
+use std::f64::consts::TAU;
 
 /// A recorded motion beside the path that was asked for.
 #[derive(Debug, Clone)]
@@ -18,8 +21,8 @@ pub struct Recorded {
     pub way: Way,
     /// Time (s) and how far the recorded tip is from the path, m, workpiece frame.
     aside: Vec<(f64, V3)>,
-    /// How far along the path it leads, m, where cuts of the path lie beyond that.
-    ends_at: Option<f64>,
+    /// How far along the path it leads, m.
+    reached_m: f64,
 }
 
 /// A recording that never comes as near to the path's begin, or is half of the time farther from the path
@@ -58,7 +61,6 @@ impl Recorded {
             let off = sub(rows[i].tip, plan.path.point(s));
             aside.push((rows[i].time_s, if counts { off } else { [0.0; 3] }));
         }
-        let ends_at = Some(s).filter(|s| is_cut_beyond(&plan.path, *s));
         let way = Way::new(rows).ok_or_else(|| Problem::new("holds no motion", "record the job"));
         let far = stats::median(
             &aside[begin..]
@@ -70,15 +72,18 @@ impl Recorded {
             true => Ok(Self {
                 way: way?,
                 aside,
-                ends_at,
+                reached_m: s,
             }),
             false => Err(another(far).in_file(&recorded.path)),
         }
     }
 
-    /// How far along the path it leads, m, where cuts of the path lie beyond that.
-    pub fn ends_at(&self) -> Option<f64> {
-        self.ends_at
+    /// How far along the path it leads, m, where the path would still cut what it has `left`.
+    pub fn ends_before(&self, plan: &Plan, left: &Cutter) -> Option<f64> {
+        let (path, from) = (&plan.path, self.reached_m + LAST);
+        let places = ((path.length - from) / AHEAD).max(0.0) as usize;
+        let cuts = |i: usize| is_in(left, path, from + AHEAD * i as f64);
+        (1..=places).any(cuts).then_some(self.reached_m)
     }
 
     /// How far the recorded tip was from the path, largest and root mean square, m.
@@ -110,12 +115,24 @@ impl Recorded {
     }
 }
 
-/// Whether the path still cuts, more than a little after this arc length, m.
-fn is_cut_beyond(path: &Path, s: f64) -> bool {
-    let left = path.length - s - LAST;
-    let places = (left / AHEAD).max(0.0) as usize;
-    (1..=places).any(|i| !path.is_rapid(s + LAST + AHEAD * i as f64))
+/// Whether the tool stands in material at an arc length of a path, m: with its lowest point, or its rim.
+fn is_in(left: &Cutter, path: &Path, s: f64) -> bool {
+    let (tip, turned) = (path.point(s), path.orientation(s, Side::Before).matrix());
+    let [x, y, axis] = [0, 1, 2].map(|k| [turned[0][k], turned[1][k], turned[2][k]]);
+    let (radius, corner) = (left.tool().radius_m, left.tool().corner_radius_m);
+    let lifted = |by: f64| add(tip, scale(by + INSIDE * radius, axis));
+    let rim = (0..PIECES).map(|k| {
+        let (sin, cos) = (TAU * k as f64 / PIECES as f64).sin_cos();
+        let out = add(scale(cos, x), scale(sin, y));
+        add(lifted(corner), scale((1.0 - INSIDE) * radius, out))
+    });
+    std::iter::once(lifted(0.0))
+        .chain(rim)
+        .any(|point| left.stock().depth(point) > 0.0)
 }
+
+/// Share of the radius by which a place lies within the tool: walls that it left touch it.
+const INSIDE: f64 = 0.05;
 
 fn another(off: f64) -> Problem {
     Problem::new(

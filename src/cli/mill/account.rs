@@ -1,6 +1,7 @@
 //! What `ident mill` says in words.
 
-use super::{Driven, Holds, Result, Written};
+use super::{Driven, Result, Written};
+use crate::compensation::corrected::Met;
 use crate::ground::spatial::norm;
 use crate::process::run::NOTHING_CUT;
 use crate::process::setup::Support;
@@ -62,10 +63,10 @@ fn deviation(result: &Result) -> Option<String> {
 fn verdict(result: &Result) -> Option<String> {
     let allowed = significant(1e3 * result.planned.job.limits.tolerance?, 3);
     let allowed = format!("the {allowed} mm that the part allows");
-    Some(match result.holds()? {
-        Holds::Within => format!(" That is within {allowed}."),
-        Holds::Beyond => format!(" That is beyond {allowed}."),
-        Holds::NotCertain => format!(" Whether that is within {allowed} is not certain."),
+    Some(match result.met()? {
+        Met::Yes => format!(" That is within {allowed}."),
+        Met::No => format!(" That is beyond {allowed}."),
+        Met::NotCertain => format!(" Whether that is within {allowed} is not certain."),
     })
 }
 

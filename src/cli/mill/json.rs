@@ -1,6 +1,7 @@
 //! The JSON of `ident mill`.
 
 use super::{Driven, Result, Written, account};
+use crate::compensation::corrected::Met;
 use crate::ground::spatial::norm;
 use crate::ground::stats::Z95;
 use crate::report::json::{number, numbers};
@@ -25,6 +26,7 @@ pub fn body(result: &Result, written: &Written) -> Value {
         "interval_from": result.doubts.iter().map(|d| json!({
             "name": d.name, "site": d.site, "rel_ci95": number(Z95 * d.rel_std),
         })).collect::<Value>(),
+        "tolerance_met": result.met().map(Met::word),
         "remarks": account::remarks(result),
         "course": named(&written.course),
         "report": named(&written.report),

@@ -9,6 +9,7 @@ mod page;
 use super::output::{print, print_result, tell};
 use super::progress::Progress;
 use super::{Ending, Verb, arguments, parsed};
+use crate::compensation::corrected::Met;
 use crate::cutting::cutter::Cutter;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::norm;
@@ -83,14 +84,6 @@ struct Worst {
     size: f64,
     /// 95 % interval, m; `None`: no uncertainty is stated.
     ci95: Option<[f64; 2]>,
-}
-
-/// Whether a deviation is within what the part allows.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Holds {
-    Within,
-    Beyond,
-    NotCertain,
 }
 
 /// A milled job.
@@ -241,30 +234,27 @@ fn worst(setup: &Setup, milled: &Milled, doubts: &[Doubt]) -> Outcome<Option<Wor
 impl Result {
     /// Whether what the tool deviates from its commands is what the part deviates from its drawing.
     fn judges_the_part(&self) -> bool {
-        self.milled.removed_m3 > 0.0 && !self.planned.toolpath.corrected
+        self.milled.removed_m3 > 0.0 && !self.planned.toolpath.corrected && self.ends_at().is_none()
     }
 
-    /// Whether the part allows what is deviated, by all of its interval; `None`: nobody asks, or nothing is cut.
-    fn holds(&self) -> Option<Holds> {
+    /// Whether the part allows what is deviated, by all of its interval; `None`: it states no tolerance, or is not milled.
+    fn met(&self) -> Option<Met> {
         let tolerance = self.planned.job.limits.tolerance;
         let tolerance = tolerance.filter(|_| self.judges_the_part())?;
         let worst = self.worst.as_ref()?;
-        let [low, high] = worst.ci95.unwrap_or([worst.size; 2]);
-        Some(match tolerance {
-            t if high <= t => Holds::Within,
-            t if low > t => Holds::Beyond,
-            _ => Holds::NotCertain,
-        })
+        let high = worst.ci95.map_or(worst.size, |[_, high]| high);
+        Some(Met::of(worst.size, Some(high), Some(tolerance)))
     }
 
-    /// How far along the path recorded joint angles lead, m, where it cuts beyond that.
+    /// How far along the path recorded joint angles lead, m, where it would cut beyond that.
     fn ends_at(&self) -> Option<f64> {
-        self.driven.as_ref().and_then(|d| d.recorded.ends_at())
+        let driven = self.driven.as_ref()?;
+        driven.recorded.ends_before(&self.planned.plan, &self.left)
     }
 
     /// A limit of the robot or of the part is or may be exceeded, or the part is not milled.
     fn needs_attention(&self) -> bool {
-        let holds = self.holds().is_none_or(|holds| holds == Holds::Within);
+        let holds = self.met().is_none_or(|met| met == Met::Yes);
         let is_whole = self.milled.removed_m3 > 0.0 && self.ends_at().is_none();
         !(holds && is_whole && self.planned.plan.exceeded.is_empty())
     }

@@ -2,13 +2,15 @@
 
 use super::diagnosis::Found;
 use super::judgement::Judgement;
-use super::statement::Experiment;
+use super::rest::Rest;
+use super::statement::{Blamed, Experiment};
 use super::told::share_left;
+use super::verdict::{Named, verdict};
 use crate::findings::answer::{Answer, Verdict};
 use crate::findings::gain::Gain;
 
 /// Below, a name is more likely wrong than right.
-pub const EVEN: f64 = 0.5;
+const EVEN: f64 = 0.5;
 
 impl Answer {
     /// Whether something is left that no name makes.
@@ -17,19 +19,6 @@ impl Answer {
             self.verdict,
             Verdict::UnknownCause | Verdict::PartlyExplained
         )
-    }
-
-    /// Without names that are less likely right than wrong beside what is left; the others are no more probable than that.
-    pub fn doubting(&mut self, judgement: &Judgement) {
-        let likely = |gain: &Gain| judgement.beside_rest(gain);
-        for cause in &mut self.causes {
-            cause.probability = cause.probability.min(likely(&cause.gain));
-        }
-        self.causes.retain(|c| likely(&c.gain) >= EVEN);
-        self.groups.retain(|g| likely(&g.gain) >= EVEN);
-        if self.causes.is_empty() && self.groups.is_empty() {
-            self.verdict = Verdict::UnknownCause;
-        }
     }
 
     fn names(&self) -> Vec<(&'static str, String)> {
@@ -42,47 +31,68 @@ impl Answer {
     }
 }
 
-/// What was found without names that what is left makes doubtful: what they explained is left as well.
-pub(super) fn doubting(
+/// What was found without names that are less likely right than wrong beside what is left; the others are no more probable than
+/// that. What was explained by the former is left as well; what is told of the latter stands beside them still. Scatter that is larger
+/// than the noise stands for no cause.
+pub(super) fn less_doubtful(
     experiment: &dyn Experiment,
     mut found: Found,
     judgement: &Judgement,
 ) -> Found {
-    if !found.answer.is_open() {
+    if !found.answer.is_open() || found.scatters {
         return found;
     }
-    let before = found.answer.names();
-    found.answer.doubting(judgement);
-    let after = found.answer.names();
-    if before.len() == after.len() {
-        return found;
+    let likely = |gain: &Gain| judgement.beside_rest(gain);
+    let answer = &mut found.answer;
+    for cause in &mut answer.causes {
+        cause.probability = cause.probability.min(likely(&cause.gain));
     }
-    let is_doubtful =
-        |name: &(&'static str, String)| before.contains(name) && !after.contains(name);
-    found.blamed.retain(|blamed| {
-        let is_kept = !is_doubtful(&(blamed.effect, blamed.site.clone()));
-        if !is_kept {
-            let rows = found.left.iter_mut().zip(&mut found.explained);
-            rows.zip(&blamed.part).for_each(|((left, told), part)| {
-                *left += part;
-                *told -= part;
-            });
-        }
-        is_kept
-    });
+    let before = answer.names();
+    answer.causes.retain(|c| likely(&c.gain) >= EVEN);
+    answer.groups.retain(|g| likely(&g.gain) >= EVEN);
+    let after = answer.names();
+    if before.len() > after.len() {
+        let is_doubtful = |b: &Blamed| {
+            let name = (b.effect, b.site.clone());
+            before.contains(&name) && !after.contains(&name)
+        };
+        let blamed = std::mem::take(&mut found.blamed);
+        (found.doubted, found.blamed) = blamed.into_iter().partition(is_doubtful);
+        leave(experiment, &mut found, judgement);
+    }
+    found
+}
+
+/// Leaves what doubtful causes explained.
+fn leave(experiment: &dyn Experiment, found: &mut Found, judgement: &Judgement) {
+    for doubtful in &found.doubted {
+        let rows = found.left.iter_mut().zip(&mut found.explained);
+        rows.zip(&doubtful.part).for_each(|((left, told), part)| {
+            *left += part;
+            *told -= part;
+        });
+    }
     if found.blamed.is_empty() {
         // what is uncertain is as it is without any cause
         found.left.clone_from(&found.missed);
         found.explained.fill(0.0);
     }
-    let remaining = experiment.remaining(&found.left);
-    let discrepancy = &found.answer.discrepancy;
-    let share = share_left(&found.left, (discrepancy.noise_rms, &found.missed));
-    let unexplained = &mut found.answer.unexplained;
-    unexplained.share_of_variance = share;
+    let noise = found.answer.discrepancy.noise_rms;
+    let (remaining, answer) = (experiment.remaining(&found.left), &mut found.answer);
+    let unexplained = &mut answer.unexplained;
+    unexplained.share_of_variance = share_left(&found.left, (noise, &found.missed));
     unexplained.shape = remaining.shape;
     unexplained.over_time = remaining.over_time;
-    found
+    let named = Named {
+        causes: answer.causes.clone(),
+        groups: answer.groups.clone(),
+    };
+    let rest = Rest {
+        share: unexplained.share_of_variance.sqrt(),
+        is_left: true,
+        ..Rest::default()
+    };
+    answer.verdict = verdict(&named, &rest, judgement);
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The whole way: from a kind's statement to its answer.
 
 use super::bank::{Bank, Fit};
-use super::beside_rest::doubting;
+use super::beside_rest::less_doubtful;
 use super::choice::{material, nothing};
 use super::judgement::Judgement;
 use super::leaves::{Leaves, Weighing};
@@ -23,12 +23,16 @@ pub struct Found {
     pub answer: Answer,
     /// The chosen causes with their amounts.
     pub blamed: Vec<Blamed>,
+    /// Those of the best set that what is left makes doubtful: they are not named, and what else is told stands beside them.
+    pub doubted: Vec<Blamed>,
     /// What the present simulation misses, with the nuisances at their most probable: per row.
     pub missed: Vec<f64>,
     /// What the named causes make of it, per row.
     pub explained: Vec<f64>,
     /// What they leave, per row.
     pub left: Vec<f64>,
+    /// Whether what is left is scatter alone.
+    pub(super) scatters: bool,
     /// Most probable amounts of the nuisances beside the causes.
     pub(super) uncertain: Vec<f64>,
     /// Nats that these cost by what is known of them.
@@ -58,7 +62,7 @@ pub fn diagnose(experiment: &dyn Experiment, judgement: &Judgement) -> Found {
         true => found,
         false => rounds::settled(experiment, (first, found), judgement),
     };
-    doubting(experiment, found, judgement)
+    less_doubtful(experiment, found, judgement)
 }
 
 /// The statement without suspects that change nothing here: they have no column to be compared by.
@@ -157,9 +161,11 @@ pub(super) fn about(
     Found {
         answer,
         blamed,
+        doubted: Vec::new(),
         missed,
         explained,
         left,
+        scatters: rest.scatter.is_some(),
         uncertain,
         strain,
         lead,

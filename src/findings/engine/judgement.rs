@@ -77,7 +77,7 @@ pub struct Judgement {
     /// Log odds that a name is right beside structure that nobody makes, where it takes half of the error on unseen rows away ...
     pub beside_rest: f64,
     /// ... and how they grow with the log odds of the share that it takes. Fitted to 70 names of 640 files by strangers (load cycles, joints with
-    /// two encoders, cutting forces, force steps), which were stated at 0.98 and right in 0.56: of those that took less than a fifth 2 of 16
+    /// two encoders, cutting forces, and three of force steps), which were stated at 0.98 and right in 0.56: of those that took less than a fifth 2 of 16
     /// were, a fifth to two fifths 7 of 16, three fifths and more 20 of 23. Without the kind that was judged the others said 0.67 for 0.35,
     /// 0.49 for 0.77, 0.36 for 0.43, 0.60 for 0.67.
     pub beside_rest_per_share: f64,

@@ -45,7 +45,6 @@ pub mod verdict;
 mod tests;
 
 pub use aspect::Aspects;
-pub use beside_rest::EVEN;
 pub use diagnosis::{Found, diagnose};
 pub use judgement::Judgement;
 pub use nuisances::ALLOWED;

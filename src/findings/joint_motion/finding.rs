@@ -51,12 +51,14 @@ pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
     let Found {
         mut answer,
         blamed,
+        doubted,
         left,
         ..
     } = diagnose(&joint, &judgement());
     keep_the_surer(&mut answer);
+    let beside = || blamed.iter().chain(&doubted);
     let others = |effect: &str| -> Vec<Vec<f64>> {
-        let others = blamed.iter().filter(|b| b.effect != effect);
+        let others = beside().filter(|b| b.effect != effect);
         others.map(|b| b.part.clone()).collect()
     };
     let has = |effect: &str| answer.causes.iter().any(|c| c.effect == effect);
@@ -70,7 +72,7 @@ pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
         None => spring,
     };
     let delay = has("time_skew").then(|| delay(&joint, &others("time_skew")));
-    let is_loop = blamed.iter().any(|b| b.effect == "hysteresis"); // it has no one stiffness
+    let is_loop = beside().any(|b| b.effect == "hysteresis"); // it has no one stiffness
     answer
         .causes
         .iter_mut()

@@ -75,12 +75,12 @@ fn stiffest(data: &Channels) -> Option<Presumed> {
     let beside = without_inertia(data);
     let twist = told(&beside, &data.acceleration, &data.twist);
     let torque = told(&beside, &data.acceleration, &data.torque);
-    let is_seen = |t: &Told| t.slope.abs() > SEEN * t.error;
-    if !is_seen(&twist) || !is_seen(&torque) || twist.slope * torque.slope >= 0.0 {
+    if !twist.is_seen() || !torque.is_seen() || twist.slope * torque.slope >= 0.0 {
         return None;
     }
     let rigid = -twist.slope / torque.slope;
-    let compliance = rigid.max(by_friction(data, KNOWN * rigid));
+    let softer = by_friction(data, KNOWN * rigid);
+    let compliance = softer.map_or(rigid, |softer| softer.max(rigid));
     Some(Presumed {
         compliance,
         // a gap makes such twist as well: anything down to the rigid rotor's lies within two deviations
@@ -90,17 +90,16 @@ fn stiffest(data: &Channels) -> Option<Presumed> {
 }
 
 /// Compliance by the twist over friction that the torque shows: by dry friction alone, where it tells one to within an error, so that a
-/// late encoder makes none of it; else by all of it.
-fn by_friction(data: &Channels, error: f64) -> f64 {
+/// late encoder makes none of it; else by all of it, where that tells any.
+fn by_friction(data: &Channels, error: f64) -> Option<f64> {
     let mut beside = base(data);
     beside.remove(TORQUE);
     let all = told(&beside, &data.torque, &data.twist);
     beside.push(data.speed.clone());
     let dry = told(&beside, &data.torque, &data.twist);
-    -if dry.error < error {
-        dry.slope
-    } else {
-        all.slope
+    match dry.error < error {
+        true => Some(-dry.slope),
+        false => all.is_seen().then_some(-all.slope),
     }
 }
 
@@ -108,6 +107,12 @@ fn by_friction(data: &Channels, error: f64) -> f64 {
 struct Told {
     slope: f64,
     error: f64,
+}
+
+impl Told {
+    fn is_seen(&self) -> bool {
+        self.slope.abs() > SEEN * self.error
+    }
 }
 
 fn told(beside: &[Vec<f64>], channel: &[f64], reading: &[f64]) -> Told {

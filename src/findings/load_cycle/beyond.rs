@@ -65,11 +65,19 @@ impl Case<'_> {
         let errors = after.iter().zip(&found).zip(&own);
         let before: Vec<f64> = errors.map(|((e, new), old)| e + new - old).collect();
         let gain = gain(&before, &after, &self.data);
-        if moved <= SAME * size || !self.is_real(&gain) || !self.moved(present, chosen, cause) {
+        let is_doubtful = self.found.doubted.iter().any(|b| b.effect == cause);
+        if moved <= SAME * size
+            || is_doubtful
+            || !self.is_real(&gain)
+            || !self.moved(present, chosen, cause)
+        {
             return Said::Same;
         }
         let gone = place.is_none();
-        let probability = self.inclusion(cause);
+        let answer = &self.found.answer;
+        let stated = answer.causes.iter().find(|c| c.effect == cause);
+        let stated = stated.map_or(1.0, |c| c.probability);
+        let probability = self.inclusion(cause).min(stated);
         Said::Changed(Cause {
             effect: cause,
             site: site(self.file, cause),

@@ -7,8 +7,6 @@ use super::{lattice, next};
 use crate::effects::composite::Slot;
 use crate::effects::{Composite, EFFECTS, Family};
 use crate::findings::answer::{Cause, Group};
-use crate::findings::engine::{EVEN, Judgement};
-use crate::findings::gain::Gain;
 use crate::fit::solution::unit_of;
 use crate::measurement::load_cycle::LoadCycle;
 
@@ -33,14 +31,7 @@ impl Case<'_> {
     /// What the engine named, less what a coarse lattice hides.
     pub(super) fn name(&self, chosen: &Refined) -> Named {
         let answer = &self.found.answer;
-        // where something is left, a size that may be nothing is what the law made of that
-        let is_left = self.restless || answer.is_open();
-        let likely = |gain: &Gain| match is_left {
-            true => Judgement::default().beside_rest(gain),
-            false => 1.0,
-        };
         let with_values = |cause: &Cause| Cause {
-            probability: cause.probability.min(likely(&cause.gain)),
             parameters: self.parameters(chosen, cause.effect),
             ci95: self.intervals(chosen, cause.effect),
             ..cause.clone()
@@ -49,21 +40,22 @@ impl Case<'_> {
             would_tell: self.would_tell(chosen, &group.effects),
             ..group.clone()
         };
-        let is_seen = |gain: &Gain| self.is_seen(gain) && likely(gain) >= EVEN;
-        let causes = answer.causes.iter().filter(|c| is_seen(&c.gain));
+        let causes = answer.causes.iter().filter(|c| self.is_seen(&c.gain));
         let causes: Vec<Cause> = causes.map(with_values).collect();
+        // where something is left, a size that may be nothing is what the law made of that
+        let is_left = self.restless || answer.is_open();
         let may_be_nothing = |c: &Cause| c.ci95.iter().any(|(_, [low, _])| *low <= 0.0);
         let kept = causes
             .into_iter()
             .filter(|c| !(is_left && may_be_nothing(c)));
-        let groups = answer.groups.iter().filter(|g| is_seen(&g.gain));
+        let groups = answer.groups.iter().filter(|g| self.is_seen(&g.gain));
         Named {
             causes: kept.collect(),
             groups: groups.map(told).collect(),
         }
     }
 
-    fn is_seen(&self, gain: &Gain) -> bool {
+    fn is_seen(&self, gain: &crate::findings::gain::Gain) -> bool {
         self.step.is_none() || self.is_real(gain)
     }
 

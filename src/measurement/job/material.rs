@@ -35,10 +35,10 @@ struct Form {
 const HARDEST: f64 = 1e6;
 /// Most that a force may fall with the chip: it would not fall with it altogether.
 const STEEPEST: f64 = 0.99;
-/// Along the edge a force has either sign; that against the cut has one, and falls as chips grow.
+/// Along the edge a force has either sign; that against the cut has one.
 const EITHER: [f64; 2] = [-HARDEST, HARDEST];
 const AGAINST: [f64; 2] = [0.0, HARDEST];
-const FALLS: [f64; 2] = [0.0, STEEPEST];
+const FALLS: [f64; 2] = [-STEEPEST, STEEPEST];
 
 const FORMS: [Form; 2] = [
     Form {
@@ -51,7 +51,7 @@ const FORMS: [Form; 2] = [
             ("Kre_N_mm", "Kre_ci95_N_mm", 1e3, EITHER),
             ("Kae_N_mm", "Kae_ci95_N_mm", 1e3, EITHER),
         ],
-        hard: "write it in N/mm² (edge: N/mm): steel has some 2000 and 30",
+        hard: "write it in N/mm² (edge: N/mm): steel has some 2000 and 30; that against the cut is none below zero",
     },
     Form {
         law: "kienzle",
@@ -60,10 +60,10 @@ const FORMS: [Form; 2] = [
             ("kr11_N_mm2", "kr11_ci95_N_mm2", 1e6, EITHER),
             ("ka11_N_mm2", "ka11_ci95_N_mm2", 1e6, EITHER),
             ("mt", "mt_ci95", 1.0, FALLS),
-            ("mr", "mr_ci95", 1.0, [-STEEPEST, STEEPEST]),
-            ("ma", "ma_ci95", 1.0, [-STEEPEST, STEEPEST]),
+            ("mr", "mr_ci95", 1.0, FALLS),
+            ("ma", "ma_ci95", 1.0, FALLS),
         ],
-        hard: "write k 1.1 in N/mm² (chips of 1 mm) and the fall m as a number below 1: steel has some 1700 and 0.25",
+        hard: "write k 1.1 in N/mm² (chips of 1 mm) and the fall m as a number below 1: steel has some 1700 and 0.25; kt11 is none below zero",
     },
 ];
 
