@@ -169,6 +169,14 @@ impl Answer {
         is_fatal(&self.doubts)
     }
 
+    /// Whether something is left that no name makes.
+    pub fn is_open(&self) -> bool {
+        matches!(
+            self.verdict,
+            Verdict::UnknownCause | Verdict::PartlyExplained
+        )
+    }
+
     /// Whether the simulation is right to within the noise, and nothing is odd about the data.
     pub fn is_fine(&self) -> bool {
         self.verdict == Verdict::Sufficient && !is_odd(&self.doubts)

@@ -121,8 +121,8 @@ fn is_in(left: &Cutter, path: &Path, s: f64) -> bool {
     let [x, y, axis] = [0, 1, 2].map(|k| [turned[0][k], turned[1][k], turned[2][k]]);
     let (radius, corner) = (left.tool().radius_m, left.tool().corner_radius_m);
     let lifted = |by: f64| add(tip, scale(by + INSIDE * radius, axis));
-    let rim = (0..PIECES).map(|k| {
-        let (sin, cos) = (TAU * k as f64 / PIECES as f64).sin_cos();
+    let rim = (0..RIM).map(|k| {
+        let (sin, cos) = (TAU * k as f64 / RIM as f64).sin_cos();
         let out = add(scale(cos, x), scale(sin, y));
         add(lifted(corner), scale((1.0 - INSIDE) * radius, out))
     });
@@ -133,6 +133,8 @@ fn is_in(left: &Cutter, path: &Path, s: f64) -> bool {
 
 /// Share of the radius by which a place lies within the tool: walls that it left touch it.
 const INSIDE: f64 = 0.05;
+/// Places of a rim that are asked: 15 degrees apart.
+const RIM: usize = 24;
 
 fn another(off: f64) -> Problem {
     Problem::new(

@@ -104,6 +104,8 @@ struct Result {
 struct Driven {
     joints: RecordedJoints,
     recorded: Recorded,
+    /// How far along the path they lead, m, where it would cut beyond that.
+    ends_at: Option<f64>,
 }
 
 impl Driven {
@@ -112,6 +114,7 @@ impl Driven {
         Ok(Self {
             recorded: Recorded::of(plan, &joints)?,
             joints,
+            ends_at: None,
         })
     }
 
@@ -154,7 +157,7 @@ fn act(arguments: &Arguments) -> Outcome<Result> {
     let mut planned = Planned::read(&arguments.job)?;
     let mut setup = planned.setup(step_s)?;
     let driven = arguments.joints.as_deref();
-    let driven = driven
+    let mut driven = driven
         .map(|file| Driven::of(&planned.plan, file))
         .transpose()?;
     if let Some(driven) = &driven {
@@ -174,8 +177,9 @@ fn act(arguments: &Arguments) -> Outcome<Result> {
         })
         .map_err(|problem| problem.in_file(&planned.job.path))?;
     progress.finish();
-    if let Some(driven) = &driven {
+    if let Some(driven) = &mut driven {
         driven.recorded.add_to(&mut milled);
+        driven.ends_at = driven.recorded.ends_before(&planned.plan, &left);
     }
     let doubts = match arguments.no_interval || support == Support::Rigid {
         true => Vec::new(),
@@ -248,8 +252,7 @@ impl Result {
 
     /// How far along the path recorded joint angles lead, m, where it would cut beyond that.
     fn ends_at(&self) -> Option<f64> {
-        let driven = self.driven.as_ref()?;
-        driven.recorded.ends_before(&self.planned.plan, &self.left)
+        self.driven.as_ref()?.ends_at
     }
 
     /// A limit of the robot or of the part is or may be exceeded, or the part is not milled.

@@ -6,21 +6,9 @@ use super::rest::Rest;
 use super::statement::{Blamed, Experiment};
 use super::told::share_left;
 use super::verdict::{Named, verdict};
-use crate::findings::answer::{Answer, Verdict};
-use crate::findings::gain::Gain;
-
-/// Below, a name is more likely wrong than right.
-const EVEN: f64 = 0.5;
+use crate::findings::answer::Answer;
 
 impl Answer {
-    /// Whether something is left that no name makes.
-    pub fn is_open(&self) -> bool {
-        matches!(
-            self.verdict,
-            Verdict::UnknownCause | Verdict::PartlyExplained
-        )
-    }
-
     fn names(&self) -> Vec<(&'static str, String)> {
         let causes = self.causes.iter().map(|c| (c.effect, c.site.clone()));
         let groups = self.groups.iter().filter_map(|g| {
@@ -42,14 +30,17 @@ pub(super) fn less_doubtful(
     if !found.answer.is_open() || found.scatters {
         return found;
     }
-    let likely = |gain: &Gain| judgement.beside_rest(gain);
     let answer = &mut found.answer;
     for cause in &mut answer.causes {
-        cause.probability = cause.probability.min(likely(&cause.gain));
+        cause.probability = cause.probability.min(judgement.beside_rest(&cause.gain));
     }
     let before = answer.names();
-    answer.causes.retain(|c| likely(&c.gain) >= EVEN);
-    answer.groups.retain(|g| likely(&g.gain) >= EVEN);
+    answer
+        .causes
+        .retain(|c| judgement.stands_beside_rest(&c.gain));
+    answer
+        .groups
+        .retain(|g| judgement.stands_beside_rest(&g.gain));
     let after = answer.names();
     if before.len() > after.len() {
         let is_doubtful = |b: &Blamed| {
@@ -97,7 +88,6 @@ fn leave(experiment: &dyn Experiment, found: &mut Found, judgement: &Judgement) 
 
 #[cfg(test)]
 mod tests {
-    use super::EVEN;
     use crate::findings::Verdict;
     use crate::findings::engine::tests::{Toy, cycle, load};
     use crate::findings::engine::{Judgement, diagnose};
@@ -148,7 +138,8 @@ mod tests {
     fn what_takes_little_is_more_likely_wrong() {
         let likely =
             |share: f64| Judgement::default().beside_rest(&Gain::of(1.0, 1.0 - share, 0.1));
-        assert!(likely(0.1) < 0.2 && likely(0.3) < EVEN && likely(0.4) > EVEN);
+        let even = Judgement::default().even_beside_rest;
+        assert!(likely(0.1) < 0.2 && likely(0.3) < even && likely(0.4) > even);
         assert!((0.6..0.7).contains(&likely(0.5)) && likely(0.9) > 0.9);
         assert!(likely(-0.5) > 0.0 && likely(1.0 - 1e-12) < 1.0);
     }

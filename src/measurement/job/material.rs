@@ -35,7 +35,7 @@ struct Form {
 const HARDEST: f64 = 1e6;
 /// Most that a force may fall with the chip: it would not fall with it altogether.
 const STEEPEST: f64 = 0.99;
-/// Along the edge a force has either sign; that against the cut has one.
+/// A force across the cut has either sign, and one of the edge that was fitted may come out so; that of the chip against the cut has one.
 const EITHER: [f64; 2] = [-HARDEST, HARDEST];
 const AGAINST: [f64; 2] = [0.0, HARDEST];
 const FALLS: [f64; 2] = [-STEEPEST, STEEPEST];
