@@ -38,23 +38,19 @@ impl Cutter {
                 if ring.disc.edge_m == 0.0 {
                     continue;
                 }
-                let share = self.engagement.share(i, turn - edge.lag_cells);
-                if share > 0.0 {
+                let met = self.engagement.met(i, turn - edge.lag_cells);
+                if met.share > 0.0 {
                     let [ls, lc] = edge.lag;
-                    let direction = [sin * lc - cos * ls, cos * lc + sin * ls];
+                    let here = [sin * lc - cos * ls, cos * lc + sin * ls];
                     let bite = Bite {
-                        direction,
+                        direction: turned_by(here, step * met.middle),
                         normal: ring.disc.normal,
-                        step,
+                        step: step * met.width,
                     };
                     let (mean, part) = bite.chip(ways, tooth, &edge.radii);
                     if part > 0.0 {
-                        self.add(
-                            &mut sum,
-                            &bite,
-                            mean / part,
-                            share * part * ring.disc.edge_m,
-                        );
+                        let length = met.share * part * ring.disc.edge_m;
+                        self.add(&mut sum, &bite, mean / part, length);
                     }
                 }
             }
@@ -118,6 +114,16 @@ impl Cutter {
 struct Sum {
     force: V3,
     slope: M3,
+}
+
+/// Sine and cosine of an angle, a little further.
+#[inline]
+fn turned_by([sin, cos]: [f64; 2], angle: f64) -> [f64; 2] {
+    if angle == 0.0 {
+        return [sin, cos];
+    }
+    let (s, c) = angle.sin_cos();
+    [sin * c + cos * s, cos * c - sin * s]
 }
 
 /// Force slopes of the frame in the workpiece frame: R S Rᵀ.

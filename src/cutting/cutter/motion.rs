@@ -13,7 +13,8 @@ const LATEST: f64 = 0.6;
 
 impl Cutter {
     /// Moves the tool to `tip` with its axis along `axis`, in a straight line from where it was, takes
-    /// what it meets, and looks what it stands in there.
+    /// what it meets, and looks what it stands in there: beside a wall as far as half of the chip lies in it that
+    /// this motion takes, the passing of one tooth.
     ///
     /// # Errors
     /// Material above the flutes.

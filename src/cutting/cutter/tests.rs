@@ -116,6 +116,63 @@ fn mean_forces_of_a_usual_tool_are_those_of_its_trochoids() {
     }
 }
 
+/// Mean force of a tool whose material ends at a wall beside its way (y from `low` to `high`), along the rays of its trochoids: what
+/// an earlier tooth left there, as far as it lies in the material. 2 teeth, c = 0.1 mm.
+fn beside_walls(radius: f64, depth: f64, [low, high]: [f64; 2]) -> V3 {
+    let ([tc, rc, ac, te, re, ae], per, count) = (AL7075, 0.1 * MM, 7200);
+    let mut sum = [0.0; 3];
+    for i in 0..count {
+        let phi = TAU * (f64::from(i) + 0.5) / f64::from(count);
+        let (s, c) = phi.sin_cos();
+        // the tooth before stood on this ray an angle later, the tool that much nearer
+        let back = |aside: f64| per * (aside / PI - 1.0);
+        let aside = (0..20).fold(0.0_f64, |aside, _| (-back(aside) * c / radius).asin());
+        let (x, y) = ((phi + aside).sin(), (phi + aside).cos());
+        let chip = radius - (back(aside) + radius * x) * s - radius * y * c;
+        let (inner, outer) = ((radius - chip) * c, radius * c);
+        let within = inner.max(outer).min(high) - inner.min(outer).max(low);
+        let h = chip * (within / (outer - inner).abs()).max(0.0) / MM;
+        if chip > 0.0 && within > 0.0 {
+            let (t, r) = (tc * h + te, rc * h + re);
+            let force = [-t * c - r * s, t * s - r * c, ac * h + ae];
+            sum = add(sum, scale(2.0 * depth / MM / f64::from(count), force));
+        }
+    }
+    sum
+}
+
+#[test]
+fn mean_forces_beside_a_wall_are_those_of_the_trochoids() {
+    let (radius, helix) = (8.0 * MM, FRAC_PI_6);
+    let tool = Tool::square(radius, 2, helix);
+    for depth in [1.0 * MM, 2.0 * MM, 3.3 * MM] {
+        for sides in [
+            [-20.0, -7.0],
+            [-20.0, -2.3],
+            [-20.0, 4.0],
+            [5.0, 20.0],
+            [-4.0, 20.0],
+        ] {
+            let [low, high] = sides.map(|y| y * MM);
+            let stock = Stock::block([0.0, low, -5.0 * MM], [30.0 * MM, high, 0.0], 0.4 * MM);
+            let material = Material::linear_edge(AL7075);
+            let usual = Fineness::usual(&tool);
+            let mut cutter = Cutter::new(&tool, &material, stock.unwrap(), usual, UP);
+            let at = |x: f64| [x * MM, 0.0, -depth];
+            go(&mut cutter, at(-9.0), at(15.0), 0.1 * MM);
+            let before = cutter.removed();
+            go(&mut cutter, at(15.0), at(20.0), 0.1 * MM);
+            let force = cutter.mean_load([0.1 * MM, 0.0, 0.0]).force;
+            let exact = beside_walls(radius, depth, [low, high]);
+            let off = norm(sub(force, exact)) / norm(exact);
+            let area = depth * (high.min(radius) - low.max(-radius));
+            let volume = (cutter.removed() - before) / (5.0 * MM * area) - 1.0;
+            println!("{depth:.4} {sides:?}: {off:.5}, volume {volume:.5}");
+            assert!(off < 0.005 && volume.abs() < 3e-3, "{force:?} {exact:?}");
+        }
+    }
+}
+
 #[test]
 fn removed_volumes_are_those_of_the_closed_form() {
     let tool = Tool::square(8.0 * MM, 2, 0.0);

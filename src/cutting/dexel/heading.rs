@@ -2,15 +2,19 @@
 
 use super::frame::Frame;
 use super::rings::Ring;
-use crate::ground::spatial::{V3, dot, unit};
+use crate::ground::spatial::{V3, dot, scale, sub, unit};
 
 /// The outward directions of all angles, and how far each points along the motion.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Heading {
     /// Outward direction, and its cosine to the motion.
     around: Vec<(V3, f64)>,
+    /// From the envelope to half of the chip, as far as it leads across the motion, m.
+    halfway: Vec<V3>,
     /// Cosine of the spindle axis to the motion.
     lift: f64,
+    /// The motion across the axis, m.
+    level: V3,
 }
 
 /// Nearly along or into the motion: within a few degrees of the border.
@@ -21,6 +25,16 @@ const LEVEL: f64 = 1e-12;
 impl Heading {
     /// Turns to a motion along `way` (any length). `directions`: [sin φ, cos φ] of every angle.
     pub fn turn(&mut self, frame: &Frame, directions: &[[f64; 2]], way: V3) {
+        let level = sub(way, scale(dot(way, frame.z), frame.z));
+        let feed = unit(level).unwrap_or([0.0; 3]);
+        self.level = level;
+        let half = |direction: &[f64; 2]| {
+            let out = frame.outward(*direction);
+            let across = sub(out, scale(dot(out, feed), feed));
+            scale(-0.5 * dot(level, out).max(0.0), across)
+        };
+        self.halfway.clear();
+        self.halfway.extend(directions.iter().map(half));
         let way = unit(way).unwrap_or([0.0; 3]);
         let seen = |direction: &[f64; 2]| {
             let out = frame.outward(*direction);
@@ -35,6 +49,21 @@ impl Heading {
     #[inline]
     pub fn outward(&self, k: usize) -> V3 {
         self.around[k].0
+    }
+
+    /// From the envelope to half of the chip that a motion takes at an angle, across the motion, m: where the chip of a
+    /// ray is cut off by a wall, half of it lies beyond.
+    #[inline]
+    pub fn halfway(&self, k: usize) -> V3 {
+        self.halfway[k]
+    }
+
+    /// What a motion takes at an angle beside radius × chip of first order, m² per rad: c²/2 cos 2φ, the chip along the rays of a
+    /// circle that moves by c.
+    #[inline]
+    pub fn second_order(&self, k: usize) -> f64 {
+        let ahead = dot(self.level, self.around[k].0);
+        0.5 * dot(self.level, self.level) - ahead * ahead
     }
 
     #[inline]

@@ -11,6 +11,7 @@ pub mod frame;
 mod grid;
 mod heading;
 mod mesh;
+mod part;
 mod ray;
 pub mod rings;
 pub mod solid;
