@@ -167,6 +167,49 @@ fn halving_the_step_moves_the_mean_deviation_by_less_than_one_percent() {
 
 /// No weight presses the first axis: the force of the cut closes its gap, and the tool goes by half of it, times
 /// its lever.
+/// Deviations over a second in which axis 1 goes there and back, the tool in a material without forces, or beside it.
+fn swung(rpm: f64, beside: bool) -> Outcome {
+    let row = |i: usize| {
+        let time_s = 4e-3 * f64::from(i as u32);
+        let part = (time_s / 0.4).min(1.0);
+        let turn = 0.02 * (1.0 - (TAU * part).cos());
+        Row {
+            time_s,
+            s_m: 0.0,
+            tip: [if beside { -0.5 } else { 20.0 * MM }, 0.0, -2.0 * MM],
+            axis: [0.0, 0.0, 1.0],
+            joints: [turn, -1.0, 1.4, 0.0, 1.2, 0.0].to_vec(),
+        }
+    };
+    let way = Way::new((0..250).map(row).collect()).unwrap();
+    let spindle_rad_s = rpm / 60.0 * TAU;
+    let tool = Tool::square(8.0 * MM, 2, FRAC_PI_6);
+    let low = [0.0, -15.0 * MM, -8.0 * MM];
+    let stock = Stock::block(low, [40.0 * MM, 15.0 * MM, 0.0], 2.0 * MM).unwrap();
+    let nothing = Material::linear_edge([0.0; 6]);
+    let fineness = Fineness::usual(&tool);
+    let mut cutter = Cutter::new(&tool, &nothing, stock, fineness, [0.0, 0.0, 1.0]);
+    let start = way.at(0.0);
+    let mut robot = Swinging::new(carrier(1.0), &start, spindle_rad_s, cutter.steps()).unwrap();
+    let settings = Settings { spindle_rad_s };
+    mill(&way, &mut cutter, &mut robot, &settings, |_| {}).unwrap()
+}
+
+/// The inertia of a motion loads the robot when it moves so, however long the teeth take to pass.
+#[test]
+fn the_swing_of_a_motion_does_not_know_the_spindle() {
+    let runs = [(20_000.0, false), (8_000.0, false), (8_000.0, true)];
+    let [fast, slow, beside] = runs.map(|(rpm, beside)| swung(rpm, beside));
+    let times: Vec<f64> = (30..90).map(|i| 0.01 * f64::from(i)).collect();
+    let largest = |of: &dyn Fn(f64) -> V3| times.iter().map(|t| norm(of(*t))).fold(0.0, f64::max);
+    let size = largest(&|t| fast.deviation_at(t));
+    for other in [&slow, &beside] {
+        let off = largest(&|t| sub(fast.deviation_at(t), other.deviation_at(t)));
+        println!("{:.4} of {size:.6} m", off / size);
+        assert!(off < 0.04 * size, "{off} of {size}");
+    }
+}
+
 #[test]
 fn the_cut_closes_a_gap_that_no_weight_presses() {
     let gap = 2e-4;

@@ -131,12 +131,21 @@ impl Swinging {
             .collect()
     }
 
-    /// Where the modes would rest under weight and programmed motion.
+    /// Where the modes would rest under weight and programmed motion, its mean over the tick: what changes the speeds from its
+    /// begin to its end, whatever the accelerations are in between.
     fn rest(&mut self, tick: &Tick) -> Vec<f64> {
-        let to = &tick.to;
-        let carried = self
-            .carrier
-            .carried(&to.joints, &to.speeds, &to.accelerations);
+        let (from, to) = (&tick.from, &tick.to);
+        let each = |a: &[f64], b: &[f64], of: fn(f64, f64) -> f64| -> Vec<f64> {
+            a.iter().zip(b).map(|(a, b)| of(*a, *b)).collect()
+        };
+        let mean = |a: f64, b: f64| 0.5 * (a + b);
+        let changed = each(&from.speeds, &to.speeds, |a, b| b - a).into_iter();
+        let accelerations: Vec<f64> = changed.map(|change| change / tick.duration_s()).collect();
+        let carried = self.carrier.carried(
+            &each(&from.joints, &to.joints, mean),
+            &each(&from.speeds, &to.speeds, mean),
+            &accelerations,
+        );
         in_modes(&self.modal, &carried.iter().map(|t| -t).collect::<Vec<_>>())
     }
 
