@@ -2,7 +2,7 @@
 //! surface shows, and how well a simulation knows them.
 
 use crate::ground::problem::{Outcome, Problem};
-use crate::ground::spatial::{V3, cross, norm, sub, unit};
+use crate::ground::spatial::{V3, add, cross, dot, norm, sub, unit};
 use crate::measurement::milled_part::{At, PartTest, Reading};
 use crate::process::run::Outcome as Milled;
 use crate::process::setup::Setup;
@@ -119,6 +119,32 @@ fn when(reading: &Reading, setup: &Setup) -> Outcome<f64> {
     }
 }
 
+/// Speed below which a tool stands, m/s: the places that it passes later are not told from its deviation.
+const STANDS: f64 = 1e-3;
+/// Steps to the time at which the tool passes a place.
+const STEPS: usize = 4;
+/// Way within which that time is sought, m: a tool that passes the place from farther off has been there before or comes again.
+const NEAREST: f64 = 2e-3;
+/// How near to the place it is passed, m; beside a corner no such time may be found, and the place counts as told.
+const PASSED: f64 = 15e-6;
+
+/// What is left at the place where the tool is told to be at a time, m: where it passes the plane across the feed there, ahead or
+/// behind of that time as it gives way along the feed.
+fn left_at(setup: &Setup, milled: &Milled, time_s: f64) -> V3 {
+    let place = |time: f64| setup.way.at(time).tip;
+    let here = place(time_s);
+    let off = |time: f64| add(milled.deviation_at(time), sub(place(time), here));
+    let ahead = sub(place(time_s + 1e-3), place(time_s - 1e-3));
+    let speed = norm(ahead) / 2e-3;
+    let Some(feed) = unit(ahead).filter(|_| speed > STANDS) else {
+        return off(time_s);
+    };
+    let passes = (0..STEPS).fold(time_s, |time, _| time - dot(off(time), feed) / speed);
+    let is_passed =
+        dot(off(passes), feed).abs() < PASSED && norm(sub(place(passes), here)) < NEAREST;
+    off(if is_passed { passes } else { time_s })
+}
+
 fn station(reading: &Reading, time_s: f64, setup: &Setup, milled: &Milled) -> Option<Station> {
     let at = setup.way.at(time_s);
     let force = milled.force_at(time_s);
@@ -140,7 +166,7 @@ fn station(reading: &Reading, time_s: f64, setup: &Setup, milled: &Milled) -> Op
         joints: at.joints,
         speeds: at.speeds,
         force,
-        deviation: milled.deviation_at(time_s),
+        deviation: left_at(setup, milled, time_s),
         steep: 0.5 * norm(sub(after, before)),
         measured: reading.deviation,
     })
