@@ -92,6 +92,8 @@ pub struct Group {
     pub would_tell: String,
     /// What any of them gains.
     pub gain: Gain,
+    /// Probability of the first.
+    pub probability: f64,
 }
 
 /// One row of the candidates' table: causes (with their sites where these differ), probability, nats

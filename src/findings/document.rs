@@ -1,6 +1,6 @@
 //! An answer as it is printed (`formats.md`, section 3).
 
-use super::answer::{Answer, Cause, Group};
+use super::answer::{Answer, Cause, Group, Verdict};
 use super::gain::Gain;
 use super::sentence::sentence;
 use crate::fit::suitability::Doubt;
@@ -139,6 +139,35 @@ impl<'a> GroupDocument<'a> {
     }
 }
 
+/// The causes; where they explain all, one member of each group stands among them, the first unless another does.
+fn causes(answer: &Answer) -> Vec<CauseDocument<'_>> {
+    let stands = |group: &&Group| {
+        let members = || group.effects.iter().zip(&group.sites);
+        let named = |cause: &Cause| members().any(|(e, s)| cause.effect == *e && cause.site == *s);
+        answer.causes.iter().any(named)
+    };
+    let explained = answer.verdict == Verdict::Explained;
+    let groups = answer.groups.iter().filter(|g| explained && !stands(g));
+    let first = |group: &'_ Group| Some((*group.effects.first()?, group.sites.first()?.clone()));
+    let added = groups.filter_map(|group| {
+        let (effect, site) = first(group)?;
+        Some(CauseDocument::bare(
+            effect,
+            site,
+            group.probability,
+            &group.gain,
+        ))
+    });
+    let mut all: Vec<CauseDocument> = answer.causes.iter().map(CauseDocument::of).collect();
+    all.extend(added);
+    all.sort_by(|a, b| {
+        b.gain
+            .reduction_percent
+            .total_cmp(&a.gain.reduction_percent)
+    });
+    all
+}
+
 impl Serialize for Answer {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let candidates = self.candidates.iter();
@@ -157,7 +186,7 @@ impl Serialize for Answer {
                 place: &self.discrepancy.place,
                 noise: &self.noise,
             },
-            causes: self.causes.iter().map(CauseDocument::of).collect(),
+            causes: causes(self),
             cannot_separate: self.groups.iter().map(GroupDocument::of).collect(),
             unexplained: UnexplainedDocument {
                 share_of_variance: self.unexplained.share_of_variance,

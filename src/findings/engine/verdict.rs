@@ -20,9 +20,15 @@ pub struct Named {
 }
 
 impl Named {
-    /// Adds what cannot be told apart: effects with their sites, the named one first.
-    pub fn group(&mut self, members: Vec<(&'static str, String)>, would_tell: String, gain: Gain) {
+    /// Adds what cannot be told apart: effects with their sites, the named one first with its probability.
+    pub fn group(
+        &mut self,
+        (members, probability): (Vec<(&'static str, String)>, f64),
+        would_tell: String,
+        gain: Gain,
+    ) {
         self.groups.push(Group {
+            probability,
             would_tell,
             effects: members.iter().map(|m| m.0).collect(),
             sites: members.into_iter().map(|m| m.1).collect(),
@@ -65,10 +71,11 @@ pub fn name(
         }
         let rivals = Rivals::of(posterior, set, *suspect, is_named, judgement);
         if !rivals.open.is_empty() {
+            let probability = rivals.probability(posterior, judgement);
             let members = std::iter::once(*suspect).chain(rivals.open);
             let members: Vec<(&'static str, String)> = members.map(place).collect();
             let would_tell = experiment.would_tell(&members);
-            named.group(members, would_tell, gains[at]);
+            named.group((members, probability), would_tell, gains[at]);
             continue;
         }
         let own = &bank.suspects[*suspect];

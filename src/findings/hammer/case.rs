@@ -176,6 +176,7 @@ impl Case<'_> {
                 sites: members.iter().map(|s| s.site.clone()).collect(),
                 would_tell: would_tell(&self.machine, &self.sharp, chosen, rival),
                 gain,
+                probability: posterior.of(suspect).min(gain.probability()),
             });
             return;
         }

@@ -130,6 +130,7 @@ fn ask(answer: &mut Answer, cause: Cause) {
         sites: vec![cause.site],
         would_tell: FOR_STIFFNESS.into(),
         gain: cause.gain,
+        probability: cause.probability,
     });
     if answer.verdict == Verdict::Sufficient {
         answer.verdict = Verdict::CannotTell;

@@ -81,6 +81,7 @@ impl Case<'_> {
                     sites: finding.candidates.iter().map(|c| c.1.clone()).collect(),
                     would_tell: self.scale_experiment(finding),
                     gain,
+                    probability,
                 });
             }
         }

@@ -26,7 +26,8 @@ impl Case<'_> {
                 let members = std::iter::once(seat).chain(&rivals.open);
                 let places = members.map(|s| self.seats.seats[*s].place()).collect();
                 let would_tell = self.would_tell(chosen, *seat, &rivals.open);
-                named.group(places, would_tell, gain);
+                let probability = rivals.probability(&self.posterior, &self.judgement);
+                named.group((places, probability), would_tell, gain);
                 continue;
             }
             let inclusion = self.posterior.inclusion(*seat);
