@@ -77,6 +77,55 @@ fn what_jumps_many_times_is_no_drift() {
     assert!(said.contains("at 78.0 s by -40"), "{said}");
 }
 
+fn named(found: &Diagnosis) -> Vec<&'static str> {
+    found.causes.iter().map(|cause| cause.effect).collect()
+}
+
+#[test]
+fn what_slips_a_few_times_has_slipped() {
+    let load = triangles(900);
+    let slips = [(190, 0.04), (470, 0.055), (705, 0.03)];
+    let level = |i: usize, _: f64| -> f64 {
+        let before = slips.iter().filter(|(row, _)| *row <= i);
+        before.map(|(_, height)| height).sum()
+    };
+    let found = judged(&file(&load, &with(&load, level), 0.3, 11));
+    assert_eq!(named(&found), ["slip"], "{}", found.verdict.name());
+}
+
+#[test]
+fn a_gap_that_a_weight_holds_open_shows_under_a_load_of_one_sign() {
+    let load: Vec<f64> = triangles(900).iter().map(|u| u.abs()).collect();
+    let step = |u: f64| ((u - 0.3) / 0.008).tanh() + 1.0;
+    let found = judged(&file(&load, &with(&load, |_, u| 0.03 * step(u)), 0.3, 12));
+    assert_eq!(named(&found), ["backlash"], "{}", found.verdict.name());
+}
+
+#[test]
+fn a_drift_that_begins_steeply_is_no_zero_that_is_off() {
+    let load = triangles(900);
+    let drift = |i: usize, _: f64| {
+        let t = i as f64 / 900.0;
+        -0.05 * (5.0 * t).sin() - 0.03 * (9.0 * t).sin()
+    };
+    let found = judged(&file(&load, &with(&load, drift), 0.3, 13));
+    assert_eq!(named(&found), ["thermal_drift"], "{}", found.verdict.name());
+}
+
+/// `formats.md`, section 3: an `explained` may carry groups; then one member of each stands among the causes.
+#[test]
+fn of_what_cannot_be_told_apart_one_stands_among_the_causes() {
+    let load = triangles(900);
+    let slip = |i: usize, u: f64| 0.35 * u + if i < 500 { 0.0 } else { 0.06 };
+    let found = judged(&file(&load, &with(&load, slip), 0.3, 14));
+    assert_eq!(found.verdict, Verdict::Explained);
+    let said = serde_json::to_value(&found.answer).unwrap();
+    let effects = said["cannot_separate"][0]["effects"].as_array().unwrap();
+    let causes = said["causes"].as_array().unwrap().iter();
+    let standing = causes.filter(|cause| effects.contains(&cause["effect"]));
+    assert_eq!(standing.count(), 1, "{said}");
+}
+
 #[test]
 fn ringing_after_the_corners_is_no_noise() {
     let load = triangles(900);

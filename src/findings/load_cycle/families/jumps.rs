@@ -25,6 +25,18 @@ pub struct Jumps {
     pub twice: Option<[usize; 2]>,
     /// All of them that are worth their place, in the order of time.
     pub many: Vec<Jump>,
+    /// Those that are like in size, each once.
+    pub counted: Vec<Jump>,
+}
+
+/// Jumps that are many: fewer are a slip.
+const MANY: usize = 4;
+
+impl Jumps {
+    /// Whether they are too few to be a level that jumps again and again.
+    pub fn is_few(&self) -> bool {
+        self.counted.len() < MANY
+    }
 }
 
 /// A change of level.
@@ -44,10 +56,12 @@ pub fn jumps(u: &[f64], t: &[f64], reading: &[f64]) -> Jumps {
         [a, b, c, ..] if steps[b].abs() > STANDS_OUT * steps[c].abs() => Some([a, b]),
         _ => None,
     };
+    let many = many(u, t, reading);
     Jumps {
         rows,
         twice,
-        many: many(u, t, reading),
+        counted: counted(&many, reading.len()),
+        many,
     }
 }
 
@@ -60,6 +74,35 @@ fn many(u: &[f64], t: &[f64], reading: &[f64]) -> Vec<Jump> {
     let basis = basis(u, t, waves);
     let left = beside(&basis, reading);
     staircase(&basis, &left, &steady(u))
+}
+
+/// Share of the largest that a jump must have to count: a slip that runs on has smaller ones after it.
+const LIKE: f64 = 0.25;
+/// Share of the rows within which jumps of one sign may be one change that takes its time.
+const SLOW: usize = 12;
+
+/// The changes of level that are like in size, each once: what is averaged of several rows may need two steps for one.
+fn counted(all: &[Jump], rows: usize) -> Vec<Jump> {
+    let largest = all.iter().fold(0.0_f64, |m, jump| m.max(jump.height.abs()));
+    let (near, slow) = (window(rows), rows / SLOW);
+    let mut kept: Vec<Jump> = Vec::new();
+    let mut end = 0;
+    for jump in all.iter().filter(|j| j.height.abs() >= LIKE * largest) {
+        let is_one = |last: &Jump| {
+            let within = match last.height * jump.height > 0.0 {
+                true => slow,
+                false => near,
+            };
+            jump.row - end < within.max(near)
+        };
+        match kept.last_mut().filter(|last| is_one(last)) {
+            Some(last) => last.height += jump.height,
+            None => kept.push(*jump),
+        }
+        end = jump.row;
+    }
+    kept.retain(|jump| jump.height.abs() >= LIKE * largest);
+    kept
 }
 
 /// Share of the usual slope of the load below which it stands.

@@ -18,7 +18,6 @@ mod stiffness_over_time;
 mod time;
 mod view;
 
-pub use jumps::Jump;
 pub use shape::Shapes;
 pub use view::View;
 

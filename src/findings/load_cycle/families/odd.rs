@@ -8,7 +8,7 @@ use super::{Family, Shapes, View};
 pub const BACKLASH: Family = Family {
     cause: "backlash",
     mechanism: "static, odd",
-    suits: |view| view.two_sided,
+    suits: |_| true,
     members: backlash,
 };
 
@@ -41,6 +41,10 @@ fn step(u: f64, width: f64) -> f64 {
 
 fn backlash(view: &View) -> Shapes {
     let mut shapes = Shapes::none();
+    if !view.two_sided {
+        preloaded(view, &mut shapes);
+        return shapes;
+    }
     for width in ROUNDED {
         shapes.positive(view, &view.over_load(|u| step(u, width)));
     }
@@ -67,8 +71,48 @@ fn backlash(view: &View) -> Shapes {
     shapes
 }
 
+/// A gap that a weight holds open, under loads of one sign: it shows where the load reaches it.
+fn preloaded(view: &View, shapes: &mut Shapes) {
+    let side = view.side();
+    for place in even(0.06, 0.5, 45) {
+        for width in [0.008, 0.025] {
+            let zero = step(-place, width);
+            shapes.positive(
+                view,
+                &view.over_load(|u| side * (step(side * u - place, width) - zero)),
+            );
+        }
+    }
+}
+
+/// A soft zone that a weight moves off the zero.
+fn shifted(view: &View, shapes: &mut Shapes) {
+    let sides: &[f64] = if view.two_sided {
+        &[-1.0, 1.0]
+    } else {
+        &[view.side()]
+    };
+    for (place, half) in [
+        (0.1, 0.1),
+        (0.2, 0.1),
+        (0.2, 0.2),
+        (0.3, 0.12),
+        (0.3, 0.22),
+        (0.42, 0.15),
+        (0.42, 0.25),
+        (0.55, 0.15),
+        (0.55, 0.25),
+    ] {
+        for side in sides {
+            let at = |u: f64| (side * u - place).clamp(-half, half);
+            shapes.positive(view, &view.over_load(|u| side * (at(u) - at(0.0))));
+        }
+    }
+}
+
 fn soft_zone(view: &View) -> Shapes {
     let mut shapes = Shapes::none();
+    shifted(view, &mut shapes);
     for m in geometric(0.07, 0.72, 22) {
         shapes.positive(view, &view.over_load(|u| clip(u, m)));
     }

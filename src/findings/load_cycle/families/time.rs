@@ -11,7 +11,7 @@ pub const THERMAL_DRIFT: Family = Family {
     members: drift,
 };
 
-/// A jump at a free place, or two.
+/// A jump at a free place, or a few.
 pub const SLIP: Family = Family {
     cause: "slip",
     mechanism: "time",
@@ -31,7 +31,11 @@ fn drift(view: &View) -> Shapes {
             let k = k as f64;
             view.over_time(|t| ((PI * k * t).cos() - 1.0) * k.powf(-1.5))
         };
-        shapes.free(view, &(1..=orders).map(order).collect::<Vec<_>>());
+        let orders: Vec<Vec<f64>> = (1..=orders).map(order).collect();
+        shapes.free(view, &orders);
+        // cosines are level at both ends: what goes on changing there needs a slope at either
+        let slopes = [view.t.clone(), view.over_time(|t| t * t)].into_iter();
+        shapes.free(view, &slopes.chain(orders).collect::<Vec<_>>());
     }
     // a room and a machine that warm up at two speeds: what rises may fall again
     for pair in [[0.1, 0.5], [0.1, 1.5], [0.2, 0.7], [0.2, 1.5], [0.3, 1.0]] {
@@ -63,6 +67,11 @@ fn slip(view: &View) -> Shapes {
     }
     if let Some(twice) = view.jumps.twice {
         shapes.free(view, &twice.map(|at| view.since(at)));
+    }
+    let all = &view.jumps.counted;
+    if all.len() > 1 && view.jumps.is_few() {
+        let each = all.iter().map(|jump| view.since(jump.row));
+        shapes.free(view, &each.collect::<Vec<_>>());
     }
     shapes
 }

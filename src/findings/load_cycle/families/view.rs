@@ -69,6 +69,15 @@ impl View {
         self.u.len()
     }
 
+    /// Sign of the largest load.
+    pub fn side(&self) -> f64 {
+        let largest = self
+            .u
+            .iter()
+            .fold(0.0_f64, |m, u| if u.abs() > m.abs() { *u } else { m });
+        1.0_f64.copysign(largest)
+    }
+
     /// A column less what the spring takes of it. `None` where nothing is left.
     pub fn beyond_spring(&self, column: &[f64]) -> Option<Vec<f64>> {
         let own: f64 = self.u.iter().map(|u| u * u).sum();
