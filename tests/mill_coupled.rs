@@ -175,8 +175,9 @@ fn swung(rpm: f64, beside: bool) -> Outcome {
         let turn = 0.02 * (1.0 - (TAU * part).cos());
         Row {
             time_s,
-            s_m: 0.0,
-            tip: [if beside { -0.5 } else { 20.0 * MM }, 0.0, -2.0 * MM],
+            s_m: 0.4 * time_s,
+            // so far that the course has a station every few milliseconds
+            tip: [0.4 * time_s, if beside { -0.5 } else { 0.0 }, -2.0 * MM],
             axis: [0.0, 0.0, 1.0],
             joints: [turn, -1.0, 1.4, 0.0, 1.2, 0.0].to_vec(),
         }
@@ -185,7 +186,7 @@ fn swung(rpm: f64, beside: bool) -> Outcome {
     let spindle_rad_s = rpm / 60.0 * TAU;
     let tool = Tool::square(8.0 * MM, 2, FRAC_PI_6);
     let low = [0.0, -15.0 * MM, -8.0 * MM];
-    let stock = Stock::block(low, [40.0 * MM, 15.0 * MM, 0.0], 2.0 * MM).unwrap();
+    let stock = Stock::block(low, [0.4, 15.0 * MM, 0.0], 2.0 * MM).unwrap();
     let nothing = Material::linear_edge([0.0; 6]);
     let fineness = Fineness::usual(&tool);
     let mut cutter = Cutter::new(&tool, &nothing, stock, fineness, [0.0, 0.0, 1.0]);

@@ -250,11 +250,13 @@ impl Structure for Swinging {
         self.places.clear();
         self.force = [0.0; 3];
         let rest = self.rest(tick);
+        let before = self.deviation();
         self.carry(&rest, true);
         self.loosen(true, [0.0; 3]);
         self.take(&rest, [0.0; 3], true);
+        // noted for the middle of the step, as in the cut
         Ok(Bout {
-            deviation: self.deviation(),
+            deviation: scale(0.5, add(before, self.deviation())),
             ..Bout::default()
         })
     }
