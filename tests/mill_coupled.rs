@@ -165,8 +165,6 @@ fn halving_the_step_moves_the_mean_deviation_by_less_than_one_percent() {
     close(coarse, fine, 0.01);
 }
 
-/// No weight presses the first axis: the force of the cut closes its gap, and the tool goes by half of it, times
-/// its lever.
 /// Deviations over a second in which axis 1 goes there and back, the tool in a material without forces, or beside it.
 fn swung(rpm: f64, beside: bool) -> Outcome {
     let row = |i: usize| {
@@ -211,6 +209,8 @@ fn the_swing_of_a_motion_does_not_know_the_spindle() {
     }
 }
 
+/// No weight presses the first axis: the force of the cut closes its gap, and the tool goes by half of it, times
+/// its lever.
 #[test]
 fn the_cut_closes_a_gap_that_no_weight_presses() {
     let gap = 2e-4;

@@ -147,7 +147,9 @@ fn causes(answer: &Answer) -> Vec<CauseDocument<'_>> {
         answer.causes.iter().any(named)
     };
     let explained = answer.verdict == Verdict::Explained;
-    let groups = answer.groups.iter().filter(|g| explained && !stands(g));
+    // a question about one alone names nobody
+    let open = |g: &&Group| explained && g.effects.len() > 1 && !stands(g);
+    let groups = answer.groups.iter().filter(open);
     let first = |group: &'_ Group| Some((*group.effects.first()?, group.sites.first()?.clone()));
     let added = groups.filter_map(|group| {
         let (effect, site) = first(group)?;
@@ -159,12 +161,12 @@ fn causes(answer: &Answer) -> Vec<CauseDocument<'_>> {
         ))
     });
     let mut all: Vec<CauseDocument> = answer.causes.iter().map(CauseDocument::of).collect();
+    let named = all.len();
     all.extend(added);
-    all.sort_by(|a, b| {
-        b.gain
-            .reduction_percent
-            .total_cmp(&a.gain.reduction_percent)
-    });
+    if all.len() > named {
+        let gain = |c: &CauseDocument| Some(c.gain.reduction_percent).filter(|p| p.is_finite());
+        all.sort_by(|a, b| gain(b).unwrap_or(0.0).total_cmp(&gain(a).unwrap_or(0.0)));
+    }
     all
 }
 

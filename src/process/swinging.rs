@@ -1,7 +1,7 @@
 //! Masses, dampers and springs of the robot in time, coupled to every tooth: the default.
 //!
 //! But for the gaps and contacts of its joints ([`super::loose`]) the robot is linear about its programmed motion, anew wherever its pose has changed; weight and
-//! programmed accelerations load it (source 000, eq. 2.1). Every step solves u = u₀ + H f and
+//! programmed motion load it (source 000, eq. 2.1). Every step solves u = u₀ + H f and
 //! f = F(u) together with the slope of the force, so that no stiffness of the cut makes it unstable.
 
 use super::loose::{Loose, Ports};

@@ -95,7 +95,7 @@ impl Engagement {
         last.map_or(0.0, |i| self.rings[i].circles[1][1])
     }
 
-    /// Looks around: the tool at `tip` moving along `way` (any length), the stock as it was before the
+    /// Looks around: the tool at `tip` moving along `way`, as far as while one tooth passes, the stock as it was before the
     /// places `latest` were taken from it.
     pub fn look(&mut self, stock: &Stock, tip: V3, way: V3, latest: &[Solid]) {
         let top = stock.height_above(tip, self.frame.z);

@@ -23,7 +23,7 @@ const ALMOST: f64 = -0.12;
 const LEVEL: f64 = 1e-12;
 
 impl Heading {
-    /// Turns to a motion along `way` (any length). `directions`: [sin φ, cos φ] of every angle.
+    /// Turns to a motion along `way`, of the passing of one tooth. `directions`: [sin φ, cos φ] of every angle.
     pub fn turn(&mut self, frame: &Frame, directions: &[[f64; 2]], way: V3) {
         let level = sub(way, scale(dot(way, frame.z), frame.z));
         let feed = unit(level).unwrap_or([0.0; 3]);

@@ -28,7 +28,7 @@ pub struct Station {
     pub speeds: Vec<f64>,
     /// Simulated mean force on the tool, N, workpiece frame.
     pub force: V3,
-    /// Simulated deviation of the tool, m, workpiece frame.
+    /// What the simulation leaves there, m, workpiece frame: the deviation of the tool when it passes the place.
     pub deviation: V3,
     /// By how much that differs over `STEEP`, m.
     pub steep: f64,

@@ -97,8 +97,10 @@ fn suspect(
         return None;
     }
     let alone = family.is_none();
+    // under loads of one sign a gap at zero is a zero that is off, and shows as that
     let own = laws
         .iter()
+        .filter(|law| view.two_sided || law.card().name != "backlash")
         .flat_map(|law| law::members(*law, alone, data, view));
     let wide = family.into_iter().flat_map(|f| (f.members)(view).members);
     let members: Vec<Member> = own.chain(wide).collect();

@@ -1,4 +1,4 @@
-//! Static, single-valued, odd in the load: gaps, soft zones, springs that stiffen or soften.
+//! Static and single-valued: gaps and soft zones, about zero load unless a weight shifts them, springs that stiffen or soften.
 
 use super::shape::{even, geometric};
 use super::{Family, Shapes, View};
@@ -12,7 +12,7 @@ pub const BACKLASH: Family = Family {
     members: backlash,
 };
 
-/// A softer spring about zero load.
+/// A softer spring about zero load, or about another where a weight moves it there.
 pub const SOFT_ZONE: Family = Family {
     cause: "soft_zone",
     mechanism: "static, odd",
