@@ -6,7 +6,7 @@
 //! `cargo test --test suite milled_part:: -- --nocapture`.
 
 use crate::common::few_or_all;
-use crate::part_bench::{SLOT, job, ready};
+use crate::part_bench::{OUTLINE, SLOT, job, ready};
 use ident::findings::kinds;
 use ident::findings::{Answer, Verdict};
 use ident::ground::random::Random;
@@ -16,8 +16,6 @@ use ident::process::{Planned, Way};
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// A pocket's outline: feeds in four directions, corners, in and out.
-const OUTLINE: &str = "-14,12,-2\n38,12,-2\n38,38,-2\n12,38,-2\n12,24,-2\n30,24,-2\n30,64,-2\n";
 const PROBE_MM: f64 = 0.003;
 
 struct Plant {
@@ -259,7 +257,8 @@ fn single_causes_are_named_and_sound_parts_are_left_alone() {
         }
     }
     let mut flagged = 0;
-    for (i, plant) in outside(&setup).into_iter().enumerate() {
+    let strange = few_or_all(1, 2) as usize;
+    for (i, plant) in outside(&setup).into_iter().take(strange).enumerate() {
         let answer = diagnosed(
             folder.path(),
             &plant.probed(&setup, 100 * seed + 70 + i as u64, ""),
@@ -270,7 +269,7 @@ fn single_causes_are_named_and_sound_parts_are_left_alone() {
         }
     }
     println!(
-        "milled parts: right {right} of {all}, wrong {wrong}, alarms {alarms} of {cleans}, outside flagged {flagged} of 2"
+        "milled parts: right {right} of {all}, wrong {wrong}, alarms {alarms} of {cleans}, outside flagged {flagged} of {strange}"
     );
     // one of those that nobody can tell may be among more than two
     let missed = usize::from(whole) + usize::from(all > 2);

@@ -11,6 +11,7 @@ mod judge;
 mod milling_bench;
 mod mutation;
 mod part_bench;
+mod part_swing;
 #[path = "mutation/paths.rs"]
 mod paths;
 mod robot_blind;

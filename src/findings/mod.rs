@@ -3,6 +3,7 @@
 
 pub mod answer;
 pub mod belief;
+mod bent;
 pub mod campaign;
 pub mod cubes;
 mod document;

@@ -1,6 +1,7 @@
 //! Causes of the whole robot ([`crate::causes`]) as a kind of measurement sees them: each alters the robot,
 //! and the readings show the difference. What they do not show adds nothing and is left out.
 
+use super::bent::{self, Strength};
 use crate::causes::contract::Cause;
 use crate::causes::places::soften;
 use crate::causes::{CAUSES, Sight};
@@ -9,9 +10,10 @@ use crate::findings::engine::{Blamed, Member, Nuisance, Suspect};
 use crate::ground::stats::length;
 use crate::inference::gaussian::Size;
 use crate::robot::{Robot, Spring};
+use rayon::prelude::*;
 
 /// A kind whose readings follow from a robot.
-pub trait OnRobot {
+pub trait OnRobot: Sync {
     /// The robot as it is simulated.
     fn robot(&self) -> &Robot;
     /// What another robot would show more, reading by reading; empty where that cannot be told.
@@ -20,6 +22,14 @@ pub trait OnRobot {
     fn noise(&self) -> f64;
     /// Whether this kind shows a cause.
     fn shows(&self, cause: &str) -> bool;
+    /// Whether what a cause adds grows in a straight line with its amounts.
+    fn is_straight(&self) -> bool {
+        true
+    }
+    /// Whether what is missed may hold something of this column: only then is it worth trials of other strengths.
+    fn may_hold(&self, _column: &[f64]) -> bool {
+        true
+    }
     /// How ready one is to blame a cause at a site, against its other sites.
     fn readiness(&self, cause: &'static dyn Cause, site: &str) -> f64 {
         cause.readiness(self.robot(), site)
@@ -64,7 +74,7 @@ fn shows(case: &dyn OnRobot, cause: &dyn Cause) -> bool {
 fn of(case: &dyn OnRobot, cause: &'static dyn Cause) -> Vec<Suspect> {
     let sites = cause.sites(case.robot());
     let total: f64 = sites.iter().map(|site| case.readiness(cause, site)).sum();
-    let suspect = |site: String| {
+    let suspect = |site: String| -> Option<Suspect> {
         let members = members(case, cause, &site);
         let share = (case.readiness(cause, &site) / total).ln();
         let card = cause.card();
@@ -80,31 +90,56 @@ fn of(case: &dyn OnRobot, cause: &'static dyn Cause) -> Vec<Suspect> {
             can_be: |_, _| true,
         })
     };
-    sites.into_iter().filter_map(suspect).collect()
+    sites.into_par_iter().filter_map(suspect).collect()
 }
 
-/// One member per form; columns are the difference at an ordinary strength. What two axes share of a compliance is none
-/// alone: such forms are left to tests that load every point in all directions.
+/// One member per form and strength; columns are the difference at an ordinary strength, by what the strength of the member adds. What two axes share of a compliance is
+/// none alone: such forms are left to tests that load every point in all directions.
 pub fn members(case: &dyn OnRobot, cause: &'static dyn Cause, site: &str) -> Vec<Member> {
-    let scale = cause.scale(case.robot(), site);
-    let columns: Vec<Vec<f64>> = (0..scale.len())
-        .map(|k| match cause.is_shared(k) {
-            true => Vec::new(),
-            false => column(case, cause, site, &scale, k),
+    let either_sign = cause.card().amounts.iter().all(|a| a.bounds[0] < 0.0);
+    let column = |k: usize, strength: f64| changed(case, (cause, site), k, strength);
+    let own = (0..cause.card().amounts.len()).filter(|k| !cause.is_shared(*k));
+    let own: Vec<usize> = own.collect();
+    let is_asked = || {
+        own.par_iter()
+            .any(|k| case.may_hold(&column(*k, bent::FIRST)))
+    };
+    let strengths = match case.is_straight() {
+        true => vec![Strength::small(TRIED)],
+        false if is_asked() => bent::strengths(either_sign),
+        false => vec![Strength::small(bent::FIRST)],
+    };
+    let columns: Vec<Vec<Vec<f64>>> = (0..cause.card().amounts.len())
+        .into_par_iter()
+        .map(|k| match own.contains(&k) {
+            true => bent::columns(&strengths, |strength| column(k, strength)),
+            false => Vec::new(),
         })
         .collect();
-    let rows = columns.iter().map(Vec::len).max().unwrap_or(0) as f64;
-    let limit = UNSEEN * case.noise() * rows.sqrt();
-    let seen = |k: &usize| length(&columns[*k]) > limit;
+    let of = |(i, strength): (usize, &Strength)| {
+        of_strength(case, cause, strength, &|k| columns[k].get(i))
+    };
+    strengths.iter().enumerate().flat_map(of).collect()
+}
+
+fn of_strength<'a>(
+    case: &dyn OnRobot,
+    cause: &'static dyn Cause,
+    strength: &Strength,
+    column: &dyn Fn(usize) -> Option<&'a Vec<f64>>,
+) -> Vec<Member> {
+    let limit = |column: &Vec<f64>| UNSEEN * case.noise() * (column.len() as f64).sqrt();
+    let seen = |k: &usize| column(*k).is_some_and(|c| length(c) > limit(c));
     let form = |(index, form): (usize, Vec<usize>)| {
         let positive = form
             .iter()
             .all(|k| cause.card().amounts[*k].bounds[0] >= 0.0);
         form.iter().all(&seen).then(|| Member {
-            columns: form.iter().map(|k| columns[*k].clone()).collect(),
+            columns: form.iter().filter_map(|k| column(*k)).cloned().collect(),
             size: Size::Given(1.0),
             positive: positive.then(|| vec![1.0; form.len()]),
-            shape: vec![index as f64],
+            within: strength.within,
+            shape: strength.shape(index as f64),
         })
     };
     let likely: Vec<bool> = cause.shares().iter().map(|s| *s >= LEAST).collect();
@@ -113,17 +148,17 @@ pub fn members(case: &dyn OnRobot, cause: &'static dyn Cause, site: &str) -> Vec
     forms.filter_map(form).collect()
 }
 
-fn column(
+/// What a cause of a strength, in ordinary ones, adds to the readings by one of its amounts.
+fn changed(
     case: &dyn OnRobot,
-    cause: &'static dyn Cause,
-    site: &str,
-    scale: &[f64],
+    (cause, site): (&'static dyn Cause, &str),
     k: usize,
+    strength: f64,
 ) -> Vec<f64> {
+    let scale = cause.scale(case.robot(), site);
     let mut amounts = vec![0.0; scale.len()];
-    amounts[k] = TRIED * scale[k];
-    let robot = case.with_cause(cause, site, &amounts);
-    case.change(&robot).iter().map(|x| x / TRIED).collect()
+    amounts[k] = strength * scale[k];
+    case.change(&case.with_cause(cause, site, &amounts))
 }
 
 /// Relative standard deviation of a stiffness, or of a coefficient of the cut, that states none. A choice, no
@@ -132,27 +167,26 @@ pub const USUAL: f64 = 0.02;
 /// Relative compliance at which a spring is tried: small, so that what it adds is linear.
 const SOFTER: f64 = 0.01;
 
-/// Every spring within what is known of it; those that the readings hardly show are left out.
-pub fn springs(case: &dyn OnRobot) -> Vec<Nuisance> {
-    let all = case
-        .robot()
-        .springs()
-        .map(|(site, spring)| self::spring(case, &site, spring));
-    all.filter(|n| is_shown(case, n)).collect()
-}
-
-/// Sites of the springs that the readings show.
-pub fn shown_springs(case: &dyn OnRobot) -> Vec<String> {
-    let shown =
-        |(site, own): (String, &Spring)| is_shown(case, &spring(case, &site, own)).then_some(site);
-    case.robot().springs().filter_map(shown).collect()
+/// Every spring within what is known of it, with its site; those that the readings hardly show are left out.
+pub fn shown_springs(case: &dyn OnRobot) -> Vec<(String, Nuisance)> {
+    let all: Vec<(String, &Spring)> = case.robot().springs().collect();
+    let told = all.into_par_iter().map(|(site, own)| {
+        let nuisance = spring(case, &site, own);
+        (site, nuisance)
+    });
+    let shown = told.filter(|(_, nuisance)| is_shown(case, nuisance));
+    shown.collect()
 }
 
 /// A spring within what is known of it.
 pub fn spring(case: &dyn OnRobot, site: &str, spring: &Spring) -> Nuisance {
-    let robot = case.with_softer(site, SOFTER);
+    let softer = match case.is_straight() {
+        true => SOFTER,
+        false => bent::SOFTER_FIRST,
+    };
+    let robot = case.with_softer(site, softer);
     Nuisance {
-        column: case.change(&robot).iter().map(|x| x / SOFTER).collect(),
+        column: case.change(&robot).iter().map(|x| x / softer).collect(),
         spread: spring.relative_std().unwrap_or(USUAL),
     }
 }

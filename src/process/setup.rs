@@ -133,6 +133,14 @@ impl Setup {
         }
     }
 
+    /// The same job in so many steps per tooth, or fewer where it has fewer.
+    #[must_use]
+    pub fn with_steps(mut self, per_tooth: usize) -> Self {
+        let most = per_tooth * self.tool.teeth;
+        self.fineness.steps = self.fineness.steps.min(most);
+        self
+    }
+
     /// The tool beside its stock.
     pub fn cutter(&self) -> Cutter {
         let axis = self.way.rows()[0].axis;

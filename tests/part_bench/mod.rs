@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 
 /// Through a block and out of it, then across: a slot with an entry, a corner and an exit.
 pub const CORNER: &str = "-16,20,-2\n40,20,-2\n40,66,-2\n";
+/// A pocket's outline: feeds in four directions, corners, in and out.
+pub const OUTLINE: &str = "-14,12,-2\n38,12,-2\n38,38,-2\n12,38,-2\n12,24,-2\n30,24,-2\n30,64,-2\n";
 /// One slot, in and out.
 pub const SLOT: &str = "-16,20,-3\n66,20,-3\n";
 /// The same, six millimetres deep: more than 400 N.

@@ -117,7 +117,8 @@ impl Case {
             robot,
             test,
         };
-        case.springs = physics::shown_springs(&case);
+        let springs = physics::shown_springs(&case).into_iter();
+        case.springs = springs.map(|(site, _)| site).collect();
         Ok(case)
     }
 

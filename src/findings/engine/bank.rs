@@ -226,6 +226,10 @@ impl<'a> Bank<'a> {
         fit.members.iter().all(|member| {
             let first = at;
             at += self.entries[*member].columns.len();
+            let own = &fit.posterior.mean.as_slice()[first..at];
+            if !self.member(*member).allows(own) {
+                return false;
+            }
             let Some(weights) = &self.member(*member).positive else {
                 return true;
             };

@@ -18,6 +18,8 @@ pub(super) struct Entry {
     pub size: Size,
     /// Factor from the kind's columns to those of the bank.
     pub scale: f64,
+    /// Forms of its suspect.
+    pub forms: usize,
     /// Products of its columns with one another.
     pub own: DMatrix<f64>,
 }
@@ -33,6 +35,7 @@ pub(super) fn entries(
     let mut entries = Vec::new();
     let mut at = 0;
     for (suspect, own) in suspects.iter().enumerate() {
+        let forms = own.forms();
         for (member, m) in own.members.iter().enumerate() {
             let range = at..at + m.columns.len();
             at = range.end;
@@ -59,6 +62,7 @@ pub(super) fn entries(
                 member,
                 size: m.size,
                 scale,
+                forms,
                 own: product(columns, marginal),
                 columns: range,
             });

@@ -165,7 +165,7 @@ pub(super) fn price(bank: &Bank, members: &[usize], judgement: &Judgement) -> f6
             Size::Free => member.columns.len().saturating_sub(1) as f64,
             Size::Given(_) | Size::Drawn => 0.0,
         };
-        let shapes = (suspect.members.len() as f64).ln();
+        let shapes = (bank.entries[*m].forms as f64).ln();
         judgement.name - suspect.share + shapes + judgement.amount * free
     };
     let kin = |i: usize| {
@@ -260,6 +260,12 @@ fn rise(bank: &Bank, base: &Fit, member: usize, (square, pull): (f64, f64)) -> O
         .is_some_and(|w| w[0] * pull <= 0.0);
     if wrong || square <= 1e-12 * bank.square(&bank.entries[member]) {
         return None;
+    }
+    if let Size::Given(size) = bank.entries[member].size {
+        let amount = pull / (square + (size * size).recip());
+        if !bank.member(member).allows(&[amount]) {
+            return None;
+        }
     }
     let left = base.posterior.left;
     let before = bank.reading.ln_evidence(left);

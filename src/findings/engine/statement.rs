@@ -3,6 +3,7 @@
 use super::aspect::Aspects;
 use crate::inference::gaussian::Size;
 use nalgebra::DMatrix;
+use std::collections::BTreeSet;
 
 /// The noise of the readings.
 pub trait Noise: Send + Sync {
@@ -74,6 +75,9 @@ pub struct Member {
     pub size: Size,
     /// Where physics fixes the sign: weights of the amounts whose sum must come out positive.
     pub positive: Option<Vec<f64>>,
+    /// Where the columns are those of an effect of one strength and no straight line: the largest amount must come out between these
+    /// ([`Size::Given`] alone).
+    pub within: Option<[f64; 2]>,
     /// What the kind needs to know its shape again (a width, a place, a time constant).
     pub shape: Vec<f64>,
 }
@@ -85,6 +89,7 @@ impl Member {
             columns: vec![column],
             size: Size::Free,
             positive: None,
+            within: None,
             shape: Vec::new(),
         }
     }
@@ -102,6 +107,17 @@ impl Member {
     pub fn positive(mut self) -> Self {
         self.positive = Some(vec![1.0; self.columns.len()]);
         self
+    }
+
+    /// Whether amounts are of the strength that its columns are of.
+    pub fn allows(&self, amounts: &[f64]) -> bool {
+        let largest = amounts
+            .iter()
+            .copied()
+            .max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        self.within
+            .zip(largest)
+            .is_none_or(|([least, most], x)| (least..=most).contains(&x))
     }
 
     /// The same with its shape.
@@ -146,6 +162,17 @@ pub struct Suspect {
 pub const LEVEL: &str = "constant";
 
 impl Suspect {
+    /// How many shapes it has, the strengths of one counted once.
+    pub fn forms(&self) -> usize {
+        let form = |m: &Member| -> Option<Vec<u64>> {
+            let (_, form) = m.shape.split_last().filter(|_| m.within.is_some())?;
+            Some(form.iter().map(|x| x.to_bits()).collect())
+        };
+        let bent: BTreeSet<Vec<u64>> = self.members.iter().filter_map(form).collect();
+        let straight = self.members.iter().filter(|m| form(m).is_none()).count();
+        bent.len() + straight
+    }
+
     /// Whether it is the same in every reading.
     pub fn is_level(&self) -> bool {
         self.mechanism == LEVEL

@@ -2,7 +2,7 @@
 
 use super::{Diagnosed, Measured, Source, examined};
 use crate::findings::engine::{Found, Judgement};
-use crate::findings::milled_part::{Case, Row};
+use crate::findings::milled_part::{Case, Row, backlash};
 use crate::findings::physics;
 use crate::fit::suitability::{self, Doubt};
 use crate::ground::problem::Outcome;
@@ -110,18 +110,26 @@ impl Measured for Case {
         let mut robot = self.setup.robot.clone();
         let named = found.blamed.iter().filter(|b| b.shape[0] >= 0.0);
         named.for_each(|blamed| physics::alter(self, blamed, &mut robot));
+        for blamed in &found.blamed {
+            backlash::alter(blamed, &mut robot);
+        }
         let synthetic = self.test.facts.synthetic;
         Ok((robot != self.setup.robot).then(|| labelled(&robot, synthetic)))
     }
 
     fn remarks(&self, _: &Found) -> Vec<String> {
-        match self.test.readings.len() - self.stations.len() {
-            0 => Vec::new(),
-            n => vec![format!(
-                "{n} of {} probed places lie where the job cuts nothing: they are left out.",
-                self.test.readings.len()
-            )],
-        }
+        let aside = self.test.readings.len() - self.stations.len();
+        let left_out = (aside > 0).then(|| {
+            let all = self.test.readings.len();
+            format!(
+                "{aside} of {all} probed places lie where the job cuts nothing: they are left out."
+            )
+        });
+        let unheard = self.swings_unheard.then(|| {
+            "The robot swings, but the job is too long to be milled again and again in time: springs and gaps are told from what they do at rest."
+                .to_string()
+        });
+        left_out.into_iter().chain(unheard).collect()
     }
 }
 

@@ -1,18 +1,24 @@
 //! The part milled again with what was found: what that changes beyond first order.
 
-use super::tried::{shifted, still};
+use super::driven::Driven;
+use super::tried::{between, left, left_along};
 use super::{
-    Case, backlash, cutting_coefficients, robot, thermal_growth, tool_radius, uncertain,
-    workpiece_offset, workpiece_rotation,
+    Case, backlash, corner_lag, cutting_coefficients, robot, thermal_growth, tool_radius,
+    uncertain, workpiece_offset, workpiece_rotation,
 };
-use crate::findings::engine::{Blamed, Nuisance};
+use crate::findings::bent;
+use crate::findings::engine::{Blamed, Member, Nuisance};
 use crate::ground::spatial::{V3, add};
-use crate::process::setup::Setup;
+use crate::process::setup::{Setup, Support};
 
 impl Case {
     /// How much more than in first order these causes and uncertain numbers change the rows, m: the cut is milled
-    /// again with them, and the force gives way.
-    pub(super) fn beyond_first_order(&self, about: &[Blamed], uncertain: &[f64]) -> Vec<f64> {
+    /// again with them, and the force gives way. None where that cannot be milled.
+    pub(super) fn beyond_first_order(
+        &self,
+        about: &[Blamed],
+        uncertain: &[f64],
+    ) -> Option<Vec<f64>> {
         let mut setup = self.trial.clone();
         let known = self.stated().uncertain.iter().zip(uncertain);
         let known: Vec<(&Nuisance, f64)> = known
@@ -25,16 +31,21 @@ impl Case {
             .iter()
             .filter_map(|b| Some((b, moves(self, b)?)))
             .collect();
-        if altered.is_empty() && known.is_empty() && moves.is_empty() {
-            return vec![0.0; self.rows.len()];
+        let driven: Vec<&Blamed> = about.iter().filter(|b| corner_lag::is_milled(b)).collect();
+        if altered.is_empty() && known.is_empty() && moves.is_empty() && driven.is_empty() {
+            return Some(vec![0.0; self.rows.len()]);
         }
-        let Some(again) = self.milled_again(&setup, &moves) else {
-            return vec![0.0; self.rows.len()];
+        let support = match about.iter().any(backlash::is_milled) {
+            true => Support::Coupled,
+            false => self.support,
         };
-        let again = self.seen(&again);
+        let again = self.milled_again((&setup, support), &driven, &moves)?;
+        let (again, base) = (self.seen(&again), self.base(support)?);
+        let causes = altered.iter().chain(&driven).copied();
+        let causes = causes.chain(moves.iter().map(|m| m.0));
+        let parts: Vec<Vec<f64>> = causes.map(|b| self.part(b)).collect();
         let linear = |row: usize| {
-            let causes = altered.iter().copied().chain(moves.iter().map(|m| m.0));
-            let causes: f64 = causes.map(|b| b.part[row]).sum();
+            let causes: f64 = parts.iter().map(|part| part[row]).sum();
             // the edge of another tool on the wall is no way of its middle
             let edges: f64 = altered
                 .iter()
@@ -42,9 +53,46 @@ impl Case {
                 .sum();
             causes - edges + known.iter().map(|(n, a)| a * n.column[row]).sum::<f64>()
         };
-        (0..self.rows.len())
-            .map(|row| again[row] - self.still[row] - linear(row))
-            .collect()
+        let rows = 0..self.rows.len();
+        Some(
+            rows.map(|row| again[row] - base[row] - linear(row))
+                .collect(),
+        )
+    }
+
+    /// What a trial with nothing changed leaves, row by row, m; none where that cannot be milled.
+    pub(super) fn base(&self, support: Support) -> Option<&Vec<f64>> {
+        if support == self.support {
+            return Some(&self.still);
+        }
+        let own = || left(&self.trial, &self.stations, support).ok();
+        let own = self.swung.get_or_init(|| Some(self.seen(&own()?)));
+        own.as_ref()
+    }
+
+    /// What a cause adds in a straight line, row by row, m.
+    fn part(&self, blamed: &Blamed) -> Vec<f64> {
+        let Some(member) = self.about(blamed) else {
+            return blamed.part.clone();
+        };
+        let row = |row: usize| {
+            let each = member.columns.iter().zip(&blamed.amounts);
+            each.map(|(column, amount)| amount * column[row]).sum()
+        };
+        (0..self.rows.len()).map(row).collect()
+    }
+
+    /// What a cause that adds no straight line adds about what was found of it.
+    pub(super) fn about(&self, blamed: &Blamed) -> Option<Member> {
+        let is_bent = self.swings() && robot::is_own(blamed)
+            || backlash::is_milled(blamed)
+            || corner_lag::is_milled(blamed);
+        if !is_bent {
+            return None;
+        }
+        let mut suspects = self.stated().suspects.iter();
+        let own = suspects.find(|s| s.effect == blamed.effect && s.site == blamed.site)?;
+        bent::about(own, blamed)
     }
 
     /// Puts a cause into robot, material or tool; false for others.
@@ -52,24 +100,27 @@ impl Case {
         cutting_coefficients::alter(blamed, setup)
             || robot::alter(self, blamed, setup)
             || tool_radius::alter(blamed, setup)
+            || backlash::alter(blamed, &mut setup.robot)
     }
 
-    /// Where the tool stands at every station beside its programmed way, m, moved there before the cut answers; none where that
+    /// What is left at every station, m, the tool driven and moved beside its programmed way before the cut answers; none where that
     /// cannot be milled.
-    fn milled_again(&self, setup: &Setup, moves: &[(&Blamed, Vec<V3>)]) -> Option<Vec<V3>> {
+    fn milled_again(
+        &self,
+        (setup, support): (&Setup, Support),
+        driven: &[&Blamed],
+        moves: &[(&Blamed, Vec<V3>)],
+    ) -> Option<Vec<V3>> {
+        let driven = driven.iter().find_map(|b| corner_lag::drives(self, b));
+        let driven = driven.unwrap_or_else(|| Driven::as_told(&setup.way));
+        let at = (&self.stations[..], support);
         if moves.is_empty() {
-            return still(setup, &self.stations).ok();
+            return left_along(setup, &driven, at, |_| [0.0; 3]).ok();
         }
         let whole = |i: usize| moves.iter().fold([0.0; 3], |sum, m| add(sum, m.1[i]));
         let whole: Vec<V3> = (0..self.stations.len()).map(whole).collect();
-        let beside = still(&shifted(setup, &self.stations, &whole), &self.stations).ok()?;
-        Some(
-            beside
-                .iter()
-                .zip(&whole)
-                .map(|(b, w)| add(*b, *w))
-                .collect(),
-        )
+        let by = between(&self.stations, &whole, &driven.when);
+        left_along(setup, &driven, at, by).ok()
     }
 }
 

@@ -3,10 +3,12 @@
 
 use super::Case;
 use super::hold::{Lever, levers};
+use crate::findings::bent;
 use crate::findings::engine::{Blamed, Member};
 use crate::findings::table::{Effect, Place};
 use crate::ground::spatial::{V3, scale};
-use crate::ground::stats::largest;
+use crate::ground::stats::{largest, rms};
+use crate::robot::Robot;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
     name: "backlash",
@@ -18,7 +20,14 @@ pub(super) const EFFECT: Effect<Case> = Effect {
         let joints = case.setup.robot.joints.iter().enumerate();
         joints
             .filter(|(_, joint)| joint.drive.is_some())
-            .map(|(i, joint)| Place::new(joint.name.clone(), members(case, i, &joint.name)))
+            .map(|(i, joint)| {
+                let mut all = members(case, i, &joint.name);
+                // without a swing a link goes nowhere unless its joint turns back or its load changes sign
+                if case.swings() || case.is_short && !all.is_empty() {
+                    all.extend(milled(case, &joint.name));
+                }
+                Place::new(joint.name.clone(), all)
+            })
             .collect()
     },
     parameters: |_, blamed| vec![("gap", blamed.amounts[0], "rad")],
@@ -46,6 +55,65 @@ fn members(case: &Case, joint: usize, site: &str) -> Vec<Member> {
         .collect()
 }
 
+/// Gaps with which the part is milled, rad, and the standard deviation of one before the data.
+const MILLED: [f64; 7] = [0.6e-4, 0.9e-4, 1.3e-4, 1.9e-4, 2.7e-4, 3.8e-4, 5.4e-4];
+const ORDINARY: f64 = 3e-4;
+/// The form of a gap with which the part is milled.
+const BY_CUT: f64 = 9.0;
+
+/// What gaps do to the part where robot and cut are coupled in time: the link goes from flank to flank as its load changes sign,
+/// whatever loads it.
+fn milled(case: &Case, site: &str) -> Vec<Member> {
+    let changed = |gap: f64| {
+        let mut robot = case.setup.robot.clone();
+        open(&mut robot, site, gap);
+        case.coupled(&robot)
+    };
+    let shows = |column: &Vec<f64>| rms(column) > case.probe() && case.holds_some_of(column);
+    if is_pressed(case, site) {
+        return Vec::new();
+    }
+    match changed(MILLED[4]).as_ref().is_some_and(shows) {
+        true => bent::sized(&MILLED, ORDINARY, &[-1.0, BY_CUT], changed),
+        false => Vec::new(),
+    }
+}
+
+/// Times of the torque of the cut by which the weight presses a link to its flank for good.
+const PRESSED: f64 = 3.0;
+
+/// Whether the weight holds a link on one flank, whatever the cut and its swing do.
+fn is_pressed(case: &Case, site: &str) -> bool {
+    let levers = levers(&case.setup, &case.stations, site).unwrap_or_default();
+    let cut = levers.iter().map(|l| l.cut.abs()).fold(0.0, f64::max);
+    let all_above = levers.iter().all(|l| l.weight > PRESSED * cut);
+    let all_below = levers.iter().all(|l| l.weight < -PRESSED * cut);
+    all_above || all_below
+}
+
+/// Gives a drive play, rad.
+fn open(robot: &mut Robot, site: &str, gap: f64) {
+    let mut joints = robot.joints.iter_mut();
+    let own = joints.find(|joint| joint.name == site);
+    if let Some(drive) = own.and_then(|joint| joint.drive.as_mut()) {
+        drive.backlash.push(gap);
+    }
+}
+
+/// Whether it was found as the part is milled with it.
+pub(super) fn is_milled(blamed: &Blamed) -> bool {
+    blamed.effect == EFFECT.name && blamed.shape.get(1) == Some(&BY_CUT)
+}
+
+/// Puts it into the robot; false for others.
+pub fn alter(blamed: &Blamed, robot: &mut Robot) -> bool {
+    let own = is_milled(blamed);
+    if own {
+        open(robot, &blamed.site, blamed.amounts[0].max(0.0));
+    }
+    own
+}
+
 /// Flanks at every station, form by form: by the motion, by the cut, by cut and weight.
 fn sides(case: &Case, joint: usize, levers: &[Lever]) -> Vec<Option<Vec<f64>>> {
     let cut: Vec<f64> = levers.iter().map(|l| l.cut).collect();
@@ -63,7 +131,7 @@ fn moved(levers: &[Lever], side: &[f64]) -> Vec<V3> {
 
 /// Where the tool goes at every station, m, if this is to blame.
 pub(super) fn moves(case: &Case, blamed: &Blamed) -> Option<Vec<V3>> {
-    if blamed.effect != EFFECT.name {
+    if blamed.effect != EFFECT.name || is_milled(blamed) {
         return None;
     }
     let mut joints = case.setup.robot.joints.iter();

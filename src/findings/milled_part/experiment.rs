@@ -4,7 +4,7 @@ use super::noise::{Uneven, is_scatter};
 use super::patterns::PATTERNS;
 use super::uncertain::{missed, uncertain};
 use super::{Case, EFFECTS, Stated};
-use crate::findings::engine::{Aspects, Blamed, Experiment, Peers, Remaining, Statement};
+use crate::findings::engine::{Aspects, Blamed, Experiment, Peers, Remaining, Statement, Suspect};
 use crate::findings::physics;
 use crate::findings::table;
 use crate::ground::stats::{farthest, largest};
@@ -36,19 +36,18 @@ impl Experiment for Case {
     fn state_beside(&self, about: &[Blamed], uncertain: &[f64]) -> Statement {
         let stated = self.test.facts.probe_noise.is_some();
         let own = self.stated();
+        let beyond = self.beyond_first_order(about, uncertain);
+        let about = if beyond.is_some() { about } else { &[] };
+        let beyond = beyond.unwrap_or_else(|| vec![0.0; self.rows.len()]);
+        let missed = self.missed.iter().zip(&beyond);
         Statement {
-            reading: self
-                .missed
-                .iter()
-                .zip(self.beyond_first_order(about, uncertain))
-                .map(|(missed, beyond)| missed - beyond)
-                .collect(),
+            reading: missed.map(|(missed, beyond)| missed - beyond).collect(),
             noise: Box::new(Uneven {
                 spread: self.spread.clone(),
                 rows: if stated { WORTH } else { 0.0 },
             }),
             nuisances: own.uncertain.iter().map(|u| u.1.clone()).collect(),
-            suspects: own.suspects.clone(),
+            suspects: self.suspects_about(about),
             span: self.span(),
             splits: self.splits(),
             aspects: Aspects::default(),
@@ -119,6 +118,23 @@ impl Case {
                 uncertain: uncertain(self),
             }
         })
+    }
+
+    /// Everybody, those that were found in the shape that they were found in.
+    fn suspects_about(&self, about: &[Blamed]) -> Vec<Suspect> {
+        let mut suspects = self.stated().suspects.clone();
+        for blamed in about {
+            let own = suspects
+                .iter_mut()
+                .find(|s| s.effect == blamed.effect && s.site == blamed.site);
+            if let Some((own, member)) = own.zip(self.about(blamed)) {
+                let form = &member.shape[..member.shape.len() - 1];
+                own.members
+                    .retain(|m| !m.shape.starts_with(form) || m.within.is_none());
+                own.members.push(member);
+            }
+        }
+        suspects
     }
 
     /// Waves over path and time, and the simulated deviation changing along the path.

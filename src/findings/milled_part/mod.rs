@@ -1,9 +1,10 @@
 //! What is wrong with a milled part: probed deviations less those that robot and cut are simulated to leave.
 
 mod again;
-mod backlash;
+pub mod backlash;
 mod corner_lag;
 mod cutting_coefficients;
+mod driven;
 mod experiment;
 mod hold;
 mod noise;
@@ -21,14 +22,17 @@ use super::engine::{Nuisance, Suspect};
 use super::table::Effect;
 use crate::ground::problem::Outcome;
 use crate::ground::spatial::{M3, V3, dot, rotate};
+use crate::ground::stats::{difference, rms};
 use crate::measurement::milled_part::PartTest;
 use crate::process::Planned;
 use crate::process::setup::{Setup, Support};
+use crate::robot::Robot;
 use hold::{Hold, holds};
+use nalgebra::DVector;
 pub use stations::{Row, Station};
 use stations::{placed, rows, spreads};
-use std::sync::OnceLock;
-use tried::tried;
+use std::sync::{Mutex, OnceLock};
+use tried::{left, tried};
 use uncertain::Known;
 
 /// Effects beside the causes of the whole robot (`robot`).
@@ -52,6 +56,12 @@ pub struct Case {
     pub setup: Setup,
     /// The same, cut more coarsely, for runs of which only the change is asked.
     trial: Setup,
+    /// How these runs carry the tool: by springs alone or, where the part shows that the robot swings, coupled in time.
+    support: Support,
+    /// Whether its job is so short that many trials can be coupled in time.
+    is_short: bool,
+    /// Whether the robot swings in a job that is too long for that.
+    pub swings_unheard: bool,
     /// Where it was probed, in the order of the file; places that are not cut are left out.
     pub stations: Vec<Station>,
     /// Its rows, one for each direction across the feed that was measured.
@@ -64,8 +74,12 @@ pub struct Case {
     pub spread: Vec<f64>,
     /// Change of every row by each of the six coefficients, doubled (linearised), m.
     pub coefficients: Vec<Vec<f64>>,
-    /// What springs alone leave, row by row, m: what a change is told from.
+    /// What the trial leaves, row by row, m: what a change is told from.
     pub still: Vec<f64>,
+    /// The same coupled in time.
+    swung: OnceLock<Option<Vec<f64>>>,
+    /// What other robots leave more, coupled in time, as far as it was asked.
+    milled: Mutex<Vec<(Robot, Option<Vec<f64>>)>>,
     /// The robot at every station.
     pub holds: Vec<Hold>,
     /// How far the tool goes at every station where it is moved by one before the cut answers.
@@ -85,6 +99,21 @@ struct Stated {
 /// How much more coarsely the cut is resolved where only a change is asked: at 1.5 the judge (`tests/judge_part.rs`, seeds 51 and
 /// 52) counts as at 1, in three fifths of the time; at 2 two more of 32 single causes are missed.
 const COARSER: f64 = 1.5;
+/// Deviations of the probe, rms, from which the swing of the robot shows on the part. A choice, no measurement.
+const SWINGS: f64 = 2.0;
+/// Swing of which no trial is told, m: the cut is not resolved so finely.
+const LEAST: f64 = 1e-6;
+/// Steps of the simulated job beyond which trials are not coupled in time: some two hundred of them take minutes then. A choice for
+/// time, no measurement.
+const LONGEST: usize = 1_500_000;
+/// Steps per tooth of a trial coupled in time: fewer resolve no tooth. With 30 to 12 of them a stranger's parts are told alike.
+const PER_TOOTH: usize = 12;
+/// Where the swing is simulated in every trial, a place is off by this share of what is steep. Set on four parts by a stranger whose
+/// truth was simulated: what that leaves where it is steepest.
+const AHEAD: f64 = 0.3;
+/// Nats and share of what is missed that a cause must take to be tried at other strengths. Choices for time, no measurement.
+const CHANCE: f64 = 4.0;
+const SHARE: f64 = 0.01;
 /// Noise of a probe that states none, m.
 const PROBE: f64 = 5e-6;
 
@@ -106,7 +135,16 @@ impl Case {
         let missed = own.map(|(row, s)| row.measured - s).collect();
         let probe = probe(&test);
         let trial = setup.coarser(COARSER);
-        let tried = tried(&trial, &stations)?;
+        let alone = left(&setup, &stations, Support::Static)?;
+        let swing = difference(&simulated, &seen(&rows, &alone));
+        let shows = rms(&swing) > SWINGS * probe.max(LEAST);
+        let is_short = milled.steps <= LONGEST;
+        let swings = shows && is_short;
+        let (support, trial, ahead) = match swings {
+            true => (Support::Coupled, trial.with_steps(PER_TOOTH), AHEAD),
+            false => (Support::Static, trial, 1.0),
+        };
+        let tried = tried(&trial, &stations, support)?;
         let coefficients = tried.coefficients.iter();
         Ok(Self {
             still: seen(&rows, &tried.still),
@@ -115,21 +153,56 @@ impl Case {
             answer: tried.answer,
             holds: holds(&setup, &setup.robot, &stations)?,
             stated: OnceLock::new(),
-            spread: spreads(&stations, &rows, probe),
+            swung: OnceLock::new(),
+            milled: Mutex::default(),
+            spread: spreads(&stations, &rows, probe, ahead),
             missed,
             simulated,
             rows,
             stations,
             setup,
             trial,
+            support,
+            is_short,
+            swings_unheard: shows && !is_short,
             planned,
             test,
         })
     }
 
+    /// Whether the robot swings so much that the part shows it.
+    fn swings(&self) -> bool {
+        self.support == Support::Coupled
+    }
+
     /// Standard deviation of a probed place, m.
     fn probe(&self) -> f64 {
         probe(&self.test)
+    }
+
+    /// Whether what is missed may hold something of a column, datum and coefficients being free: a share of it, and more than chance.
+    fn holds_some_of(&self, column: &[f64]) -> bool {
+        let white = |c: &[f64]| {
+            let each = c.iter().zip(&self.spread).map(|(c, s)| c / s);
+            DVector::from_iterator(c.len(), each)
+        };
+        let datum = (0..3).map(|k| self.column(|_, row| row.across[k]));
+        let mut free: Vec<DVector<f64>> = Vec::new();
+        let less = |mut c: DVector<f64>, free: &[DVector<f64>]| {
+            free.iter().for_each(|f| c -= f * f.dot(&c));
+            c
+        };
+        for own in datum.chain(self.coefficients.iter().cloned()) {
+            let own = white(&own);
+            let rest = less(own.clone(), &free);
+            if rest.norm() > 1e-6 * own.norm() {
+                free.push(rest.normalize());
+            }
+        }
+        let [column, missed] = [column, &self.missed].map(|c| less(white(c), &free));
+        let size = column.norm_squared();
+        let held = missed.dot(&column).powi(2) / size.max(f64::MIN_POSITIVE);
+        held > 2.0 * CHANCE && held > SHARE * missed.norm_squared()
     }
 
     /// A column over all rows.

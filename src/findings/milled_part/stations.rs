@@ -14,6 +14,8 @@ pub struct Station {
     pub time_s: f64,
     /// Share of the whole time by then, 0 to 1.
     pub progress: f64,
+    /// Share of the programmed path by then, 0 to 1.
+    pub share: f64,
     /// Arc length of the programmed path, m.
     pub s_m: f64,
     /// Tip of the tool, workpiece frame, m.
@@ -22,6 +24,8 @@ pub struct Station {
     pub axis: V3,
     /// Direction of the feed.
     pub feed: V3,
+    /// Speed of the feed, m/s.
+    pub speed: f64,
     /// Joint angles, rad, and their speeds, rad/s.
     pub joints: Vec<f64>,
     /// See `joints`.
@@ -30,10 +34,23 @@ pub struct Station {
     pub force: V3,
     /// What the simulation leaves there, m, workpiece frame: the deviation of the tool when it passes the place.
     pub deviation: V3,
+    /// The same at the time when it is told to be there, m.
+    pub told: V3,
     /// By how much that differs over `STEEP`, m.
     pub steep: f64,
     /// Measured deviation, m; NaN where a component was not probed.
     pub measured: V3,
+}
+
+impl Station {
+    /// The plane in which it was probed.
+    pub(super) fn plane(&self) -> Plane {
+        Plane {
+            place: self.tip,
+            speed: self.speed,
+            feed: self.feed,
+        }
+    }
 }
 
 /// One number that was measured.
@@ -121,28 +138,48 @@ fn when(reading: &Reading, setup: &Setup) -> Outcome<f64> {
 
 /// Speed below which a tool stands, m/s: the places that it passes later are not told from its deviation.
 const STANDS: f64 = 1e-3;
-/// Steps to the time at which the tool passes a place.
+/// Steps to the time at which the tool passes a place, and how near to the place it is passed, m.
 const STEPS: usize = 4;
-/// Way within which that time is sought, m: a tool that passes the place from farther off has been there before or comes again.
+const PASSED: f64 = 1e-6;
+/// Way within which that time is sought, m, and parts of it that are looked at on either side: a tool that passes the place from
+/// farther off has been there before or comes again.
 const NEAREST: f64 = 2e-3;
-/// How near to the place it is passed, m; beside a corner no such time may be found, and the place counts as told.
-const PASSED: f64 = 15e-6;
+const PARTS: i32 = 40;
 
-/// What is left at the place where the tool is told to be at a time, m: where it passes the plane across the feed there, ahead or
-/// behind of that time as it gives way along the feed.
-fn left_at(setup: &Setup, milled: &Milled, time_s: f64) -> V3 {
-    let place = |time: f64| setup.way.at(time).tip;
-    let here = place(time_s);
-    let off = |time: f64| add(milled.deviation_at(time), sub(place(time), here));
-    let ahead = sub(place(time_s + 1e-3), place(time_s - 1e-3));
-    let speed = norm(ahead) / 2e-3;
-    let Some(feed) = unit(ahead).filter(|_| speed > STANDS) else {
-        return off(time_s);
-    };
-    let passes = (0..STEPS).fold(time_s, |time, _| time - dot(off(time), feed) / speed);
-    let is_passed =
-        dot(off(passes), feed).abs() < PASSED && norm(sub(place(passes), here)) < NEAREST;
-    off(if is_passed { passes } else { time_s })
+/// The plane across the feed at a place.
+pub(super) struct Plane {
+    place: V3,
+    /// How fast the tool goes through it, m/s.
+    speed: f64,
+    feed: V3,
+}
+
+impl Plane {
+    /// From its place to where a tool passes it, m: ahead or behind of about that time as it gives way along the feed. `tool`: where
+    /// that is at any time.
+    pub fn passed_by(&self, tool: impl Fn(f64) -> V3, about_s: f64) -> V3 {
+        let off = |time: f64| sub(tool(time), self.place);
+        if self.speed <= STANDS {
+            return off(about_s);
+        }
+        let behind = |time: f64| -dot(off(time), self.feed);
+        let passes = (0..STEPS).fold(about_s, |time, _| time + behind(time) / self.speed);
+        let far_s = NEAREST / self.speed;
+        if behind(passes).abs() < PASSED && (passes - about_s).abs() < far_s {
+            return off(passes);
+        }
+        off(passed(behind, about_s, far_s / f64::from(PARTS)).unwrap_or(about_s))
+    }
+}
+
+/// When what is behind of a place no longer is: the nearest such time about one, looked for in steps.
+fn passed(behind: impl Fn(f64) -> f64, about_s: f64, step_s: f64) -> Option<f64> {
+    let time = |k: i32| about_s + step_s * f64::from(k);
+    let far: Vec<f64> = (-PARTS..=PARTS).map(|k| behind(time(k))).collect();
+    let turns = far.windows(2).zip(-PARTS..);
+    let turns = turns.filter(|(w, _)| w[0] >= 0.0 && w[1] < 0.0);
+    let crossed = turns.map(|(w, k)| time(k) + step_s * w[0] / (w[0] - w[1]));
+    crossed.min_by(|a, b| (a - about_s).abs().total_cmp(&(b - about_s).abs()))
 }
 
 fn station(reading: &Reading, time_s: f64, setup: &Setup, milled: &Milled) -> Option<Station> {
@@ -156,17 +193,26 @@ fn station(reading: &Reading, time_s: f64, setup: &Setup, milled: &Milled) -> Op
     )) / 2e-3;
     let near = STEEP / speed.max(1e-4);
     let [before, after] = [-near, near].map(|d| milled.deviation_at(time_s + d));
+    let plane = Plane {
+        place: at.tip,
+        speed,
+        feed,
+    };
+    let tool = |time: f64| add(setup.way.at(time).tip, milled.deviation_at(time));
     (norm(force) > 0.0).then(|| Station {
         time_s,
         progress: (time_s - begin) / (end - begin),
+        share: at.s_m / setup.way.rows().last().map_or(1.0, |row| row.s_m),
         s_m: at.s_m,
         tip: at.tip,
         axis: at.axis,
         feed,
+        speed,
         joints: at.joints,
         speeds: at.speeds,
         force,
-        deviation: left_at(setup, milled, time_s),
+        deviation: plane.passed_by(tool, time_s),
+        told: milled.deviation_at(time_s),
         steep: 0.5 * norm(sub(after, before)),
         measured: reading.deviation,
     })
@@ -192,12 +238,38 @@ pub(super) fn rows(stations: &[Station]) -> Vec<Row> {
         .collect()
 }
 
-/// Standard deviation of every row, m.
-pub(super) fn spreads(stations: &[Station], rows: &[Row], probe: f64) -> Vec<f64> {
+/// Standard deviation of every row, m; `ahead`: the share of what is steep that is not known.
+pub(super) fn spreads(stations: &[Station], rows: &[Row], probe: f64, ahead: f64) -> Vec<f64> {
     let of = |row: &Row| {
         let s = &stations[row.station];
-        let law = LAW * norm(s.deviation);
-        (probe * probe + law * law + s.steep * s.steep).sqrt()
+        let law = LAW * norm(s.deviation).max(row.measured.abs());
+        (probe * probe + law * law + (ahead * s.steep).powi(2)).sqrt()
     };
     rows.iter().map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Plane;
+    use crate::ground::spatial::V3;
+
+    /// A tool that swings along its feed by 0.8 mm at 10 Hz passes a place when it is there, not when it is told to be there.
+    #[test]
+    fn a_place_is_passed_when_the_tool_is_there() {
+        let tool = |time: f64| -> V3 {
+            let swing = 0.8e-3 * (62.8 * time).sin();
+            [0.03 * time + swing, 1e-4 * time, 0.0]
+        };
+        for k in 0..20 {
+            let time = 0.01 * f64::from(k) + 0.1;
+            let plane = Plane {
+                place: [0.03 * time, 0.0, 0.0],
+                speed: 0.03,
+                feed: [1.0, 0.0, 0.0],
+            };
+            let left = plane.passed_by(tool, time);
+            assert!(left[0].abs() < 3e-6, "{left:?}");
+            assert!((left[1] / 1e-4 - time).abs() < 0.03, "{left:?}");
+        }
+    }
 }

@@ -1,6 +1,7 @@
-//! Runs of the job with the springs alone, as it is and with one thing changed: what a change does to the part,
-//! the force giving way to it.
+//! Runs of the job, with the springs alone or, where the robot swings, coupled in time, as it is and with one thing changed: what a
+//! change does to the part, the force giving way to it.
 
+use super::driven::Driven;
 use super::stations::Station;
 use crate::ground::problem::Outcome;
 use crate::ground::spatial::{M3, V3, add, scale, sub};
@@ -30,26 +31,63 @@ const LARGER: f64 = 40e-6;
 /// Coefficients: three of the cut, three of the edge.
 const COEFFICIENTS: usize = 6;
 
-/// Where the tool stands at every station, with springs alone, m.
+/// What a run leaves at every station, m.
 ///
 /// # Errors
 /// As a run of the job.
-pub(super) fn still(setup: &Setup, stations: &[Station]) -> Outcome<Vec<V3>> {
-    let (milled, _) = setup.run(Support::Static, |_| {})?;
-    let at = |s: &Station| milled.deviation_at(s.time_s);
-    Ok(stations.iter().map(at).collect())
+pub(super) fn left(setup: &Setup, stations: &[Station], support: Support) -> Outcome<Vec<V3>> {
+    left_beside(setup, stations, support, |_| [0.0; 3])
+}
+
+/// The same of a tool that is moved beside its programmed way by so much (m) at every time (s).
+///
+/// # Errors
+/// As a run of the job.
+pub(super) fn left_beside(
+    setup: &Setup,
+    stations: &[Station],
+    support: Support,
+    by: impl Fn(f64) -> V3,
+) -> Outcome<Vec<V3>> {
+    left_along(setup, &Driven::as_told(&setup.way), (stations, support), by)
+}
+
+/// The same of a tool that is driven along another way.
+///
+/// # Errors
+/// As a run of the job.
+pub(super) fn left_along(
+    setup: &Setup,
+    driven: &Driven,
+    (stations, support): (&[Station], Support),
+    by: impl Fn(f64) -> V3,
+) -> Outcome<Vec<V3>> {
+    let way = beside(&driven.way, |row| by(row.time_s));
+    let setup = Setup {
+        way,
+        ..setup.clone()
+    };
+    let (milled, _) = setup.run(support, |_| {})?;
+    let off = |time: f64| add(milled.deviation_at(time), by(time));
+    let tool = |time: f64| add(driven.way.at(time).tip, off(time));
+    let left = |s: &Station| s.plane().passed_by(tool, (driven.when)(s));
+    Ok(stations.iter().map(left).collect())
 }
 
 /// Tries everything.
 ///
 /// # Errors
 /// As a run of the job.
-pub(super) fn tried(setup: &Setup, stations: &[Station]) -> Outcome<Tried> {
+pub(super) fn tried(setup: &Setup, stations: &[Station], support: Support) -> Outcome<Tried> {
+    let left = |setup: &Setup| left(setup, stations, support);
+    let aside = |k: usize| std::array::from_fn(|i| if i == k { MOVED } else { 0.0 });
     let run = |i: usize| match i {
-        0 => still(setup, stations),
-        i if i <= COEFFICIENTS => still(&stronger(setup, i - 1), stations),
-        i if i <= COEFFICIENTS + 3 => still(&moved(setup, i - 1 - COEFFICIENTS), stations),
-        _ => still(&larger(setup), stations),
+        0 => left(setup),
+        i if i <= COEFFICIENTS => left(&stronger(setup, i - 1)),
+        i if i <= COEFFICIENTS + 3 => {
+            left_beside(setup, stations, support, |_| aside(i - 1 - COEFFICIENTS))
+        }
+        _ => left(&larger(setup)),
     };
     let runs: Vec<Outcome<Vec<V3>>> = (0..=COEFFICIENTS + 4).into_par_iter().map(run).collect();
     let mut runs = runs.into_iter().collect::<Outcome<Vec<_>>>()?.into_iter();
@@ -65,10 +103,7 @@ pub(super) fn tried(setup: &Setup, stations: &[Station]) -> Outcome<Tried> {
     let coefficients = changes(COEFFICIENTS, CHANGED);
     let moved = changes(3, MOVED);
     let larger = changes(1, LARGER).pop().unwrap_or_default();
-    let answer = |s: usize| {
-        let at = |row: usize, k: usize| f64::from(u8::from(row == k)) + moved[k][s][row];
-        [0, 1, 2].map(|row| [0, 1, 2].map(|k| at(row, k)))
-    };
+    let answer = |s: usize| [0, 1, 2].map(|row| [0, 1, 2].map(|k| moved[k][s][row]));
     Ok(Tried {
         answer: (0..stations.len()).map(answer).collect(),
         coefficients,
@@ -89,21 +124,16 @@ fn larger(setup: &Setup) -> Setup {
     setup
 }
 
-/// The tool beside its way by a little, along one axis of the workpiece.
-fn moved(setup: &Setup, k: usize) -> Setup {
-    let aside: V3 = std::array::from_fn(|i| if i == k { MOVED } else { 0.0 });
-    beside(setup, |_| aside)
-}
-
-/// The tool beside its way by so much (m) at every station, in between along straight lines over time.
-pub(super) fn shifted(setup: &Setup, stations: &[Station], by: &[V3]) -> Setup {
-    let mut known: Vec<(f64, V3)> = stations
-        .iter()
-        .map(|s| s.time_s)
-        .zip(by.iter().copied())
-        .collect();
+/// What is given at every station (m), in between along straight lines over time (s); `when` a station is passed.
+pub(super) fn between(
+    stations: &[Station],
+    given: &[V3],
+    when: &dyn Fn(&Station) -> f64,
+) -> impl Fn(f64) -> V3 + use<> {
+    let times = stations.iter().map(when);
+    let mut known: Vec<(f64, V3)> = times.zip(given.iter().copied()).collect();
     known.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let at = |time: f64| {
+    move |time: f64| {
         let after = known.partition_point(|k| k.0 < time);
         let [a, b] = [after.saturating_sub(1), after.min(known.len() - 1)].map(|i| known[i]);
         let share = match b.0 > a.0 {
@@ -111,23 +141,15 @@ pub(super) fn shifted(setup: &Setup, stations: &[Station], by: &[V3]) -> Setup {
             false => 0.0,
         };
         add(a.1, scale(share, sub(b.1, a.1)))
-    };
-    match known.is_empty() {
-        true => setup.clone(),
-        false => beside(setup, |row| at(row.time_s)),
     }
 }
 
-/// The tool beside its way.
-fn beside(setup: &Setup, by: impl Fn(&Row) -> V3) -> Setup {
+/// A way with the tool beside it.
+fn beside(way: &Way, by: impl Fn(&Row) -> V3) -> Way {
     let row = |row: &Row| Row {
         tip: add(row.tip, by(row)),
         ..row.clone()
     };
-    let rows = setup.way.rows().iter().map(row).collect();
-    let way = Way::new(rows).unwrap_or_else(|| setup.way.clone());
-    Setup {
-        way,
-        ..setup.clone()
-    }
+    let rows = way.rows().iter().map(row).collect();
+    Way::new(rows).unwrap_or_else(|| way.clone())
 }

@@ -88,6 +88,7 @@ fn stirred(case: &Case, line: &Line) -> Option<Member> {
     let tried = each.filter(|hz| *hz > 0.0);
     let found = Sought::of(case, tried, columns, (f64::NEG_INFINITY, &nearer));
     found.map(|found| Member {
+        within: None,
         columns: found.columns,
         size: Size::Free,
         positive: None,
@@ -111,6 +112,7 @@ fn tremors(case: &Case, highest: &Line) -> Vec<Member> {
     let mut each: Vec<Member> = others.filter(alike).collect();
     each.insert(0, first.clone());
     let every = (each.len() > 1).then(|| Member {
+        within: None,
         columns: each.iter().flat_map(|m| m.columns.clone()).collect(),
         size: Size::Free,
         positive: None,
@@ -139,6 +141,7 @@ fn member(case: &Case, cuts: &[usize], hz: f64, axes: usize) -> Member {
         _ => 0.0,
     };
     Member {
+        within: None,
         columns,
         size: Size::Free,
         positive: None,

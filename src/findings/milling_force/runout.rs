@@ -81,6 +81,7 @@ fn whole(case: &Case) -> Member {
     let way = best.unwrap_or_else(|| Way::slopes(case, 0.0));
     let directions = [0.0, QUARTER].map(|by| towards(case, way.angle + by));
     Member {
+        within: None,
         columns: way.columns,
         size: Size::Free,
         positive: None,
