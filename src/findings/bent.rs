@@ -15,6 +15,8 @@ pub(super) struct Strength {
 /// The strength that is tried first, and the excess of a compliance that it is.
 pub(super) const FIRST: f64 = 0.15;
 pub(super) const SOFTER_FIRST: f64 = 0.3;
+/// Strengths at which it is asked whether others are worth a trial: a strong one swings otherwise than a weak one.
+pub(super) const ASKED: [f64; 2] = [FIRST, 0.6];
 /// Strengths at which the readings are simulated ...
 const NODES: [f64; 6] = [-0.3, -0.15, FIRST, 0.35, 0.6, 1.06];
 /// ... and by which power of one more they are told in between: each softer than the one before by this factor.

@@ -100,9 +100,10 @@ pub fn members(case: &dyn OnRobot, cause: &'static dyn Cause, site: &str) -> Vec
     let column = |k: usize, strength: f64| changed(case, (cause, site), k, strength);
     let own = (0..cause.card().amounts.len()).filter(|k| !cause.is_shared(*k));
     let own: Vec<usize> = own.collect();
+    let may_hold = |k: &usize, strength: f64| case.may_hold(&column(*k, strength));
     let is_asked = || {
-        own.par_iter()
-            .any(|k| case.may_hold(&column(*k, bent::FIRST)))
+        let mut each = bent::ASKED.iter();
+        each.any(|strength| own.par_iter().any(|k| may_hold(k, *strength)))
     };
     let strengths = match case.is_straight() {
         true => vec![Strength::small(TRIED)],

@@ -182,6 +182,10 @@ impl Case {
 
     /// Whether what is missed may hold something of a column, datum and coefficients being free: a share of it, and more than chance.
     fn holds_some_of(&self, column: &[f64]) -> bool {
+        // what cannot be milled has none
+        if column.len() != self.rows.len() {
+            return false;
+        }
         let white = |c: &[f64]| {
             let each = c.iter().zip(&self.spread).map(|(c, s)| c / s);
             DVector::from_iterator(c.len(), each)
