@@ -12,12 +12,15 @@ pub(super) struct Strength {
     pub within: Option<[f64; 2]>,
 }
 
-/// The strength that is tried first, and the excess of a compliance that it is.
+/// The excess of a compliance that is of ordinary strength (`causes::places::excess`).
+const EXCESS: f64 = 2.0;
+/// The strength that is tried first, and the excess that it is: less than half as soft again. A choice, no measurement.
 pub(super) const FIRST: f64 = 0.15;
-pub(super) const SOFTER_FIRST: f64 = 0.3;
-/// Strengths at which it is asked whether others are worth a trial: a strong one swings otherwise than a weak one.
+pub(super) const SOFTER_FIRST: f64 = EXCESS * FIRST;
+/// Strengths at which it is asked whether others are worth a trial: a strong one swings otherwise than a weak one. Two of those that are
+/// simulated then.
 pub(super) const ASKED: [f64; 2] = [FIRST, 0.6];
-/// Strengths at which the readings are simulated ...
+/// Strengths at which the readings are simulated: between the softer ones the own frequency of a spring changes by less than a fifth ...
 const NODES: [f64; 6] = [-0.3, -0.15, FIRST, 0.35, 0.6, 1.06];
 /// ... and by which power of one more they are told in between: each softer than the one before by this factor.
 const STEP: f64 = 1.12;
@@ -39,7 +42,7 @@ impl Strength {
     }
 
     fn of(step: i32) -> Self {
-        let value = 0.5 * (STEP.powi(step) - 1.0);
+        let value = (STEP.powi(step) - 1.0) / EXCESS;
         let ends = within(value);
         Self {
             value,
@@ -152,7 +155,7 @@ pub(super) fn sized(
 /// What a strength adds, by what others add: the polynomial through all of them, and nothing at none, of the logarithm of how much
 /// softer they are (Lagrange).
 fn between(nodes: &[f64], tried: &[Vec<f64>], strength: f64) -> Vec<f64> {
-    let place = |strength: f64| (2.0 * strength).ln_1p();
+    let place = |strength: f64| (EXCESS * strength).ln_1p();
     let places: Vec<f64> = nodes.iter().map(|n| place(*n)).collect();
     let x = place(strength);
     let share = |i: usize| -> f64 {

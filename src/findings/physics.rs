@@ -93,8 +93,8 @@ fn of(case: &dyn OnRobot, cause: &'static dyn Cause) -> Vec<Suspect> {
     sites.into_par_iter().filter_map(suspect).collect()
 }
 
-/// One member per form and strength; columns are the difference at an ordinary strength, by what the strength of the member adds. What two axes share of a compliance is
-/// none alone: such forms are left to tests that load every point in all directions.
+/// One member per form and strength; columns are the difference at an ordinary strength, by what the strength of the member adds. What
+/// two axes share of a compliance is none alone: such forms are left to tests that load every point in all directions.
 pub fn members(case: &dyn OnRobot, cause: &'static dyn Cause, site: &str) -> Vec<Member> {
     let either_sign = cause.card().amounts.iter().all(|a| a.bounds[0] < 0.0);
     let column = |k: usize, strength: f64| changed(case, (cause, site), k, strength);

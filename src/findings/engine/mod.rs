@@ -47,7 +47,7 @@ mod tests;
 pub use aspect::Aspects;
 pub use diagnosis::{Found, diagnose};
 pub use judgement::Judgement;
-pub use nuisances::ALLOWED;
+pub use nuisances::{ALLOWED, held};
 pub use statement::{
     Blamed, CanBe, Experiment, LEVEL, Member, Noise, Nuisance, Peers, Remaining, Statement,
     Suspect, White,

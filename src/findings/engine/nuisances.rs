@@ -18,6 +18,22 @@ pub(super) fn allowed(nuisances: &[Nuisance]) -> f64 {
     -normal.inverse_cdf(normal.cdf(-ALLOWED) / count.max(1) as f64)
 }
 
+/// Squares, in noise deviations, that a column alone takes of the reading of a statement, its nuisances being integrated out, and those
+/// that there are.
+pub fn held(statement: &Statement, column: &[f64]) -> [f64; 2] {
+    let nuisances = Nuisances::of(statement);
+    let white = |c: &[f64]| DMatrix::from_vec(c.len(), 1, statement.noise.whiten(c));
+    let [column, reading] = [column, &statement.reading].map(white);
+    let [by_column, by_reading] = [&column, &reading].map(|c| nuisances.seen(c));
+    let square = column.norm_squared() - by_column.norm_squared();
+    let pull = column.dot(&reading) - by_column.dot(&by_reading);
+    let all = reading.norm_squared() - by_reading.norm_squared();
+    match square > 1e-12 * column.norm_squared() {
+        true => [pull * pull / square, all],
+        false => [0.0, all],
+    }
+}
+
 /// Columns that are integrated out.
 pub(super) struct Nuisances {
     pub columns: DMatrix<f64>,

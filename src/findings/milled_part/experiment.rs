@@ -4,7 +4,9 @@ use super::noise::{Uneven, is_scatter};
 use super::patterns::PATTERNS;
 use super::uncertain::{missed, uncertain};
 use super::{Case, EFFECTS, Stated};
-use crate::findings::engine::{Aspects, Blamed, Experiment, Peers, Remaining, Statement, Suspect};
+use crate::findings::engine::{
+    Aspects, Blamed, Experiment, Nuisance, Peers, Remaining, Statement, Suspect, held,
+};
 use crate::findings::physics;
 use crate::findings::table;
 use crate::ground::stats::{farthest, largest};
@@ -34,7 +36,6 @@ impl Experiment for Case {
     }
 
     fn state_beside(&self, about: &[Blamed], uncertain: &[f64]) -> Statement {
-        let stated = self.test.facts.probe_noise.is_some();
         let own = self.stated();
         let beyond = self.beyond_first_order(about, uncertain);
         let about = if beyond.is_some() { about } else { &[] };
@@ -42,15 +43,11 @@ impl Experiment for Case {
         let missed = self.missed.iter().zip(&beyond);
         Statement {
             reading: missed.map(|(missed, beyond)| missed - beyond).collect(),
-            noise: Box::new(Uneven {
-                spread: self.spread.clone(),
-                rows: if stated { WORTH } else { 0.0 },
-            }),
             nuisances: own.uncertain.iter().map(|u| u.1.clone()).collect(),
             suspects: self.suspects_about(about),
             span: self.span(),
             splits: self.splits(),
-            aspects: Aspects::default(),
+            ..self.bare()
         }
     }
 
@@ -106,7 +103,48 @@ impl Experiment for Case {
     }
 }
 
+/// Nats and share of what is missed that a cause must take to be tried at other strengths. Choices for time, no measurement.
+const CHANCE: f64 = 4.0;
+const SHARE: f64 = 0.01;
+
 impl Case {
+    /// What is missed, and nobody to blame.
+    fn bare(&self) -> Statement {
+        let stated = self.test.facts.probe_noise.is_some();
+        Statement {
+            reading: self.missed.clone(),
+            noise: Box::new(Uneven {
+                spread: self.spread.clone(),
+                rows: if stated { WORTH } else { 0.0 },
+            }),
+            nuisances: Vec::new(),
+            suspects: Vec::new(),
+            span: Vec::new(),
+            splits: Vec::new(),
+            aspects: Aspects::default(),
+        }
+    }
+
+    /// Whether what is missed may hold something of a column, datum and coefficients being free: a share of it, and more than chance.
+    pub(super) fn holds_some_of(&self, column: &[f64]) -> bool {
+        // what cannot be milled has none
+        if column.len() != self.rows.len() {
+            return false;
+        }
+        let datum = (0..3).map(|k| self.column(|_, row| row.across[k]));
+        let open = datum.chain(self.coefficients.iter().cloned());
+        let open = open.map(|column| Nuisance {
+            column,
+            spread: f64::INFINITY,
+        });
+        let statement = Statement {
+            nuisances: open.collect(),
+            ..self.bare()
+        };
+        let [taken, all] = held(&statement, column);
+        taken > 2.0 * CHANCE && taken > SHARE * all
+    }
+
     /// What every statement holds, found once.
     pub(super) fn stated(&self) -> &Stated {
         self.stated.get_or_init(|| {

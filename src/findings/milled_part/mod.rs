@@ -28,7 +28,6 @@ use crate::process::Planned;
 use crate::process::setup::{Setup, Support};
 use crate::robot::Robot;
 use hold::{Hold, holds};
-use nalgebra::DVector;
 pub use stations::{Row, Station};
 use stations::{placed, rows, spreads};
 use std::sync::{Mutex, OnceLock};
@@ -106,14 +105,11 @@ const LEAST: f64 = 1e-6;
 /// Steps of the simulated job beyond which trials are not coupled in time: some two hundred of them take minutes then. A choice for
 /// time, no measurement.
 const LONGEST: usize = 1_500_000;
-/// Steps per tooth of a trial coupled in time: fewer resolve no tooth. With 30 to 12 of them a stranger's parts are told alike.
+/// Steps per tooth of a trial coupled in time: the fewest that a job may have ([`Setup::coarser`]). A choice for time.
 const PER_TOOTH: usize = 12;
-/// Where the swing is simulated in every trial, a place is off by this share of what is steep. Set on four parts by a stranger whose
-/// truth was simulated: what that leaves where it is steepest.
+/// Where the swing is simulated in every trial, a place is off by this share of what is steep. A choice, looking at what the simulated truth
+/// leaves of four parts by a stranger where they are steepest; no other number was counted.
 const AHEAD: f64 = 0.3;
-/// Nats and share of what is missed that a cause must take to be tried at other strengths. Choices for time, no measurement.
-const CHANCE: f64 = 4.0;
-const SHARE: f64 = 0.01;
 /// Noise of a probe that states none, m.
 const PROBE: f64 = 5e-6;
 
@@ -178,35 +174,6 @@ impl Case {
     /// Standard deviation of a probed place, m.
     fn probe(&self) -> f64 {
         probe(&self.test)
-    }
-
-    /// Whether what is missed may hold something of a column, datum and coefficients being free: a share of it, and more than chance.
-    fn holds_some_of(&self, column: &[f64]) -> bool {
-        // what cannot be milled has none
-        if column.len() != self.rows.len() {
-            return false;
-        }
-        let white = |c: &[f64]| {
-            let each = c.iter().zip(&self.spread).map(|(c, s)| c / s);
-            DVector::from_iterator(c.len(), each)
-        };
-        let datum = (0..3).map(|k| self.column(|_, row| row.across[k]));
-        let mut free: Vec<DVector<f64>> = Vec::new();
-        let less = |mut c: DVector<f64>, free: &[DVector<f64>]| {
-            free.iter().for_each(|f| c -= f * f.dot(&c));
-            c
-        };
-        for own in datum.chain(self.coefficients.iter().cloned()) {
-            let own = white(&own);
-            let rest = less(own.clone(), &free);
-            if rest.norm() > 1e-6 * own.norm() {
-                free.push(rest.normalize());
-            }
-        }
-        let [column, missed] = [column, &self.missed].map(|c| less(white(c), &free));
-        let size = column.norm_squared();
-        let held = missed.dot(&column).powi(2) / size.max(f64::MIN_POSITIVE);
-        held > 2.0 * CHANCE && held > SHARE * missed.norm_squared()
     }
 
     /// A column over all rows.
