@@ -16,7 +16,6 @@ pub(super) struct Strength {
 const EXCESS: f64 = 2.0;
 /// The strength that is tried first, and the excess that it is: less than half as soft again. A choice, no measurement.
 pub(super) const FIRST: f64 = 0.15;
-pub(super) const SOFTER_FIRST: f64 = EXCESS * FIRST;
 /// Strengths at which it is asked whether others are worth a trial: a strong one swings otherwise than a weak one. Two of those that are
 /// simulated then.
 pub(super) const ASKED: [f64; 2] = [FIRST, 0.6];

@@ -168,6 +168,9 @@ pub const USUAL: f64 = 0.02;
 /// Relative compliance at which a spring is tried: small, so that what it adds is linear.
 const SOFTER: f64 = 0.01;
 
+/// The same of a spring that adds no straight line, at most.
+const MUCH_SOFTER: f64 = 0.1;
+
 /// Every spring within what is known of it, with its site; those that the readings hardly show are left out.
 pub fn shown_springs(case: &dyn OnRobot) -> Vec<(String, Nuisance)> {
     let all: Vec<(String, &Spring)> = case.robot().springs().collect();
@@ -183,7 +186,11 @@ pub fn shown_springs(case: &dyn OnRobot) -> Vec<(String, Nuisance)> {
 pub fn spring(case: &dyn OnRobot, site: &str, spring: &Spring) -> Nuisance {
     let softer = match case.is_straight() {
         true => SOFTER,
-        false => bent::SOFTER_FIRST,
+        // as far as it may be off: it swings otherwise where it is much softer
+        false => spring
+            .relative_std()
+            .unwrap_or(USUAL)
+            .clamp(SOFTER, MUCH_SOFTER),
     };
     let robot = case.with_softer(site, softer);
     Nuisance {

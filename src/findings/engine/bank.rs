@@ -240,6 +240,11 @@ impl<'a> Bank<'a> {
         })
     }
 
+    /// See [`Nuisances::room`].
+    pub(super) fn room(&self) -> f64 {
+        self.nuisances.room()
+    }
+
     /// The most probable amounts of the nuisances in whitened numbers, in the kind's own units, none beyond
     /// what is allowed to it.
     pub(super) fn nuisances_in(&self, whitened: &DVector<f64>) -> Vec<f64> {

@@ -125,14 +125,33 @@ pub(super) fn drop_unreal(
             1 => 0.0,
             _ => judgement.companion_gain,
         };
+        let law = missed_by_law(bank, &set, &gains, judgement);
         let unreal = gains.iter().enumerate().filter(|(_, g)| {
-            !g.is_real() || g.reduction_percent < least || judgement.is_negligible(g)
+            let is_small = g.reduction_percent < least || g.explained() < law;
+            !g.is_real() || is_small || judgement.is_negligible(g)
         });
         let worst = unreal.min_by(|a, b| a.1.reduction_percent.total_cmp(&b.1.reduction_percent));
         let Some((at, _)) = worst else {
             return (set, gains);
         };
         set = less(bank, posterior, &set, at, judgement);
+    }
+}
+
+/// Squares of unseen readings that may be what the law of the largest cause misses that adds no straight line; -∞ where nobody asks.
+pub(super) fn missed_by_law(
+    bank: &Bank,
+    set: &Scored,
+    gains: &[Gain],
+    judgement: &Judgement,
+) -> f64 {
+    let bends = |m: &usize| bank.suspect(*m).named && bank.member(*m).within.is_some();
+    let own = set.fit.members.iter().zip(gains);
+    let own = own.filter(|(m, _)| bends(m)).map(|(_, g)| g.explained());
+    let largest = own.fold(f64::NEG_INFINITY, f64::max);
+    match judgement.companion_share > 0.0 && set.suspects.len() > 1 {
+        true => judgement.companion_share.powi(2) * largest,
+        false => f64::NEG_INFINITY,
     }
 }
 

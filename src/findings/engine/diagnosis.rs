@@ -44,7 +44,7 @@ pub struct Found {
     /// Evidence of every set that was compared, over that of no cause, no prior in it: (effect and site of
     /// each cause, ln E).
     pub evidence: Vec<(Names, f64)>,
-    /// ln E of no cause: what evidence of several statements is compared by.
+    /// ln E of no cause, what is uncertain being paid for: what evidence of several statements is compared by.
     pub(super) nothing: f64,
 }
 
@@ -106,7 +106,7 @@ pub(super) fn about(
     let mut posterior = Posterior::of(sets, judgement.exponent(nats));
     let span = Span::of(statement);
     let nothing = nothing(&posterior).fit;
-    let base = nothing.posterior.ln_evidence;
+    let base = nothing.posterior.ln_evidence - bank.room();
     let weighing = Weighing::new(statement, &bank, span.as_ref(), &nothing, judgement);
     let picked = picked(experiment, &weighing, &mut posterior, story.as_ref());
     // where laws are only nearly right the spring itself is fitted, not stated: its gains are those that decided

@@ -20,6 +20,7 @@
 
 mod aspect;
 pub mod bank;
+mod bend;
 mod beside_rest;
 mod carried;
 mod choice;
@@ -47,7 +48,7 @@ mod tests;
 pub use aspect::Aspects;
 pub use diagnosis::{Found, diagnose};
 pub use judgement::Judgement;
-pub use nuisances::{ALLOWED, held};
+pub use nuisances::{ALLOWED, held, unblamed};
 pub use statement::{
     Blamed, CanBe, Experiment, LEVEL, Member, Noise, Nuisance, Peers, Remaining, Statement,
     Suspect, White,

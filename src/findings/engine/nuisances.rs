@@ -34,6 +34,23 @@ pub fn held(statement: &Statement, column: &[f64]) -> [f64; 2] {
     }
 }
 
+/// What is left of the reading of a statement where all that is uncertain is at its most probable and nobody is to blame, in noise
+/// deviations, and the farthest of what is known of it from what is known, in standard deviations.
+pub fn unblamed(statement: &Statement) -> (Vec<f64>, f64) {
+    let nuisances = Nuisances::of(statement);
+    let reading = DVector::from_vec(statement.noise.whiten(&statement.reading));
+    let pull = nuisances.columns.tr_mul(&reading);
+    let amounts = match &nuisances.root {
+        Some(root) => root.solve(&pull),
+        None => DVector::zeros(pull.len()),
+    };
+    let most = nuisances.most.iter().zip(amounts.iter());
+    let far = most.map(|(most, amount)| (amount / most).abs());
+    let farthest = far.fold(0.0, f64::max) * nuisances.allowed;
+    let left = reading - &nuisances.columns * amounts;
+    (left.as_slice().to_vec(), farthest)
+}
+
 /// Columns that are integrated out.
 pub(super) struct Nuisances {
     pub columns: DMatrix<f64>,
@@ -46,6 +63,8 @@ pub(super) struct Nuisances {
     pub most: Vec<f64>,
     /// How many are without prior.
     pub flat: usize,
+    /// The same in standard deviations.
+    allowed: f64,
 }
 
 impl Nuisances {
@@ -83,7 +102,19 @@ impl Nuisances {
             lengths,
             most,
             flat,
+            allowed,
         }
+    }
+
+    /// Half of ln det(I + NPNᵀ), but for what has no prior: what evidence pays for how much these may explain.
+    pub fn room(&self) -> f64 {
+        let Some(root) = &self.root else { return 0.0 };
+        let own: f64 = root.l_dirty().diagonal().iter().map(|l| l.ln()).sum();
+        let known = self
+            .most
+            .iter()
+            .filter(|most| most.is_finite() && **most > 0.0);
+        own + known.map(|most| (most / self.allowed).ln()).sum::<f64>()
     }
 
     /// U of columns, nuisances × columns.
@@ -115,5 +146,34 @@ impl Nuisances {
             Some(root) => root.l() * seen,
             None => seen.clone(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::unblamed;
+    use crate::findings::engine::{Aspects, Nuisance, Statement, White};
+
+    /// A number that is known to 1 and must be 3 is at 2.7 where nine equal readings say so to 1 each, and leaves the rest.
+    #[test]
+    fn what_is_uncertain_goes_as_far_as_it_is_believed() {
+        let statement = Statement {
+            reading: vec![3.0; 9],
+            noise: Box::new(White {
+                spread: vec![1.0; 9],
+                rows: 9.0,
+            }),
+            nuisances: vec![Nuisance {
+                column: vec![1.0; 9],
+                spread: 1.0,
+            }],
+            suspects: Vec::new(),
+            span: Vec::new(),
+            splits: Vec::new(),
+            aspects: Aspects::default(),
+        };
+        let (left, farthest) = unblamed(&statement);
+        assert!((farthest - 2.7).abs() < 1e-9, "{farthest}");
+        assert!(left.iter().all(|l| (l - 0.3).abs() < 1e-9));
     }
 }

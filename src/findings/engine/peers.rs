@@ -3,7 +3,7 @@
 
 use super::choice::HOPELESS;
 use super::diagnosis::{Found, Names};
-use super::rounds::{BETTER, Course, bent, names, only, refitted};
+use super::rounds::{BETTER, Course, names, only, refitted};
 use super::statement::{Peers, Statement};
 
 /// How many rivals are tried. A choice for time: of 38 milled parts by strangers four within 16 nats missed one pair that six within
@@ -22,7 +22,7 @@ pub(super) fn beside_peers(course: &Course, first: &mut Statement, best: Found) 
         return best;
     }
     let again = course.stated(&best.blamed, &best.uncertain);
-    let bent = bent(first, &again);
+    let bent = course.bent([first, &again], &best);
     // straight kin may be the same on another way
     let is_straight = bent <= BETTER && course.experiment.peers() == Peers::Near;
     if is_straight {

@@ -1,7 +1,9 @@
 //! The set of causes that is named: what is probable, real on unseen rows, beats structure of any kind, and is not outweighed by
 //! what it leaves.
 
-use super::choice::{choose, drop_unreal, less, loses_to_structure, nothing, plain, possible};
+use super::choice::{
+    choose, drop_unreal, less, loses_to_structure, missed_by_law, nothing, plain, possible,
+};
 use super::leaves::{Leaves, Weighing};
 use super::materiality::in_noise;
 use super::posterior::Posterior;
@@ -54,7 +56,8 @@ pub(super) fn picked(
 /// With the gains as they are told, and without companions that surely make the simulation worse as it is used: they fit only where
 /// all that is uncertain moves against them, and stand for what it cannot do. The last cause stands where unseen rows plainly tell that
 /// something is wrong: what is uncertain may hide it. Where structure is left that nobody makes, any cause may stand for it: one whose
-/// gain is not plain takes no name. Nor do several, none of which plainly gains: together they fit what none of them makes.
+/// gain is not plain takes no name, nor any companion where a kind asks that (`Judgement::companion_is_plain`). Nor do several, none of
+/// which plainly gains: together they fit what none of them makes.
 pub(super) fn carrying(
     weighing: &Weighing,
     posterior: &Posterior,
@@ -71,10 +74,11 @@ pub(super) fn carrying(
         let gains = carried::told(statement, present, bank, &set.fit);
         let is_named = |at: &usize| bank.suspects[set.suspects[*at]].named;
         let surely_worse = |at: &usize| gains[*at].ci95_percent[1] < 0.0;
-        let stands_in = |at: &usize| leaves.rest.is_left && gains[*at].ci95_percent[0] <= 0.0;
         let gained = |at: &usize| gains[*at].reduction_percent;
         let named = (0..gains.len()).filter(is_named);
         let is_last = named.clone().count() == 1;
+        let must_be_plain = leaves.rest.is_left || judgement.companion_is_plain && !is_last;
+        let stands_in = |at: &usize| must_be_plain && gains[*at].ci95_percent[0] <= 0.0;
         let decided = |at: usize| unseen::gains(statement, bank, &set.fit)[at].reduction_percent;
         let stands = |at: &usize| is_last && decided(*at) >= judgement.companion_gain;
         let none_gains = !is_last && named.clone().all(|at| gains[at].ci95_percent[0] <= 0.0);
@@ -166,10 +170,12 @@ fn needed(
     let is_strained = kept.leaves.strain > leaves.strain + judgement.further();
     let largest = gains.iter().map(Gain::explained).fold(0.0, f64::max);
     let missed = judgement.formula_error.powi(2) * largest;
+    let law = missed_by_law(bank, &chosen, &gains, judgement);
     let may_stand = |gain: &Gain| {
         // beside all others it may be plain what is not plain without them; little is what laws miss of the largest, too
         let is_little = gain.reduction_percent < judgement.companion_gain;
-        let is_missed = gain.is_real() && is_little && gain.explained() < missed;
+        let is_missed =
+            gain.is_real() && is_little && gain.explained() < missed || gain.explained() < law;
         (is_strained || !is_missed) && gain.reduction_percent > -judgement.companion_gain
     };
     let mut each = chosen.suspects.iter().zip(&gains);

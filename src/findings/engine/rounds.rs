@@ -1,10 +1,11 @@
 //! Kinds that are not linear: what was found is stated anew until it settles, and then without each of its causes.
 
+use super::bend::{bent, left_by};
 use super::diagnosis::{Found, Names, Raised, about, shown, stated};
 use super::judgement::Judgement;
 use super::materiality::in_noise;
 use super::peers::beside_peers;
-use super::statement::{Blamed, Experiment, Statement, Suspect};
+use super::statement::{Blamed, Experiment, Peers, Statement, Suspect};
 use crate::findings::answer::{Discrepancy, Verdict};
 use crate::ground::stats::rms;
 
@@ -41,6 +42,27 @@ impl Course<'_> {
 
     fn stated_among(&self, blamed: &[Blamed], uncertain: &[f64], names: &Names) -> Statement {
         shown(self.experiment.state_among(blamed, uncertain, names))
+    }
+
+    /// Nats of what was found beyond the straight lines of the first statement. Where what is uncertain is not the same in all statements, their
+    /// readings alone say so.
+    pub fn bent(&self, [first, again]: [&Statement; 2], found: &Found) -> f64 {
+        let amounts = match self.experiment.peers() {
+            Peers::Near => Some((&found.blamed[..], &found.uncertain[..])),
+            _ => None,
+        };
+        0.5 * squares(&bent([first, again], amounts), first)
+    }
+
+    /// Nats that what was found costs, stated about it: what it leaves, and how far it moves what is uncertain. Nothing where nobody asks.
+    fn cost(&self, statement: &Statement, found: &Found) -> f64 {
+        if self.experiment.peers() != Peers::Near {
+            return 0.0;
+        }
+        let left = left_by(statement, (&found.blamed, &found.uncertain));
+        left.map_or(f64::INFINITY, |left| {
+            0.5 * squares(&left, statement) + found.strain
+        })
     }
 
     pub fn about(&self, statement: &Statement) -> Found {
@@ -158,14 +180,8 @@ fn others(course: &Course, (first, told): (&mut Statement, &Found), best: &Found
 }
 
 fn bends(course: &Course, first: &Statement, best: &Found) -> bool {
-    bent(first, &course.stated(&best.blamed, &best.uncertain)) > BETTER
-}
-
-/// Nats of what the causes of a statement do beyond first order.
-pub(super) fn bent(first: &Statement, again: &Statement) -> f64 {
-    let beyond = first.reading.iter().zip(&again.reading);
-    let beyond: Vec<f64> = beyond.map(|(a, b)| a - b).collect();
-    0.5 * squares(&beyond, first)
+    let again = course.stated(&best.blamed, &best.uncertain);
+    course.bent([first, &again], best) > BETTER
 }
 
 /// Squares of values over the rows, in noise deviations of a statement.
@@ -243,21 +259,31 @@ pub(super) fn only<T>(
     answer
 }
 
-/// These causes alone, fitted again until they arrive. None where one of them falls.
+/// These causes alone, fitted again until they arrive. None where one of them falls. Where rivals are seen to arrive ([`Peers::Near`]) what
+/// a round costs is known once it is stated about: one that costs more than the best before went astray.
 pub(super) fn refitted(course: &Course, (names, mut found): (&Names, Found)) -> Option<Found> {
+    let (mut least, mut best) = (f64::INFINITY, None);
     for _ in 0..ROUNDS {
         if found.blamed.len() < names.len() {
             return None;
         }
         let mut statement = course.stated_among(&found.blamed, &found.uncertain, names);
+        let cost = course.cost(&statement, &found);
+        if cost > least + BETTER {
+            break;
+        }
         let next = only(&mut statement, names, |s| course.about(s));
         let arrived = is_same(&found.blamed, &next.blamed);
         found = next;
+        if cost <= least {
+            least = cost;
+            best = Some(found.clone());
+        }
         if arrived {
             return Some(found);
         }
     }
-    (found.blamed.len() == names.len()).then_some(found)
+    best.filter(|best| best.blamed.len() == names.len())
 }
 
 fn is_same(a: &[Blamed], b: &[Blamed]) -> bool {

@@ -50,6 +50,13 @@ impl Measured for Case {
             temper: 0.8,
             companion_needed: 0.85,
             group_carries: 0.9,
+            companion_share: if self.swings() {
+                Judgement::default().formula_error
+            } else {
+                0.0
+            },
+            companion_is_plain: self.swings(),
+            negligible: self.negligible(),
             noise_beyond: match self.test.facts.probe_noise {
                 Some(_) => NOISE_BEYOND,
                 None => f64::INFINITY,

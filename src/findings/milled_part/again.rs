@@ -9,21 +9,32 @@ use super::{
 use crate::findings::bent;
 use crate::findings::engine::{Blamed, Member, Nuisance};
 use crate::ground::spatial::{V3, add};
+use crate::ground::stats::difference;
 use crate::process::setup::{Setup, Support};
 
+/// A part that was milled again.
+pub(super) struct Again {
+    /// How much more than in first order the rows change, m.
+    pub beyond: Vec<f64>,
+    /// What the cut leaves, row by row, m: of a robot that swings with what sits in it; what only moves the tool or its way is no cut.
+    pub simulated: Vec<f64>,
+}
+
 impl Case {
-    /// How much more than in first order these causes and uncertain numbers change the rows, m: the cut is milled
-    /// again with them, and the force gives way. None where that cannot be milled.
-    pub(super) fn beyond_first_order(
+    /// These causes and uncertain numbers (amounts of `nuisances`) milled: the cut is milled again with them, and the force
+    /// gives way. None where that cannot be milled.
+    pub(super) fn again(
         &self,
         about: &[Blamed],
         uncertain: &[f64],
-    ) -> Option<Vec<f64>> {
+        nuisances: &[Nuisance],
+    ) -> Option<Again> {
         let mut setup = self.trial.clone();
         let known = self.stated().uncertain.iter().zip(uncertain);
         let known: Vec<(&Nuisance, f64)> = known
-            .filter(|((known, _), amount)| uncertain::put(known, **amount, &mut setup))
-            .map(|((_, nuisance), amount)| (nuisance, *amount))
+            .zip(nuisances)
+            .filter(|(((known, _), amount), _)| uncertain::put(known, **amount, &mut setup))
+            .map(|((_, amount), nuisance)| (nuisance, *amount))
             .collect();
         let altered = about.iter().filter(|b| self.alter(b, &mut setup));
         let altered: Vec<&Blamed> = altered.collect();
@@ -33,7 +44,7 @@ impl Case {
             .collect();
         let driven: Vec<&Blamed> = about.iter().filter(|b| corner_lag::is_milled(b)).collect();
         if altered.is_empty() && known.is_empty() && moves.is_empty() && driven.is_empty() {
-            return Some(vec![0.0; self.rows.len()]);
+            return Some(self.as_it_is());
         }
         let support = match about.iter().any(backlash::is_milled) {
             true => Support::Coupled,
@@ -53,11 +64,24 @@ impl Case {
                 .sum();
             causes - edges + known.iter().map(|(n, a)| a * n.column[row]).sum::<f64>()
         };
-        let rows = 0..self.rows.len();
-        Some(
-            rows.map(|row| again[row] - base[row] - linear(row))
-                .collect(),
-        )
+        let more = difference(&again, base);
+        let beyond = more.iter().enumerate();
+        let beyond = beyond.map(|(row, more)| more - linear(row)).collect();
+        let is_cut = self.swings() && moves.is_empty() && driven.is_empty();
+        let cut = self.simulated.iter().zip(&more);
+        let cut = cut.map(|(x, more)| if is_cut { x + more } else { *x });
+        Some(Again {
+            beyond,
+            simulated: cut.collect(),
+        })
+    }
+
+    /// Nothing changed.
+    pub(super) fn as_it_is(&self) -> Again {
+        Again {
+            beyond: vec![0.0; self.rows.len()],
+            simulated: self.simulated.clone(),
+        }
     }
 
     /// What a trial with nothing changed leaves, row by row, m; none where that cannot be milled.
@@ -84,10 +108,7 @@ impl Case {
 
     /// What a cause that adds no straight line adds about what was found of it.
     pub(super) fn about(&self, blamed: &Blamed) -> Option<Member> {
-        let is_bent = self.swings() && robot::is_own(blamed)
-            || backlash::is_milled(blamed)
-            || corner_lag::is_milled(blamed);
-        if !is_bent {
+        if !self.bends(blamed) {
             return None;
         }
         let mut suspects = self.stated().suspects.iter();
@@ -95,8 +116,15 @@ impl Case {
         bent::about(own, blamed)
     }
 
+    /// Whether a cause adds no straight line.
+    pub(super) fn bends(&self, blamed: &Blamed) -> bool {
+        self.swings() && robot::is_own(blamed)
+            || backlash::is_milled(blamed)
+            || corner_lag::is_milled(blamed)
+    }
+
     /// Puts a cause into robot, material or tool; false for others.
-    fn alter(&self, blamed: &Blamed, setup: &mut Setup) -> bool {
+    pub(super) fn alter(&self, blamed: &Blamed, setup: &mut Setup) -> bool {
         cutting_coefficients::alter(blamed, setup)
             || robot::alter(self, blamed, setup)
             || tool_radius::alter(blamed, setup)
@@ -105,7 +133,7 @@ impl Case {
 
     /// What is left at every station, m, the tool driven and moved beside its programmed way before the cut answers; none where that
     /// cannot be milled.
-    fn milled_again(
+    pub(super) fn milled_again(
         &self,
         (setup, support): (&Setup, Support),
         driven: &[&Blamed],

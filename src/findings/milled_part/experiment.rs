@@ -2,14 +2,15 @@
 
 use super::noise::{Uneven, is_scatter};
 use super::patterns::PATTERNS;
-use super::uncertain::{missed, uncertain};
+use super::uncertain::{Known, missed, uncertain};
 use super::{Case, EFFECTS, Stated};
 use crate::findings::engine::{
-    Aspects, Blamed, Experiment, Nuisance, Peers, Remaining, Statement, Suspect, held,
+    ALLOWED, Aspects, Blamed, Experiment, Nuisance, Peers, Remaining, Statement, Suspect, held,
+    unblamed,
 };
 use crate::findings::physics;
 use crate::findings::table;
-use crate::ground::stats::{farthest, largest};
+use crate::ground::stats::{farthest, largest, rms};
 
 /// Readings that a stated noise is worth.
 const WORTH: f64 = 60.0;
@@ -36,14 +37,16 @@ impl Experiment for Case {
     }
 
     fn state_beside(&self, about: &[Blamed], uncertain: &[f64]) -> Statement {
-        let own = self.stated();
-        let beyond = self.beyond_first_order(about, uncertain);
-        let about = if beyond.is_some() { about } else { &[] };
-        let beyond = beyond.unwrap_or_else(|| vec![0.0; self.rows.len()]);
-        let missed = self.missed.iter().zip(&beyond);
+        let nuisances = self.uncertain_about(about, uncertain);
+        let again = self.again(about, uncertain, &nuisances);
+        let (about, nuisances, again) = match again {
+            Some(again) => (about, nuisances, again),
+            None => (&[][..], self.uncertain_about(&[], &[]), self.as_it_is()),
+        };
+        let missed = self.missed.iter().zip(&again.beyond);
         Statement {
             reading: missed.map(|(missed, beyond)| missed - beyond).collect(),
-            nuisances: own.uncertain.iter().map(|u| u.1.clone()).collect(),
+            nuisances: self.with_laws_of(nuisances, &again.simulated),
             suspects: self.suspects_about(about),
             span: self.span(),
             splits: self.splits(),
@@ -60,7 +63,7 @@ impl Experiment for Case {
     }
 
     fn is_settled(&self, before: &Statement, after: &Statement) -> bool {
-        after.reads_as(before)
+        after.reads_as(before) && after.nuisances == before.nuisances
     }
 
     fn parameters(&self, blamed: &Blamed) -> Vec<(&'static str, f64, &'static str)> {
@@ -145,15 +148,32 @@ impl Case {
         taken > 2.0 * CHANCE && taken > SHARE * all
     }
 
+    /// Whether what is merely uncertain leaves scatter within a stated noise, none of it being far off: no spring is worth a trial in time
+    /// then.
+    fn is_sound(&self, uncertain: &[(Known, Nuisance)]) -> bool {
+        let statement = Statement {
+            nuisances: uncertain.iter().map(|u| u.1.clone()).collect(),
+            ..self.bare()
+        };
+        let (left, farthest) = unblamed(&statement);
+        let in_place: Vec<f64> = left.iter().zip(&self.spread).map(|(l, s)| l * s).collect();
+        let is_told = self.test.facts.probe_noise.is_some();
+        is_told && rms(&left) <= 1.0 && farthest <= ALLOWED && self.is_scatter(&in_place)
+    }
+
     /// What every statement holds, found once.
     pub(super) fn stated(&self) -> &Stated {
         self.stated.get_or_init(|| {
-            let mut suspects = physics::suspects(self);
+            let uncertain = uncertain(self);
+            let mut suspects = match self.swings() && self.is_sound(&uncertain) {
+                true => Vec::new(),
+                false => physics::suspects(self),
+            };
             suspects.extend(table::suspects(EFFECTS, self));
             suspects.extend(table::patterns(PATTERNS, self));
             Stated {
                 suspects,
-                uncertain: uncertain(self),
+                uncertain,
             }
         })
     }
@@ -182,7 +202,7 @@ impl Case {
         span.extend(self.either_way(&table::waves(&time, WAVES[1])));
         let sizes = largest(&self.simulated);
         if sizes > 0.0 {
-            let missed = missed(self).into_iter();
+            let missed = missed(self, &self.simulated).into_iter();
             span.extend(missed.map(|m| m.iter().map(|x| x / sizes).collect()));
         }
         span.retain(|column| column.iter().any(|x| *x != 0.0));

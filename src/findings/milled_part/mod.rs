@@ -1,6 +1,7 @@
 //! What is wrong with a milled part: probed deviations less those that robot and cut are simulated to leave.
 
 mod again;
+mod anew;
 pub mod backlash;
 mod corner_lag;
 mod cutting_coefficients;
@@ -22,14 +23,14 @@ use super::engine::{Nuisance, Suspect};
 use super::table::Effect;
 use crate::ground::problem::Outcome;
 use crate::ground::spatial::{M3, V3, dot, rotate};
-use crate::ground::stats::{difference, rms};
+use crate::ground::stats::{difference, quantile, rms};
 use crate::measurement::milled_part::PartTest;
 use crate::process::Planned;
 use crate::process::setup::{Setup, Support};
 use crate::robot::Robot;
 use hold::{Hold, holds};
+use stations::{LAW, placed, rows, spreads};
 pub use stations::{Row, Station};
-use stations::{placed, rows, spreads};
 use std::sync::{Mutex, OnceLock};
 use tried::{left, tried};
 use uncertain::Known;
@@ -79,6 +80,8 @@ pub struct Case {
     swung: OnceLock<Option<Vec<f64>>>,
     /// What other robots leave more, coupled in time, as far as it was asked.
     milled: Mutex<Vec<(Robot, Option<Vec<f64>>)>>,
+    /// What is uncertain about what was found, as far as it was asked.
+    anew: anew::Told,
     /// The robot at every station.
     pub holds: Vec<Hold>,
     /// How far the tool goes at every station where it is moved by one before the cut answers.
@@ -151,6 +154,7 @@ impl Case {
             stated: OnceLock::new(),
             swung: OnceLock::new(),
             milled: Mutex::default(),
+            anew: Mutex::default(),
             spread: spreads(&stations, &rows, probe, ahead),
             missed,
             simulated,
@@ -167,8 +171,17 @@ impl Case {
     }
 
     /// Whether the robot swings so much that the part shows it.
-    fn swings(&self) -> bool {
+    pub(super) fn swings(&self) -> bool {
         self.support == Support::Coupled
+    }
+
+    /// What a simulation of this kind leaves anyway, rms, m: the cut is resolved no finer, and its laws are off by a share of what it leaves;
+    /// a place counts as much as it is worth.
+    pub(super) fn negligible(&self) -> f64 {
+        let usual = quantile(&self.spread, 0.5);
+        let own = self.simulated.iter().zip(&self.spread);
+        let own: Vec<f64> = own.map(|(x, spread)| x * usual / spread).collect();
+        LEAST.hypot(LAW * rms(&own))
     }
 
     /// Standard deviation of a probed place, m.

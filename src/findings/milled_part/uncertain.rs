@@ -26,8 +26,8 @@ pub enum Known {
     Datum,
     /// Whether a place was measured where the tool passes it, or what the tool did when it was told to be there: none or one.
     Instant,
-    /// What the laws of the cut do not know, here and there along the path, as a share of the simulated deviation.
-    Law,
+    /// What the laws of the cut do not know, as a share of the simulated deviation times one of some waves along the path.
+    Law(usize),
     /// What surface and probe are off alike at neighbouring places, in deviations of the probe.
     Form,
 }
@@ -139,21 +139,25 @@ fn damp(robot: &mut Robot, which: &Known, by: f64) {
 /// Waves over the path by which the laws of the cut miss: neighbours are missed alike, which no noise of single places says.
 const WAVES: usize = 4;
 
-/// The simulated deviation times each of them, m.
-pub(super) fn missed(case: &Case) -> Vec<Vec<f64>> {
+/// A simulated deviation times each of them, m.
+pub(super) fn missed(case: &Case, simulated: &[f64]) -> Vec<Vec<f64>> {
     let times = |wave: &Vec<f64>| {
-        let each = wave.iter().zip(&case.simulated);
+        let each = wave.iter().zip(simulated);
         each.map(|(w, s)| w * s).collect()
     };
     case.waves(WAVES).iter().map(times).collect()
 }
 
 fn laws(case: &Case) -> impl Iterator<Item = (Known, Nuisance)> {
-    let law = |column| Nuisance {
-        column,
-        spread: LAW,
+    let law = |(k, column)| {
+        let nuisance = Nuisance {
+            column,
+            spread: LAW,
+        };
+        (Known::Law(k), nuisance)
     };
-    missed(case).into_iter().map(move |m| (Known::Law, law(m)))
+    let missed = missed(case, &case.simulated);
+    missed.into_iter().enumerate().map(law)
 }
 
 /// Waves over the path of a surface and of a probe that are not quite true, and how far, in deviations of the probe: neighbours
@@ -180,7 +184,7 @@ pub(super) fn put(known: &Known, amount: f64, setup: &mut Setup) -> bool {
         Known::Spring(site) => soften(&mut setup.robot, site, amount),
         Known::Dampers | Known::Damper(_) => damp(&mut setup.robot, known, amount),
         Known::Coefficient(k) => setup.material.coefficients[*k] *= (1.0 + amount).max(0.05),
-        Known::Datum | Known::Instant | Known::Law | Known::Form => return false,
+        Known::Datum | Known::Instant | Known::Law(_) | Known::Form => return false,
     }
     true
 }
