@@ -90,6 +90,15 @@ fn diagnosed(folder: &Path, text: &str) -> Answer {
     diagnose(&path).unwrap().answer().clone()
 }
 
+/// The answer about a part that such a plant has milled, beside the lightly damped robot that its job states.
+fn told_of(change: impl FnOnce(&mut Setup)) -> Answer {
+    let folder = tempfile::tempdir().unwrap();
+    let nominal = light(folder.path());
+    let mut plant = nominal.clone();
+    change(&mut plant);
+    diagnosed(folder.path(), &probed(&plant, &nominal))
+}
+
 /// The one cause that is named, and the first of its parameters.
 fn alone(answer: &Answer) -> (&'static str, String, f64) {
     let said: Vec<_> = answer
@@ -106,14 +115,13 @@ fn alone(answer: &Answer) -> (&'static str, String, f64) {
 #[test]
 #[ignore = "takes long: .ci/thorough runs it"]
 fn a_soft_drive_is_told_from_what_it_does_to_the_swing() {
-    let folder = tempfile::tempdir().unwrap();
-    let nominal = light(folder.path());
-    let mut plant = nominal.clone();
-    let drive = plant.robot.springs_mut().find(|(name, _)| name == "A2");
-    let stiffness = &mut drive.unwrap().1.stiffness;
-    *stiffness *= 0.5;
-    let right = *stiffness;
-    let answer = diagnosed(folder.path(), &probed(&plant, &nominal));
+    let mut right = 0.0;
+    let answer = told_of(|plant| {
+        let drive = plant.robot.springs_mut().find(|(name, _)| name == "A2");
+        let stiffness = &mut drive.unwrap().1.stiffness;
+        *stiffness *= 0.5;
+        right = *stiffness;
+    });
     let (effect, site, value) = alone(&answer);
     assert_eq!((effect, &site[..]), ("drive_stiffness", "A2"));
     assert!((value / right - 1.0).abs() < 0.05, "{value} for {right}");
@@ -122,11 +130,9 @@ fn a_soft_drive_is_told_from_what_it_does_to_the_swing() {
 #[test]
 #[ignore = "takes long: .ci/thorough runs it"]
 fn a_gap_is_told_by_the_part_as_it_is_milled_with_it() {
-    let folder = tempfile::tempdir().unwrap();
-    let nominal = light(folder.path());
-    let mut plant = nominal.clone();
-    plant.robot.joints[0].drive.as_mut().unwrap().backlash = vec![3.2e-4];
-    let answer = diagnosed(folder.path(), &probed(&plant, &nominal));
+    let answer = told_of(|plant| {
+        plant.robot.joints[0].drive.as_mut().unwrap().backlash = vec![3.2e-4];
+    });
     let (effect, site, gap) = alone(&answer);
     assert_eq!((effect, &site[..]), ("backlash", "A1"));
     assert!((gap / 3.2e-4 - 1.0).abs() < 0.1, "{gap}");
@@ -135,11 +141,7 @@ fn a_gap_is_told_by_the_part_as_it_is_milled_with_it() {
 #[test]
 #[ignore = "takes long: .ci/thorough runs it"]
 fn a_controller_that_lags_swings_less_and_is_told() {
-    let folder = tempfile::tempdir().unwrap();
-    let nominal = light(folder.path());
-    let mut plant = nominal.clone();
-    plant.way = lagging(&nominal.way, 0.017);
-    let answer = diagnosed(folder.path(), &probed(&plant, &nominal));
+    let answer = told_of(|plant| plant.way = lagging(&plant.way, 0.017));
     let (effect, _, tau) = alone(&answer);
     assert_eq!(effect, "corner_lag");
     assert!((0.012..0.024).contains(&tau), "{tau}");
@@ -148,9 +150,7 @@ fn a_controller_that_lags_swings_less_and_is_told() {
 #[test]
 #[ignore = "takes long: .ci/thorough runs it"]
 fn a_sound_robot_that_swings_is_left_alone() {
-    let folder = tempfile::tempdir().unwrap();
-    let nominal = light(folder.path());
-    let answer = diagnosed(folder.path(), &probed(&nominal, &nominal));
+    let answer = told_of(|_| {});
     assert_eq!(answer.verdict, Verdict::Sufficient);
     assert!(answer.causes.is_empty() && answer.groups.is_empty());
 }

@@ -1,6 +1,7 @@
 //! How far what was found is from the straight lines of the statement that it was found in.
 
 use super::statement::{Blamed, Member, Statement};
+use crate::ground::stats::difference;
 
 /// By how much what was found does something else, stated about it (the second), than the first statement says of the same amounts: of
 /// causes and of what is uncertain. Without these the readings alone are compared.
@@ -10,14 +11,10 @@ pub(super) fn bent(
 ) -> Vec<f64> {
     let left = |statement| found.and_then(|found| left_by(statement, found));
     match [first, again].map(left) {
-        [Some(a), Some(b)] => less(&a, &b),
+        [Some(a), Some(b)] => difference(&a, &b),
         // of a strength that it does not know
-        _ => less(&first.reading, &again.reading),
+        _ => difference(&first.reading, &again.reading),
     }
-}
-
-fn less(a: &[f64], b: &[f64]) -> Vec<f64> {
-    a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
 /// What a statement says that amounts leave; none where a cause has no member of its amounts there.

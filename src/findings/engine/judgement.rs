@@ -56,10 +56,12 @@ pub struct Judgement {
     /// 98) with two gaps one was untrue in each, and gained surely 0 to 14 %; no other value was tried.
     pub companion_gain_beside_kin: f64,
     /// What a companion must explain of unseen readings, as a share of what the largest cause that adds no straight line explains (rms):
-    /// less may as well be what the law of that one misses, if it is not dear to do without. 0 where laws are all but exact.
+    /// less may as well be what the law of that one misses ([`Judgement::formula_error`], where a kind asks), if it is not dear to do
+    /// without. 0 where laws are all but exact.
     pub companion_share: f64,
     /// Whether a companion is named only where it plainly makes the simulation better as it is used. Of 18 names of several causes on 52
-    /// parts by a stranger whose robots swing the four that did not were all untrue, and two of the 14 that did.
+    /// parts by a stranger whose robots swing the four that did not were all untrue, and two of the 14 that did; the same costs the second half of
+    /// pairs (README).
     pub companion_is_plain: bool,
     /// Rms of unseen readings, in their unit, that a cause must explain: less may as well be what the present simulation misses
     /// anyway. 0 where a kind says nothing of it.

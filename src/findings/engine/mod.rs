@@ -16,6 +16,9 @@
 //! 7. [`verdict`]: causes, groups, the verdict;
 //! 8. `beside_rest`: names that what is left makes doubtful.
 //!
+//! Kinds that are not linear go this way again and again (`rounds`), as long as what was found is bent (`bend`), and their rivals too
+//! (`peers`).
+//!
 //! Every number that decides stands in [`Judgement`], with its reason.
 
 mod aspect;

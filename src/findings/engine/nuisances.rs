@@ -34,8 +34,8 @@ pub fn held(statement: &Statement, column: &[f64]) -> [f64; 2] {
     }
 }
 
-/// What is left of the reading of a statement where all that is uncertain is at its most probable and nobody is to blame, in noise
-/// deviations, and the farthest of what is known of it from what is known, in standard deviations.
+/// What is left of the reading of a statement where all that is uncertain is at its most probable, however far that is, and nobody is to
+/// blame, in noise deviations, and the farthest of what is known of it from what is known, in standard deviations.
 pub fn unblamed(statement: &Statement) -> (Vec<f64>, f64) {
     let nuisances = Nuisances::of(statement);
     let reading = DVector::from_vec(statement.noise.whiten(&statement.reading));
@@ -63,7 +63,7 @@ pub(super) struct Nuisances {
     pub most: Vec<f64>,
     /// How many are without prior.
     pub flat: usize,
-    /// The same in standard deviations.
+    /// How far each may be off, in standard deviations.
     allowed: f64,
 }
 

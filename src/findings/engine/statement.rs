@@ -253,7 +253,7 @@ pub enum Peers {
     Nobody,
     /// Those of the same mechanism.
     Kin,
-    /// All that are near.
+    /// All that are near; every statement has the same uncertain numbers in the same order.
     Near,
 }
 

@@ -16,7 +16,7 @@ const LARGE: f64 = 4.0;
 /// About how many causes it is told, each once, where it was first stated about: a choice for time, each takes some twenty runs.
 const MOST: usize = 4;
 /// Mean square, in standard deviations, of what is uncertain beyond which nobody believes the cause that needs it. A choice for
-/// time: on two parts by a stranger true causes need about one, others four and more.
+/// time: on two parts by a stranger it cost 8 to 30 nats beside true causes and 101 to 237 beside others; this is 1.25 for each number.
 const FAR: f64 = 2.5;
 /// Changes at which what is uncertain is tried, as far as it may be off.
 const TRIED: [f64; 2] = [0.02, 0.2];
