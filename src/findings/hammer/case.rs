@@ -4,21 +4,21 @@ use super::adequacy::Adequacy;
 use super::data::{Data, Grid};
 use super::diagnosis::{Diagnosis, UNIT};
 use super::linearity::{Linearity, linearity};
-use super::map::{Fit, fit, ln_odds};
-use super::next::would_tell;
+use super::map::{Fit, fit, ln_odds, singular};
 use super::point::Point;
-use super::posterior::{Posterior, holds};
 use super::prediction::Machine;
 use super::search::Found;
+use super::set::{Set, sets};
 use super::strayed::strayed;
 use super::suspect::Suspect;
-use super::unseen::{folds, gain, without};
 use super::{discrepancy, doubled, extended};
 use crate::experiments::hammer_frf::{HammerFrf, Settings};
-use crate::findings::answer::{Answer, Cause, Discrepancy, Group, Structure, Verdict};
+use crate::findings::answer::{Answer, Discrepancy, Structure, Verdict};
 use crate::findings::belief::Belief;
 use crate::findings::engine::judgement::Judgement;
-use crate::findings::gain::Gain;
+use crate::findings::engine::posterior::Posterior;
+use crate::findings::engine::rest::Rest;
+use crate::findings::engine::verdict::{Named, verdict};
 use crate::ground::problem::Outcome;
 use crate::measurement::hammer::HammerRecord;
 
@@ -27,13 +27,10 @@ const FORMULA_ERROR: f64 = 0.05;
 const TOLERATED_NATS: f64 = 5.0;
 /// Folds of hits for the gain.
 const FOLDS: usize = 2;
-/// Share of the misfit that a cause must take away to be named although something is left.
-const THE_STORY: f64 = 0.95;
 /// A cause alone is named as well where no more of the error's variance is left above the noise than this share of what is
-/// left without it: drift below the lowest mode weighs much and is little. A tenth of what [`THE_STORY`] leaves open.
+/// left without it: drift below the lowest mode weighs much and is little. A tenth of the variance that [`judgement`](super::diagnosis::judgement)
+/// leaves open.
 const LITTLE: f64 = 0.005;
-/// Most members of a group that are named.
-const MEMBERS: usize = 6;
 
 /// Everything that the steps of a diagnosis share.
 pub(super) struct Case<'a> {
@@ -43,23 +40,17 @@ pub(super) struct Case<'a> {
     pub(super) sharp: Data,
     pub(super) grid: Grid,
     pub(super) settings: Settings,
-}
-
-/// What was named.
-#[derive(Default)]
-struct Named {
-    causes: Vec<Cause>,
-    groups: Vec<Group>,
+    pub(super) judgement: Judgement,
 }
 
 impl Case<'_> {
     /// Names what is found and judges what is left.
     pub(super) fn conclude(self, found: &Found, record: &HammerRecord) -> Outcome<Diagnosis> {
-        let temper = self.temper(found);
-        let posterior = Posterior::new(&found.fits, temper);
-        let nothing = self.nothing(found)?;
-        let best = posterior.sets.first().map_or(&nothing, |s| s.0);
+        let (sets, nothing) = self.weighed(found)?;
+        let posterior = Posterior::of(sets, self.judgement.temper);
+        let best = posterior.sets.first().map_or(&nothing, |s| &s.0);
         let (chosen, mut named) = self.name(&posterior, best)?;
+        let chosen = chosen.fit;
         let double = doubled::cause(
             &self.machine,
             record,
@@ -75,11 +66,11 @@ impl Case<'_> {
     }
 
     /// The posterior with the instruments summed out.
-    fn belief(&self, posterior: &Posterior) -> Belief {
+    fn belief(&self, posterior: &Posterior<Set>) -> Belief {
         let sees = self.suspects.iter().filter(|s| s.is_physical());
-        let weighed = posterior.sets.iter().map(|(fit, _, p)| {
+        let weighed = posterior.sets.iter().map(|(set, p)| {
             let mut robot = self.machine.robot.clone();
-            let each = fit.point.each().into_iter();
+            let each = set.fit.point.each().into_iter();
             let physical = each.filter(|(suspect, _)| suspect.is_physical());
             let causes = physical.map(|(suspect, amounts)| {
                 suspect.cause.alter(&mut robot, &suspect.site, &amounts);
@@ -92,11 +83,15 @@ impl Case<'_> {
         Belief::new(sees.map(Suspect::place).collect(), weighed)
     }
 
-    fn nothing(&self, found: &Found) -> Outcome<Fit> {
-        match found.fits.iter().find(|f| f.point.set.is_empty()) {
-            Some(fit) => Ok(fit.clone()),
-            None => fit(&self.machine, &self.sharp, Point::nothing(), 10),
-        }
+    /// The sets that were compared, and the empty one.
+    fn weighed(&self, found: &Found) -> Outcome<(Vec<Set>, Set)> {
+        let temper = self.temper(found);
+        let nothing = match found.fits.iter().find(|f| f.point.set.is_empty()) {
+            Some(fit) => fit.clone(),
+            None => fit(&self.machine, &self.sharp, Point::nothing(), 10)?,
+        };
+        let nothing = Set::of(nothing, &self.suspects, temper).ok_or_else(singular)?;
+        Ok((sets(&found.fits, &self.suspects, temper), nothing))
     }
 
     /// A misfit larger than the noise of even the best set makes all of them less sure, and so does
@@ -111,7 +106,7 @@ impl Case<'_> {
     }
 
     /// Hits to fit and hits to judge by; lines, where a direction was hit but once.
-    fn apart(&self) -> Vec<[Data; 2]> {
+    pub(super) fn apart(&self) -> Vec<[Data; 2]> {
         let doubting = |both: [Data; 2]| both.map(|data| data.doubting(self.sharp.doubt));
         let hits = (0..FOLDS).map(|k| Data::fold(&self.frf, self.grid, k, FOLDS).map(doubting));
         let lines = || (0..FOLDS).map(|k| self.sharp.stretches(k, FOLDS));
@@ -119,90 +114,9 @@ impl Case<'_> {
             .unwrap_or_else(|| lines().collect())
     }
 
-    /// Names the causes of `best`, one after the other dropping those without a gain or as well absent.
-    fn name(&self, posterior: &Posterior, best: &Fit) -> Outcome<(Fit, Named)> {
-        let mut chosen = best.clone();
-        let least = Judgement::default().companion_needed;
-        loop {
-            let folds = folds(&self.machine, self.apart(), &chosen);
-            let each = chosen.point.each();
-            let own = |(s, _): &(&Suspect, Vec<f64>)| gain(&self.machine, &folds, s);
-            let gains: Vec<Gain> = each.iter().map(own).collect();
-            let needed = |s: &Suspect| posterior.needed(&chosen, s) > least;
-            let mut both = gains.iter().zip(&each);
-            let Some(useless) = both.position(|(g, (s, _))| !(g.is_real() && needed(s))) else {
-                let mut named = Named::default();
-                for ((suspect, amounts), gain) in each.into_iter().zip(gains) {
-                    self.sort_in(posterior, &chosen, (suspect, &amounts), gain, &mut named);
-                }
-                named.causes.sort_by(|a, b| {
-                    b.gain
-                        .reduction_percent
-                        .total_cmp(&a.gain.reduction_percent)
-                });
-                return Ok((chosen, named));
-            };
-            let rest = without(&chosen.point, each[useless].0);
-            chosen = self.refit(posterior, rest)?;
-        }
-    }
-
-    /// The compared fit of this set, else a new one.
-    fn refit(&self, posterior: &Posterior, point: Point) -> Outcome<Fit> {
-        let known = posterior.sets.iter().find(|s| {
-            let set = &s.0.point.set;
-            set.len() == point.set.len() && point.set.iter().all(|p| holds(s.0, p))
-        });
-        match known {
-            Some(set) => Ok(set.0.clone()),
-            None => fit(&self.machine, &self.sharp, point, 8),
-        }
-    }
-
-    fn sort_in(
-        &self,
-        posterior: &Posterior,
-        chosen: &Fit,
-        (suspect, amounts): (&Suspect, &[f64]),
-        gain: Gain,
-        named: &mut Named,
-    ) {
-        let stand_ins = posterior.stand_ins(chosen, suspect);
-        if let Some((rival, _)) = stand_ins.first() {
-            let others = stand_ins.iter().map(|(_, s)| s).take(MEMBERS - 1);
-            let members: Vec<&Suspect> = std::iter::once(suspect).chain(others).collect();
-            named.groups.push(Group {
-                effects: members.iter().map(|s| s.name()).collect(),
-                sites: members.iter().map(|s| s.site.clone()).collect(),
-                would_tell: would_tell(&self.machine, &self.sharp, chosen, rival),
-                gain,
-                probability: posterior.of(suspect).min(gain.probability()),
-            });
-            return;
-        }
-        let alternatives = posterior.alternatives(chosen, suspect);
-        let card = suspect.cause.card();
-        named.causes.push(Cause {
-            effect: card.name,
-            site: suspect.site.clone(),
-            probability: posterior.of(suspect).min(gain.probability()),
-            summary: card.summary,
-            alternatives: alternatives
-                .into_iter()
-                .take(5)
-                .map(|(s, p)| (s.name(), s.site, p))
-                .collect(),
-            ci95: Vec::new(),
-            parameters: suspect
-                .cause
-                .said(self.machine.robot, &suspect.site, amounts),
-            gain,
-        });
-    }
-
     fn answer(
         self,
-        posterior: &Posterior,
+        posterior: &Posterior<Set>,
         chosen: &Fit,
         named: Named,
         adequacy: &Adequacy,
@@ -222,7 +136,13 @@ impl Case<'_> {
             Some(_) => 0.0,
             None => self.explained(posterior, chosen, left_rms)?,
         };
-        let verdict = verdict(&named, left, explained);
+        let rest = Rest {
+            nats: -adequacy.p_value.max(f64::MIN_POSITIVE).ln(),
+            share: (1.0 - explained).max(0.0).sqrt(),
+            is_left: left,
+            scatter: None,
+        };
+        let verdict = verdict(&named, &rest, &self.judgement);
         let description = match (bent, strayed, adequacy.left()) {
             (Some(level), ..) => level.description(),
             (None, Some(strayed), _) => strayed,
@@ -233,12 +153,9 @@ impl Case<'_> {
         let named = if unknown { Named::default() } else { named };
         let extended = extended::robot(&self.machine, chosen, &named.causes);
         let candidates = posterior.sets.iter().take(8);
-        let candidates = candidates.map(|(fit, _, p)| {
-            let names = fit
-                .point
-                .set
-                .iter()
-                .map(|s| format!("{} at {}", s.name(), s.site));
+        let candidates = candidates.map(|(Set { fit, .. }, p)| {
+            let names = fit.point.set.iter();
+            let names = names.map(|s| format!("{} at {}", s.name(), s.site));
             (names.collect(), *p, self.nats(posterior, fit))
         });
         let answer = Answer {
@@ -281,11 +198,11 @@ impl Case<'_> {
 
     /// Share of the weighted misfit of the present simulation that the chosen cause takes away, all of it where nearly
     /// nothing is left (`left_rms`). While something is left several may imitate an unknown one together: they count as nothing.
-    fn explained(&self, posterior: &Posterior, chosen: &Fit, left_rms: f64) -> Outcome<f64> {
-        let nothing = posterior.sets.iter().find(|s| s.0.point.set.is_empty());
-        let (Some((nothing, ..)), 1) = (nothing, chosen.point.set.len()) else {
+    fn explained(&self, posterior: &Posterior<Set>, chosen: &Fit, left_rms: f64) -> Outcome<f64> {
+        let (Some(nothing), 1) = (posterior.set(&[]), chosen.point.set.len()) else {
             return Ok(0.0);
         };
+        let nothing = &nothing.fit;
         let without = discrepancy::simulated(&self.machine, &self.sharp, &nothing.point)?;
         let noise = discrepancy::noise(&self.sharp).powi(2);
         let above = |rms: f64| (rms.powi(2) - noise).max(0.0);
@@ -296,15 +213,8 @@ impl Case<'_> {
         })
     }
 
-    fn nats(&self, posterior: &Posterior, fit: &Fit) -> f64 {
-        let nothing = posterior.sets.iter().find(|s| s.0.point.set.is_empty());
-        nothing.map_or(0.0, |s| s.0.cost - fit.cost)
-    }
-}
-
-fn verdict(named: &Named, left: bool, explained: f64) -> Verdict {
-    match Verdict::of(named.causes.len(), named.groups.len(), left) {
-        Verdict::PartlyExplained if explained < THE_STORY => Verdict::UnknownCause,
-        other => other,
+    fn nats(&self, posterior: &Posterior<Set>, fit: &Fit) -> f64 {
+        let nothing = posterior.set(&[]);
+        nothing.map_or(0.0, |nothing| nothing.fit.cost - fit.cost)
     }
 }

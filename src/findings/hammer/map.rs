@@ -238,7 +238,7 @@ impl Landscape for Cost<'_> {
     }
 }
 
-fn singular() -> Problem {
+pub(super) fn singular() -> Problem {
     Problem::new(
         "the model has no finite FRF",
         "check masses and stiffnesses of the robot file",
