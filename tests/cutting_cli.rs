@@ -172,3 +172,45 @@ fn a_modal_file_that_is_wrong_is_refused_with_its_line() {
         assert!(said.contains(&format!("m.toml:{line}:")), "{said}");
     }
 }
+
+#[test]
+fn a_modal_file_states_its_own_cut() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.toml");
+    std::fs::write(&path, MODAL).unwrap();
+    for option in [["--cut", "up"], ["--width-mm", "5"]] {
+        let all = [&["lobes", "m.toml", "--at", "5000,0.5"], &option[..]].concat();
+        let output = ident(folder.path(), &all);
+        let said = String::from_utf8_lossy(&output.stderr).to_string();
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains("states its own cut"), "{said}");
+    }
+    let undamped = MODAL.replacen("damping_ratio = 0.011", "damping_ratio = 0.0", 1);
+    std::fs::write(&path, undamped).unwrap();
+    let arguments = [
+        "lobes",
+        "m.toml",
+        "--rpm",
+        "6000:6000:1",
+        "--json",
+        "--dry-run",
+    ];
+    let found = json(&ident(folder.path(), &arguments));
+    assert_eq!(found["limit_depth_mm"][0].as_f64(), Some(0.0), "{found}");
+}
+
+/// The record of another cut fits none: its numbers are those of nothing, and no job loads them.
+#[test]
+fn channels_that_are_exchanged_give_no_coefficients() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = campaign(folder.path());
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, text.replacen("fy_N,fz_N", "fz_N,fy_N", 1)).unwrap();
+    let output = ident(folder.path(), &["force", path.to_str().unwrap(), "--json"]);
+    assert_eq!(output.status.code(), Some(1));
+    let found = json(&output);
+    let parameters = found["parameters"].as_array().unwrap();
+    assert!(parameters.iter().all(|p| p["value"].is_null()), "{found}");
+    assert!(found["material"].is_null() && !folder.path().join("fits").exists());
+    assert!(found["remarks"].to_string().contains("with every turn"));
+}

@@ -479,3 +479,55 @@ fn a_measured_tool_limits_the_cut_as_its_mode_does() {
         }
     }
 }
+
+/// Both sides have a width, a slot has none, and nothing cuts above the flutes.
+#[test]
+fn lobes_are_asked_for_either_side_and_within_the_flutes() {
+    let folder = job();
+    let at = |cut: &str, rest: &[&str]| {
+        let all = [&["lobes", "job.toml", "--cut", cut, "--dry-run"], rest].concat();
+        ident(folder.path(), &all)
+    };
+    let narrow = ["--width-mm", "5", "--at", "10000,3"];
+    let radius = |cut: &str| {
+        let found = at(cut, &[&narrow[..], &["--json"]].concat());
+        let said = String::from_utf8_lossy(&found.stderr).to_string();
+        let found: Value = serde_json::from_slice(&found.stdout).expect(&said);
+        found["spectral_radius"].as_f64().unwrap()
+    };
+    assert!((radius("up") / radius("down") - 1.0).abs() > 1e-3);
+    for (cut, rest, word) in [
+        ("slot", &narrow[..], "as wide as the tool"),
+        ("up", &["--at", "10000,33"][..], "flutes end at 32.000 mm"),
+        ("up", &["--depth-mm", "33"][..], "flutes end at 32.000 mm"),
+    ] {
+        let refused = at(cut, rest);
+        let said = String::from_utf8_lossy(&refused.stderr).to_string();
+        assert_eq!(refused.status.code(), Some(2), "{said}");
+        assert!(said.contains(word), "{said}");
+    }
+}
+
+/// What a tool takes with its end, and where it begins, is no cut, and that is said.
+#[test]
+fn material_that_no_tooth_meets_is_told() {
+    let folder = job();
+    let remarks = |path: &str| {
+        let head = "# kind = \"path\"\nx_mm,y_mm,z_mm,i,j,k,rapid\n";
+        std::fs::write(folder.path().join("slot.csv"), format!("{head}{path}")).unwrap();
+        let found = json(folder.path(), &["mill", "job.toml", "--rigid", "--dry-run"]);
+        found["remarks"].to_string()
+    };
+    let plunge = remarks("15,0,5,0,0,1,0\n15,0,-2,0,0,1,0\n15,0,5,0,0,1,1\n");
+    assert!(
+        plunge.contains("plunges") && !plunge.contains("begins"),
+        "{plunge}"
+    );
+    let inside = remarks("15,0,-2,0,0,1,0\n45,0,-2,0,0,1,0\n");
+    assert!(inside.contains("begins"), "{inside}");
+    let beside = remarks("-12,0,-2,0,0,1,0\n45,0,-2,0,0,1,0\n");
+    assert!(
+        !beside.contains("plunges") && !beside.contains("begins"),
+        "{beside}"
+    );
+}

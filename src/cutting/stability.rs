@@ -227,13 +227,14 @@ fn drive(mode: &TipMode, column: &V3) -> f64 {
     (0..3).map(|k| mode.direction[k] * column[k]).sum()
 }
 
-/// The first depth, m, from `least` up to `most`, at which chatter no longer dies out; `None`: not up to there.
+/// The first depth, m, from `least` up to `most`, at which chatter no longer dies out; `None`: not up to there. Zero where it does not even
+/// at `least`: how much less is not looked for.
 pub fn limit(radius: impl Fn(f64) -> f64, least: f64, most: f64) -> Option<f64> {
     let steps = ((most / least).ln() / STEP.ln()).ceil().max(1.0) as usize;
     let at = |i: usize| least * (most / least).powf(i as f64 / steps as f64);
     let first = (0..=steps).find(|i| radius(at(*i)) >= 1.0)?;
     if first == 0 {
-        return Some(least);
+        return Some(0.0);
     }
     let (mut low, mut high) = (at(first - 1), at(first));
     for _ in 0..BISECTIONS {

@@ -175,11 +175,12 @@ impl<'a, S: Scalar> Wave<'a, S> {
         }
         let length = share * disc.edge_m;
         let area = chip(bite.thickness.max(S::constant(0.0))) * disc.normal[0] * length;
-        let turned = Direction {
-            tooth: direction,
+        // the tip moves about the spindle's axis, and its force is along that motion
+        let along = Direction {
+            tooth: turned(direction, tips[tooth].aside),
             normal: disc.normal,
         };
-        for (k, axis) in turned.axes().iter().enumerate() {
+        for (k, axis) in along.axes().iter().enumerate() {
             for (i, part) in axis.iter().enumerate() {
                 sums[k][i] += *part * area;
                 sums[k + 3][i] += *part * length;
@@ -243,66 +244,4 @@ pub fn mean_force(tool: &Tool, cut: &Cut, coefficients: &[f64]) -> V3 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::cutting::Material;
-    use crate::ground::units::DEGREE;
-
-    /// Mean forces of `machining-and-planning` 3.5: N = 2, a = 2 mm, c = 0.1 mm, slot, half up, half down.
-    const AL7075: [f64; 6] = [1319.41, 788.83, 48.75, 19.65, 26.77, 2.05];
-    const MEANS: [(Side, [f64; 3]); 3] = [
-        (Side::Slot, [-112.9676, 156.9602, 10.3070]),
-        (Side::Up, [-110.9915, 36.3285, 5.1535]),
-        (Side::Down, [-1.9761, 120.6316, 5.1535]),
-    ];
-
-    /// A tool so large that c sin φ is the chip.
-    fn large(helix_deg: f64, side: Side) -> (Tool, Cut) {
-        let radius = 800e-3;
-        let cut = Cut {
-            spindle_rad_s: 1000.0,
-            feed_m_s: 0.1e-3 * 2.0 * 1000.0 / TAU,
-            depth_m: 2e-3,
-            width_m: radius,
-            side,
-        };
-        (Tool::square(radius, 2, helix_deg * DEGREE), cut)
-    }
-
-    #[test]
-    fn mean_forces_are_those_of_the_closed_forms_at_either_helix() {
-        let material = Material::linear_edge(AL7075);
-        for (side, expected) in MEANS {
-            for helix in [0.0, 30.0] {
-                let (tool, cut) = large(helix, side);
-                let mean = mean_force(&tool, &cut, &material.coefficients);
-                for k in 0..3 {
-                    let off = (mean[k] - expected[k]).abs();
-                    assert!(
-                        off < 2e-3 * expected[k].abs().max(20.0),
-                        "{side:?} {helix}: {mean:?}"
-                    );
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn runout_keeps_the_chip_of_a_whole_revolution() {
-        let cut = Cut {
-            spindle_rad_s: 1000.0,
-            feed_m_s: 0.05,
-            depth_m: 2e-3,
-            width_m: 4e-3,
-            side: Side::Down,
-        };
-        let straight = Tool::square(8e-3, 3, 0.5);
-        let tilted = Tool {
-            runout_m: 8e-6,
-            runout_angle_rad: 0.7,
-            ..straight.clone()
-        };
-        let [a, b] = [straight, tilted].map(|t| mean_basis(&t, &cut, 3600)[0][1]);
-        assert!((a / b - 1.0).abs() < 2e-3, "{a} {b}");
-    }
-}
+mod tests;

@@ -149,8 +149,8 @@ impl Rest {
         line.map_or_else(|| vec![0.0; self.readings.len()], |line| line.1)
     }
 
-    /// Squares of the zeros of the cycles about their mean, m², and how many are free.
-    pub fn zeros(&self, slope: f64) -> [f64; 2] {
+    /// The zeros of the cycles that have readings, m, with their number.
+    pub fn zeros(&self, slope: f64) -> Vec<(f64, f64)> {
         let mut sums = vec![[0.0; 2]; self.cycles];
         for (i, r) in self.readings.iter().enumerate() {
             let zero = r.displacement - slope * r.force;
@@ -158,15 +158,8 @@ impl Rest {
             own[0] += self.kept[i] * zero;
             own[1] += self.kept[i];
         }
-        let means: Vec<f64> = sums
-            .iter()
-            .filter(|s| s[1] > 0.0)
-            .map(|s| s[0] / s[1])
-            .collect();
-        let n = means.len() as f64;
-        let mean = means.iter().sum::<f64>() / n.max(1.0);
-        let squares = means.iter().map(|m| (m - mean).powi(2)).sum();
-        [squares, (n - 1.0).max(0.0)]
+        let each = sums.iter().enumerate().filter(|(_, s)| s[1] > 0.0);
+        each.map(|(cycle, s)| (cycle as f64, s[0] / s[1])).collect()
     }
 
     /// Mean over the readings of every cell.

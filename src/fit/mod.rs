@@ -10,6 +10,7 @@ pub mod compliance;
 pub mod convex;
 pub mod cubes;
 pub mod cut_force;
+mod cycle_zeros;
 pub mod damping;
 mod damping_priors;
 pub mod damping_statement;

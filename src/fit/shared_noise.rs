@@ -192,21 +192,6 @@ impl Shapes {
             false => 0.0,
         }
     }
-
-    fn wandering(&self) -> [f64; 3] {
-        let mut sums = [[0.0; 2]; 3];
-        for rest in &self.rests {
-            if let Some((fit, _)) = rest.line() {
-                let own = rest.zeros(fit.slope);
-                (0..2).for_each(|k| sums[rest.component][k] += own[k]);
-            }
-        }
-        let rms = |k: usize| match sums[k][1] > 0.0 && self.noise[k] > 0.0 {
-            true => (sums[k][0] / sums[k][1]).sqrt() / self.noise[k],
-            false => 0.0,
-        };
-        [rms(0), rms(1), rms(2)]
-    }
 }
 
 fn share(line: &mut Line, noise: f64, widen: f64) {

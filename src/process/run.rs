@@ -57,6 +57,10 @@ pub struct Outcome {
     pub course: Vec<Cut>,
     /// Volume taken, m³.
     pub removed_m3: f64,
+    /// The part of it that the flat end took where the tool plunged, m³: no law says with what force.
+    pub drilled_m3: f64,
+    /// Stock where the tool began, m³: gone, but not cut.
+    pub stood_in_m3: f64,
     /// Length in time, s.
     pub duration_s: f64,
     /// Time in the cut, s.
@@ -192,6 +196,7 @@ fn stationed(mut problem: problem::Problem, at: &Moment) -> problem::Problem {
 }
 
 /// What a run writes down.
+#[derive(Default)]
 struct Book {
     course: Vec<Cut>,
     /// Begin, end and result of the latest ticks of one revolution.
@@ -207,14 +212,9 @@ struct Book {
 impl Book {
     fn new(teeth: usize) -> Self {
         Self {
-            course: Vec::new(),
-            latest: VecDeque::new(),
             teeth,
-            cutting_s: 0.0,
-            impulse: [0.0; 3],
-            peak: 0.0,
-            steps: 0,
             per_tick: 1,
+            ..Self::default()
         }
     }
 
@@ -288,6 +288,8 @@ impl Book {
             mean_n: mean(self.impulse),
             course: self.course,
             removed_m3: cutter.removed(),
+            drilled_m3: cutter.drilled(),
+            stood_in_m3: cutter.stood_in(),
             duration_s,
             cutting_s: self.cutting_s,
             peak_n: self.peak,

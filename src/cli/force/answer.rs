@@ -40,6 +40,7 @@ fn fit(found: &Found) -> Value {
         "rows": account.rows,
         "cuts": account.cuts.len(),
         "rel_std": account.rel_std,
+        "repeating_share": json::number(account.repeating),
     })
 }
 

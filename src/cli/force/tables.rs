@@ -24,6 +24,10 @@ pub fn sentences(found: &Found) -> Vec<(Tone, String)> {
                 significant(100.0 * spread, 2)
             ),
         ),
+        _ if account.is_another_cut() => (
+            Tone::Attention,
+            "These are records of another cut than the file states: no coefficient is told, and no material written.".into(),
+        ),
         _ => (
             Tone::Attention,
             format!(
@@ -32,7 +36,8 @@ pub fn sentences(found: &Found) -> Vec<(Tone, String)> {
             ),
         ),
     };
-    vec![first, left(found), check(found)]
+    let check = (!account.is_another_cut()).then(|| check(found));
+    [first, left(found)].into_iter().chain(check).collect()
 }
 
 fn left(found: &Found) -> (Tone, String) {

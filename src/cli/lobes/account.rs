@@ -1,6 +1,6 @@
 //! What `ident lobes` says.
 
-use super::{Case, Limit};
+use super::{Case, Limit, SHALLOWEST};
 use crate::cutting::stability::Multiplier;
 use crate::report::json::number;
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
@@ -47,6 +47,10 @@ impl Lobes<'_> {
         let deepest = significant(1e3 * self.deepest_m, 3);
         match self.least() {
             None => format!("No chatter down to {deepest} mm at any of these speeds."),
+            Some((rpm, 0.0)) => format!(
+                "At {rpm:.0} rev/min even the shallowest cut that was looked at chatters, {} mm.",
+                significant(1e3 * SHALLOWEST * self.deepest_m, 3)
+            ),
             Some((rpm, mm)) => format!(
                 "The limit is nowhere below {} mm; that is at {rpm:.0} rev/min (looked at down to {deepest} mm).",
                 significant(mm, 3)
@@ -74,7 +78,7 @@ impl Lobes<'_> {
         let chart = Chart::new(
             format!("lobes-{}", self.case.name),
             "Stability lobes",
-            "Above: the depth of cut at which chatter starts; where the line is broken there is none down to the deepest cut looked at. Below: the frequency of that chatter.",
+            "Above: the depth of cut at which chatter starts; where the line is broken there is none down to the deepest cut looked at, where it is zero the shallowest chatters. Below: the frequency of that chatter.",
         );
         let limits = self.limits.iter().map(|l| (l.rpm, l)).collect();
         panels(chart, ["Spindle speed", "rev/min"], limits)

@@ -2,7 +2,7 @@
 
 use super::super::output::{print, print_result};
 use super::account::{closed, lines, opened, panels};
-use super::{Arguments, Case, Ending, Limit, deepest, input, speeds, written};
+use super::{Arguments, Case, Ending, Limit, SHALLOWEST, deepest, input, speeds, written};
 use crate::ground::problem::{Outcome, Problem};
 use crate::process::tip_modes::{Station, carrier};
 use crate::report::json::number;
@@ -145,6 +145,11 @@ impl Along {
         };
         match self.least().and_then(|p| Some((p, p.limit.depth_m?))) {
             None => format!("No chatter down to {deepest} mm anywhere along the path {at}."),
+            Some((place, 0.0)) => format!(
+                "After {:.1} mm of way even the shallowest cut that was looked at chatters {at}, {} mm.",
+                place.s_mm,
+                significant(SHALLOWEST * self.deepest_mm, 3)
+            ),
             Some((place, depth)) => format!(
                 "The limit is nowhere along the path below {} mm {at}; it is least after {:.1} mm of way.",
                 significant(1e3 * depth, 3),

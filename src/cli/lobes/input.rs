@@ -52,13 +52,22 @@ fn read_file(arguments: &Arguments) -> Outcome<Case> {
 }
 
 fn modal(arguments: &Arguments, path: &Path) -> Outcome<Case> {
-    match arguments.station.is_some() {
-        true => Err(Problem::new(
-            "a file of kind modal has no path",
-            "give a job, or leave --station out",
+    let asks = [
+        ("--station", "has no path", arguments.station.is_some()),
+        ("--cut", "states its own cut", arguments.cut.is_some()),
+        (
+            "--width-mm",
+            "states its own cut",
+            arguments.width_mm.is_some(),
+        ),
+    ];
+    match asks.iter().find(|(.., is_asked)| *is_asked) {
+        Some((option, what, _)) => Err(Problem::new(
+            format!("a file of kind modal {what}"),
+            format!("give a job, or leave {option} out"),
         )
         .in_file(path)),
-        false => Ok(of_modal(path, &Modal::read(path)?)),
+        None => Ok(of_modal(path, &Modal::read(path)?)),
     }
 }
 
@@ -105,8 +114,20 @@ fn of_modal(path: &Path, modal: &Modal) -> Case {
         width_m: modal.width,
         side: side(modal.side),
         spindle_rad_s: modal.cutter.spindle,
-        remarks: counted(&modal.cutter, &material(&modal.material)),
+        remarks: ignored(modal)
+            .into_iter()
+            .chain(counted(&modal.cutter, &material(&modal.material)))
+            .collect(),
     }
+}
+
+/// What a file states that a slot does not have.
+fn ignored(modal: &Modal) -> Option<String> {
+    let is_narrow = modal.width < modal.cutter.diameter * (1.0 - 1e-9);
+    (modal.side == CutSide::Slot && is_narrow).then(|| {
+        "A slot is as wide as the tool: the file's width_mm is not used; cut = \"up\" or \"down\" has one."
+            .into()
+    })
 }
 
 /// What is counted otherwise than it is.
@@ -135,15 +156,17 @@ pub fn planned(arguments: &Arguments) -> Outcome<(Case, Planned)> {
 /// The cut of a job, what vibrates left open.
 fn of_job(arguments: &Arguments, job: &Job, inputs: Vec<(String, String)>) -> Outcome<Case> {
     let cutter = job.cutter()?;
-    let found = SIDES.iter().find(|(word, _)| *word == arguments.cut);
+    let asked = arguments.cut.as_deref();
+    let found = SIDES.iter().find(|(word, _)| Some(*word) == asked);
+    let side_of_stock = found.map_or(CutSide::Slot, |s| s.1);
     Ok(Case {
         inputs,
         name: name(&job.path),
         modes: Vec::new(),
         tool: tool(cutter),
         material: material(job.material()?),
-        width_m: width(arguments, cutter)?,
-        side: side(found.map_or(CutSide::Slot, |s| s.1)),
+        width_m: width(arguments, side_of_stock, cutter)?,
+        side: side(side_of_stock),
         spindle_rad_s: cutter.spindle,
         remarks: counted(cutter, &material(job.material()?)),
     })
@@ -182,11 +205,11 @@ fn at_start(arguments: &Arguments) -> Outcome<Case> {
     Ok(case)
 }
 
-fn width(arguments: &Arguments, cutter: &Cutter) -> Outcome<f64> {
+fn width(arguments: &Arguments, side: CutSide, cutter: &Cutter) -> Outcome<f64> {
     let is_full = |mm: f64| (1e-3 * mm / cutter.diameter - 1.0).abs() < 1e-9;
     match arguments.width_mm {
         None => Ok(cutter.diameter),
-        Some(mm) if arguments.cut == SIDES[0].0 && !is_full(mm) => Err(Problem::new(
+        Some(mm) if side == CutSide::Slot && !is_full(mm) => Err(Problem::new(
             format!("is {mm}, and a slot is as wide as the tool"),
             "leave it out, or ask with --cut up or --cut down",
         )

@@ -49,9 +49,9 @@ struct Arguments {
     /// Hits on the tool's tip, or FRFs there (hammer test or universal file): its modes are added
     #[arg(long, value_name = "FILE")]
     tool_frf: Option<PathBuf>,
-    /// Side of the stock for a job: slot, up or down
-    #[arg(long, default_value = "slot", value_parser = ["slot", "up", "down"])]
-    cut: String,
+    /// Side of the stock for a job: slot, up or down [default: slot]
+    #[arg(long, value_parser = ["slot", "up", "down"])]
+    cut: Option<String>,
     /// Width of cut for a job, mm [default: the diameter]
     #[arg(long, value_name = "MM")]
     width_mm: Option<f64>,
@@ -128,7 +128,7 @@ impl Case {
         Limit {
             rpm,
             depth_m: depth,
-            chatter_hz: depth.map(|d| at(d).frequency_hz),
+            chatter_hz: depth.map(|d| at(d.max(SHALLOWEST * deepest_m)).frequency_hz),
         }
     }
 
@@ -141,7 +141,7 @@ impl Case {
             probes.iter().map(limit).collect()
         };
         let stands = |pair: (&Option<f64>, &Option<f64>)| match pair {
-            (Some(a), Some(b)) => (a / b - 1.0).abs() <= CONVERGED,
+            (Some(a), Some(b)) => (a - b).abs() <= CONVERGED * b,
             (a, b) => a.is_some() == b.is_some(),
         };
         let (mut refine, mut before) = (1.0, at(1.0));
@@ -198,6 +198,7 @@ fn written(arguments: &Arguments, name: &str, page: impl Fn() -> Page) -> Outcom
 
 fn one(arguments: &Arguments, case: &Case, at: &str) -> Outcome<Ending> {
     let (rpm, depth_mm) = point(at)?;
+    within_flute(&case.tool, depth_mm).map_err(|p| p.in_column("--at"))?;
     let mut found = case.multiplier(rpm, 1e-3 * depth_mm, 1.0);
     for refine in [1.4, 2.0, 2.8] {
         let finer = case.multiplier(rpm, 1e-3 * depth_mm, refine);
@@ -242,9 +243,23 @@ const SLOWEST: f64 = 100.0;
 /// Most speeds of one run.
 const MOST_SPEEDS: f64 = 5000.0;
 
+/// Above the flutes nothing cuts.
+fn within_flute(tool: &Tool, depth_mm: f64) -> Outcome<()> {
+    let flute_mm = 1e3 * tool.flute_m;
+    match depth_mm <= flute_mm * (1.0 + 1e-9) {
+        true => Ok(()),
+        false => Err(Problem::new(
+            format!("is {depth_mm} mm deep, and the flutes end at {flute_mm:.3} mm"),
+            "ask for a depth within the flutes, or correct flute_mm of the tool",
+        )),
+    }
+}
+
 fn deepest(arguments: &Arguments, tool: &Tool) -> Outcome<f64> {
     match arguments.depth_mm {
-        Some(mm) if good(mm) => Ok(1e-3 * mm),
+        Some(mm) if good(mm) => within_flute(tool, mm)
+            .map(|()| 1e-3 * mm)
+            .map_err(|p| p.in_column("--depth-mm")),
         Some(mm) => Err(
             Problem::new(format!("is {mm}"), "give a depth above zero in mm")
                 .in_column("--depth-mm"),

@@ -3,7 +3,8 @@
 //! The chip of a tooth is its way since an earlier tooth stood at the same angle, along the outward
 //! normal: the feed and the regenerative term in one (source 001, eq. 3), h = (u(t) − u(t − mτ))·n, the
 //! least over the teeth before it, so that one that left the cut leaves its share to the next.
-//! Along the ray that the tooth stands on, as the trochoids have it: `bite`.
+//! Along the ray that the tooth stands on, as the trochoids have it: `bite`. Runout makes teeth longer and shorter here; that it also
+//! moves them aside, by its share of the radius, is in `wave` alone.
 
 mod bite;
 mod load;
@@ -56,6 +57,8 @@ pub struct Cutter {
     /// The last place that is noted, or was beside the stock.
     mark: V3,
     removed: f64,
+    drilled: f64,
+    stood_in: f64,
 }
 
 /// What the teeth of one ring need in every step.
@@ -104,12 +107,24 @@ impl Cutter {
             latest: VecDeque::new(),
             mark: [0.0; 3],
             removed: 0.0,
+            drilled: 0.0,
+            stood_in: 0.0,
         }
     }
 
     /// Volume taken so far, m³: the engaged envelope times its motion.
     pub fn removed(&self) -> f64 {
         self.removed
+    }
+
+    /// The part of it that the flat end took, m³: it has no edge, and no law says with what force it drills.
+    pub fn drilled(&self) -> f64 {
+        self.drilled
+    }
+
+    /// Volume of stock where the tool stood when it was put into place first, m³: nobody cut it, and it is gone.
+    pub fn stood_in(&self) -> f64 {
+        self.stood_in
     }
 
     /// What is left, once [`Cutter::settle`] was called.

@@ -6,6 +6,7 @@ use crate::cutting::dexel::engagement::APART;
 use crate::cutting::dexel::frame::Frame;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{V3, add, norm, scale, sub, unit};
+use crate::ground::stats::mean;
 
 /// The latest way, as a share of the radius, that is known as places instead of being taken from the
 /// rays: its end lies two spacings within the front.
@@ -33,7 +34,9 @@ impl Cutter {
         let middle = add(from, scale(0.5, way));
         let curved = self.curved(middle, way);
         self.engagement.look(&self.stock, middle, way, &curved);
-        self.removed += self.engagement.swept(way);
+        let [swept, by_the_end] = self.engagement.swept(way);
+        self.removed += swept;
+        self.drilled += by_the_end;
         self.leave(from, tip, axis);
         self.check_flutes()
     }
@@ -41,8 +44,22 @@ impl Cutter {
     /// Puts the tool somewhere else without cutting on the way.
     pub fn jump(&mut self, tip: V3, axis: V3) {
         self.settle();
+        if self.place.is_none() {
+            self.stood_in = self.standing_in(tip, axis);
+        }
         self.place = Some((tip, axis));
         self.mark = tip;
+    }
+
+    /// Volume of stock where the tool stands at a place, m³.
+    fn standing_in(&self, tip: V3, axis: V3) -> f64 {
+        if !self.near(tip, axis, 0.0) {
+            return 0.0;
+        }
+        let mut without = self.stock.clone();
+        without.remove(&self.solid(tip, axis));
+        let [before, after] = [&self.stock, &without].map(|stock| mean(&stock.volumes()));
+        before - after
     }
 
     /// Latest places that a straight motion does not leave behind by itself.

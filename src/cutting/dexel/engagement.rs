@@ -243,10 +243,11 @@ impl Engagement {
         Some(Part::beside(share, column(low, high), there))
     }
 
-    /// Volume swept while the tool moves by `way` (m): the engaged envelope times its motion.
-    pub fn swept(&self, way: V3) -> f64 {
+    /// Volume swept while the tool moves by `way` (m): the engaged envelope times its motion; and the part of it that the flat end sweeps,
+    /// which has no edge.
+    pub fn swept(&self, way: V3) -> [f64; 2] {
         let step = TAU / self.angles as f64;
-        let mut sum = 0.0;
+        let mut sums = [0.0; 2];
         for (i, ring) in self.rings().iter().enumerate() {
             let [sin, cos] = ring.disc.normal;
             let area = ring.length_m * ring.disc.radius_m * step;
@@ -263,10 +264,12 @@ impl Engagement {
                         .map(|k| self.heading.second_order(k))
                         .iter()
                         .sum::<f64>();
-                sum += height * (to - from) * (area * chip + ring.disc.height_m * step * more);
+                let own = height * (to - from) * (area * chip + ring.disc.height_m * step * more);
+                sums[0] += own;
+                sums[1] += if ring.disc.edge_m == 0.0 { own } else { 0.0 };
             }
         }
-        sum
+        sums
     }
 }
 

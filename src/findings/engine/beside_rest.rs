@@ -6,16 +6,42 @@ use super::rest::Rest;
 use super::statement::{Blamed, Experiment};
 use super::told::share_left;
 use super::verdict::{Named, verdict};
-use crate::findings::answer::Answer;
+use crate::findings::gain::Gain;
 
-impl Answer {
-    fn names(&self) -> Vec<(&'static str, String)> {
+impl Named {
+    /// Every name with its site; of what cannot be told apart the first.
+    pub fn names(&self) -> Vec<(&'static str, String)> {
         let causes = self.causes.iter().map(|c| (c.effect, c.site.clone()));
         let groups = self.groups.iter().filter_map(|g| {
             let first = g.effects.first().zip(g.sites.first())?;
             Some((*first.0, first.1.clone()))
         });
         causes.chain(groups).collect()
+    }
+
+    /// Of the causes and groups the name that gains least.
+    pub fn least(&self, among: &[(&'static str, String)]) -> Option<(&'static str, String)> {
+        let causes = self.causes.iter().map(|c| c.gain);
+        let gains = causes.chain(self.groups.iter().map(|g| g.gain));
+        let own = self.names().into_iter().zip(gains);
+        let own = own.filter(|(name, _)| among.contains(name));
+        let least = own.min_by(|a, b| a.1.reduction_percent.total_cmp(&b.1.reduction_percent));
+        least.map(|(name, _)| name)
+    }
+
+    /// Beside structure that nobody makes: without names that are less likely right than wrong, the other causes no more probable than that.
+    /// The names that are none.
+    pub fn beside_rest(&mut self, judgement: &Judgement) -> Vec<(&'static str, String)> {
+        let mut dropped = self.names();
+        for cause in &mut self.causes {
+            cause.probability = cause.probability.min(judgement.beside_rest(&cause.gain));
+        }
+        let stands = |gain: &Gain| judgement.stands_beside_rest(gain);
+        self.causes.retain(|c| stands(&c.gain));
+        self.groups.retain(|g| stands(&g.gain));
+        let kept = self.names();
+        dropped.retain(|name| !kept.contains(name));
+        dropped
     }
 }
 
@@ -31,22 +57,14 @@ pub(super) fn less_doubtful(
         return found;
     }
     let answer = &mut found.answer;
-    for cause in &mut answer.causes {
-        cause.probability = cause.probability.min(judgement.beside_rest(&cause.gain));
-    }
-    let before = answer.names();
-    answer
-        .causes
-        .retain(|c| judgement.stands_beside_rest(&c.gain));
-    answer
-        .groups
-        .retain(|g| judgement.stands_beside_rest(&g.gain));
-    let after = answer.names();
-    if before.len() > after.len() {
-        let is_doubtful = |b: &Blamed| {
-            let name = (b.effect, b.site.clone());
-            before.contains(&name) && !after.contains(&name)
-        };
+    let mut named = Named {
+        causes: std::mem::take(&mut answer.causes),
+        groups: std::mem::take(&mut answer.groups),
+    };
+    let dropped = named.beside_rest(judgement);
+    (answer.causes, answer.groups) = (named.causes, named.groups);
+    if !dropped.is_empty() {
+        let is_doubtful = |b: &Blamed| dropped.contains(&(b.effect, b.site.clone()));
         let blamed = std::mem::take(&mut found.blamed);
         (found.doubted, found.blamed) = blamed.into_iter().partition(is_doubtful);
         leave(experiment, &mut found, judgement);

@@ -70,7 +70,7 @@ impl Case<'_> {
     ) {
         let all = |_: usize| true;
         let rivals = Rivals::of(posterior, chosen, at, all, &self.judgement);
-        let probability = rivals.probability(posterior, &self.judgement);
+        let probability = posterior.inclusion(at).min(self.judgement.certain);
         let probability = probability.min(gain.probability());
         if let Some(rival) = rivals.open.first() {
             let members = std::iter::once(&at).chain(&rivals.open);

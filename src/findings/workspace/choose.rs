@@ -64,10 +64,9 @@ impl Case<'_> {
     /// Whether a seat is a gap that does not plainly cut the error beside one that cuts it more: what the law of that one misses
     /// looks like another gap.
     fn is_echo(&self, set: &Set, seat: usize) -> bool {
-        let is_gap = |s: &usize| self.seats.seats[*s].cause.card().name == GAP;
-        let others = set.seats.iter().filter(|s| **s != seat && is_gap(s));
-        let others: Vec<usize> = others.copied().collect();
-        if !is_gap(&seat) || others.is_empty() {
+        let others = set.seats.iter().copied();
+        let others: Vec<usize> = others.filter(|s| *s != seat && self.is_gap(*s)).collect();
+        if !self.is_gap(seat) || others.is_empty() {
             return false;
         }
         let own = self.told_gain(set, seat);
@@ -99,7 +98,14 @@ impl Case<'_> {
     fn helps(&self, set: &Set, seat: usize) -> bool {
         let (before, after) = self.left_without_and_with(set, seat);
         let real = gain(&before, &after, self.unit()).is_real();
-        real && self.told(&before, &after).ci95_percent[1] > 0.0
+        let told = self.told(&before, &after).ci95_percent;
+        let sure =
+            self.is_gap(seat) || self.posterior.inclusion_of_place(set, seat) > self.judgement.sure;
+        real && told[usize::from(sure)] > 0.0
+    }
+
+    fn is_gap(&self, seat: usize) -> bool {
+        self.seats.seats[seat].cause.card().name == GAP
     }
 
     /// What is left of rows that were not fitted (NaN: fitted), in standard deviations, without a seat and

@@ -4,12 +4,13 @@ use super::case::Case;
 use super::limits::{Limit, limits};
 use super::seats::Seat;
 use super::set::Set;
+use super::settled::Settled;
 use super::thin::thinned;
 use crate::causes::contract::Blame;
-use crate::findings::answer::{Answer, Cause, Verdict};
+use crate::findings::answer::{Answer, Verdict};
 use crate::findings::belief::{Belief, LEAST};
 use crate::findings::engine::Judgement;
-use crate::findings::engine::verdict::verdict;
+use crate::findings::engine::verdict::{Named, verdict};
 use crate::fit::force_shapes::Shapes;
 use crate::fit::suitability::workspace::doubts;
 use crate::ground::spatial::M3;
@@ -60,6 +61,8 @@ pub fn judgement() -> Judgement {
         group_carries: 0.86,
         not_the_story: 0.35_f64.sqrt(),
         of_the_story_percent: 50.0,
+        sure: 0.95,
+        doubted_from: 0.35,
         ..Judgement::default()
     }
 }
@@ -83,14 +86,15 @@ pub fn diagnose(test: &WorkspaceTest, robot: &Robot) -> WorkspaceDiagnosis {
 
 impl Case<'_> {
     fn conclude(self) -> WorkspaceDiagnosis {
-        let chosen = self.choose();
-        let stranger = |s: &&usize| self.seats.seats[**s].stranger;
-        let strange = chosen.seats.iter().find(stranger).copied();
-        let adequacy = self.adequacy(&self.known(&chosen));
-        let named = self.name(&chosen);
+        let Settled {
+            set: chosen,
+            named,
+            adequacy,
+            strange,
+        } = self.settled(self.choose());
         let rest = adequacy.rest(strange.is_some());
         let mut answer = Answer {
-            verdict: match scattered(&named.causes, strange.is_some()) {
+            verdict: match scattered(&named, strange.is_some()) {
                 true => Verdict::UnknownCause,
                 false => verdict(&named, &rest, &self.judgement),
             },
@@ -127,7 +131,7 @@ impl Case<'_> {
     }
 
     /// A set without those who are of no library.
-    fn known(&self, set: &Set) -> Set {
+    pub(super) fn known(&self, set: &Set) -> Set {
         let stranger = |set: &Set| {
             set.seats
                 .iter()
@@ -170,7 +174,8 @@ impl Case<'_> {
 /// Whether so many points are blamed that it is none of them: stiffness depends on the posture, or, beside a `strange`
 /// pattern, that pattern is another one (seen on seeds 92 to 94 of `tests/judge/workspace.rs`, where play at the tool along a
 /// line between those of [`play`](super::play) left outliers).
-fn scattered(causes: &[Cause], strange: bool) -> bool {
-    let points = causes.iter().filter(|c| c.site.starts_with("point"));
+fn scattered(named: &Named, strange: bool) -> bool {
+    let names = named.names();
+    let points = names.iter().filter(|name| name.1.starts_with("point"));
     points.count() > if strange { 1 } else { 2 }
 }

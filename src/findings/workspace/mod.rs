@@ -20,6 +20,7 @@ mod remains;
 mod search;
 mod seats;
 mod set;
+mod settled;
 mod slide;
 mod smooth;
 mod strangers;

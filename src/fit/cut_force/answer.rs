@@ -6,7 +6,7 @@ use super::descent::{Descent, Optimum};
 use super::layout::Layout;
 use super::start::{improve_teeth, start};
 use super::whitening::Whitening;
-use super::{Averaged, CutData, averaged, cuts, remarks, repeated};
+use super::{Averaged, CutData, averaged, cuts, misfit, remarks, repeated};
 use crate::cutting::LINEAR_EDGE;
 use crate::experiments::milling_force::{PHASE, RUNOUT, UNKNOWNS};
 use crate::fit::parameter::{Identified, Status};
@@ -45,6 +45,8 @@ pub struct Account {
     pub runout_covariance: Option<[[f64; 2]; 2]>,
     /// Samples used.
     pub rows: usize,
+    /// What the law leaves turn after turn, as a share of the force.
+    pub repeating: f64,
     /// Relative standard deviation of the force that the coefficients predict at the mean chip; `None`
     /// where a coefficient is open.
     pub rel_std: Option<f64>,
@@ -62,6 +64,10 @@ const FIXED: f64 = 0.25;
 const SEEN: f64 = 3.0;
 /// An angle counts as fixed when its standard error is below this, rad.
 const FIXED_ANGLE: f64 = 0.6;
+
+/// Share of the force that the law leaves turn after turn, beyond which these are no coefficients of the cut that the file states. A choice: teeth
+/// that are miscounted leave 0.7, channels that are exchanged 0.4 and 1, a helix that nobody states 0.1.
+const ANOTHER: f64 = 0.25;
 
 /// Identifies the coefficients from files of one tool.
 pub fn identify(files: &[MillingForce]) -> Account {
@@ -88,6 +94,7 @@ pub fn identify(files: &[MillingForce]) -> Account {
         stated_noise,
         runout_covariance: runout_covariance(&layout, (&fitted.p, &p), &covariance),
         rows: cuts.iter().map(|c| c.force.len()).sum(),
+        repeating: 0.0,
         cuts: Vec::new(),
         remarks: Vec::new(),
     };
@@ -104,8 +111,31 @@ pub fn identify(files: &[MillingForce]) -> Account {
         .enumerate()
         .map(fit)
         .collect();
+    account.repeating = misfit::share(&account.cuts);
     account.remarks = remarks::remarks(files, &account);
+    if account.is_another_cut() {
+        account.withhold();
+    }
     account
+}
+
+impl Account {
+    /// Whether the law leaves so much that its numbers are those of another cut.
+    pub fn is_another_cut(&self) -> bool {
+        self.repeating > ANOTHER
+    }
+
+    fn withhold(&mut self) {
+        for all in [&mut self.parameters, &mut self.nuisance] {
+            let open = all.drain(..).map(|p| Identified {
+                limit95: None,
+                ..p.without_value(Status::NotIdentifiable)
+            });
+            *all = open.collect();
+        }
+        self.averaged.coefficients = [None; 6];
+        self.rel_std = None;
+    }
 }
 
 /// Where the fit ends, and its covariance in SI.

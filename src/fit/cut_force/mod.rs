@@ -9,6 +9,7 @@ mod answer;
 mod averaged;
 mod descent;
 mod layout;
+mod misfit;
 mod remarks;
 mod repeated;
 mod start;

@@ -15,6 +15,7 @@ const EXCESS: f64 = 1.3;
 pub fn remarks(files: &[MillingForce], account: &Account) -> Vec<String> {
     let cuts: Vec<&CutData> = account.cuts.iter().map(|c| &c.data).collect();
     let mut said = Vec::new();
+    said.extend(another_cut(account));
     said.extend(misfit(account));
     said.extend(open(account));
     said.push("No cut tells a common gain of the dynamometer from larger coefficients, or its turn about z from another ratio of tangential and radial ones: calibrate both by hand.".into());
@@ -25,6 +26,15 @@ pub fn remarks(files: &[MillingForce], account: &Account) -> Vec<String> {
     said.extend(short(&cuts));
     said.extend(left_out(files, &cuts));
     said
+}
+
+fn another_cut(account: &Account) -> Option<String> {
+    account.is_another_cut().then(|| {
+        format!(
+            "What the law leaves comes again with every turn and is {:.0} % of the force: no coefficients of the cut that the file states. Check the order and signs of the channels, teeth, helix, side and speed; `ident diagnose` tries what it knows.",
+            100.0 * account.repeating
+        )
+    })
 }
 
 fn misfit(account: &Account) -> Option<String> {
