@@ -51,7 +51,8 @@ fn slopes_are_those_of_differences() {
         scene.resonant = resonant;
         let at = scene.predict(&p);
         let steps = [
-            1e6, 1e6, 1e6, 1e2, 1e2, 1e2, 1e-8, 1e-8, 1e-4, 1e-5, 1e-7, 1e-7, 1e-2,
+            // of the runout little: a tip that enters or leaves between two places has no slope there
+            1e6, 1e6, 1e6, 1e2, 1e2, 1e2, 1e-9, 1e-9, 1e-4, 1e-5, 1e-7, 1e-7, 1e-2,
         ];
         for j in 0..UNKNOWNS {
             let moved = |s: f64| {
