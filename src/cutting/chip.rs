@@ -59,7 +59,7 @@ const FLAT: f64 = 1e-3;
 /// Angle, rad, behind the border of the cut from which on nobody asks how far it is: no edge is spread so far.
 const WITHIN: f64 = 0.3;
 
-/// Chips that differ by no more than this, m, are told apart exactly.
+/// Chips that differ by no more than this, m, are told apart exactly: twice what the second order of the feed may be off.
 const ALIKE: f64 = 2e-7;
 
 /// What a tooth meets.

@@ -2,7 +2,7 @@
 //! jump where all others agree.
 
 use super::force_shapes::Shapes;
-use crate::ground::stats::{mean, quantile};
+use crate::ground::stats::{MEDIAN_OF_SQUARES, mean, median};
 
 /// Zeros that usually lie further from the mean of their set-up, in standard deviations of a reading, are set anew for every cycle: what is
 /// zeroed on one noisy reading lies within about one. A choice; no other number was tried.
@@ -10,10 +10,8 @@ const SET_ANEW: f64 = 3.0;
 /// Standard errors from which on zeros that are set anew move in one way in all set-ups, and not as they fell. A choice; no other number was
 /// tried.
 const ALIKE: f64 = 5.0;
-/// Set-ups below which nobody can say what comes again.
+/// Set-ups below which nobody can say what comes again: the standard error above means little then. A choice.
 const FEW: usize = 4;
-/// Square of a normal deviate that half of them do not reach.
-const MEDIAN: f64 = 0.455;
 
 /// The zeros of one component in one set-up.
 struct Zeros {
@@ -56,7 +54,7 @@ impl Shapes {
             if squares.is_empty() || noise <= 0.0 {
                 return 0.0;
             }
-            let usual = (quantile(&squares, 0.5) / MEDIAN).sqrt() / noise;
+            let usual = (median(&squares) / MEDIAN_OF_SQUARES).sqrt() / noise;
             match usual > SET_ANEW && all.len() >= FEW && !move_alike(&all) {
                 true => 0.0,
                 false => mean(&squares).sqrt() / noise,

@@ -54,6 +54,9 @@ pub fn ends(values: &[f64]) -> (f64, f64) {
     })
 }
 
+/// Median of the square of a normal number of deviation one.
+pub const MEDIAN_OF_SQUARES: f64 = 0.455;
+
 /// Value below which the share `q` (0 to 1) of the values lies, linear between order statistics; 0 of nothing.
 pub fn quantile(values: &[f64], q: f64) -> f64 {
     let mut values = values.to_vec();

@@ -88,7 +88,8 @@ pub struct Judgement {
     /// ... unless a cause surely lowers the error of unseen readings by more than so many percent.
     pub of_the_story_percent: f64,
     /// Rms of what is left, as a share of the misfit, from which on it makes names doubtful beside it. Where a kind says nothing of it, all that
-    /// is left does. In force steps true names stood beside up to 0.31 of it, false ones beside 0.49 and more (12 files by strangers).
+    /// is left does. In force steps true names stood beside up to 0.31 of it, three of four files with false ones beside 0.49 and more (12 files by a stranger, beside
+    /// which this was set).
     pub doubted_from: f64,
     /// Log odds that a name is right beside structure that nobody makes, where it takes half of the error on unseen rows away ...
     pub beside_rest: f64,

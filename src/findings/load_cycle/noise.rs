@@ -10,7 +10,7 @@ mod swing;
 
 use crate::findings::engine::{Noise, White};
 use crate::findings::load_cycle::families::View;
-use crate::ground::stats::{mean, median, rms};
+use crate::ground::stats::{MEDIAN_OF_SQUARES, mean, median, rms};
 use crate::signal::colour::Colour;
 use crate::signal::cosine::Cosine;
 use crate::signal::outliers;
@@ -94,8 +94,6 @@ const WILD: f64 = 6.5;
 /// Power over that of its neighbours of a line that is raised, above the slow part of the band: below it may
 /// be structure.
 const LINE: f64 = 14.0;
-/// Median of a squared normal number.
-pub(super) const MEDIAN: f64 = 0.455;
 
 impl Coloured {
     /// White noise of one deviation.
@@ -185,7 +183,8 @@ impl Coloured {
         if n < 100 {
             return self;
         }
-        let near = |k: usize| median(&power[k.saturating_sub(20)..(k + 21).min(n)]) / MEDIAN;
+        let near =
+            |k: usize| median(&power[k.saturating_sub(20)..(k + 21).min(n)]) / MEDIAN_OF_SQUARES;
         let lines: Vec<usize> = (from..n)
             .filter(|k| power[*k] > LINE * near(*k).max(f64::MIN_POSITIVE))
             .collect();

@@ -1,10 +1,8 @@
 //! What no noise does: jump from level to level, go one way or swing in bursts, swell in the middle of the band.
 
 use super::families::View;
-use super::noise::{
-    Coloured, MEDIAN, above_neighbours, differences, is_one_sided, is_swinging, windows,
-};
-use crate::ground::stats::median;
+use super::noise::{Coloured, above_neighbours, differences, is_one_sided, is_swinging, windows};
+use crate::ground::stats::{MEDIAN_OF_SQUARES, median};
 use crate::signal::outliers;
 use crate::signal::steps::{sharpest, steps, window};
 
@@ -89,7 +87,7 @@ fn is_rising(residual: &[f64], noise: &Coloured, view: &View) -> bool {
         above += (p - least).max(0.0) * count;
         least = least.min(*p);
     }
-    let level = median(&power) / MEDIAN;
+    let level = median(&power) / MEDIAN_OF_SQUARES;
     let amplitude = (2.0 * above / (level * power.len() as f64).max(f64::MIN_POSITIVE)).sqrt();
     nats > RISING.0 && amplitude > RISING.1
 }
