@@ -4,8 +4,8 @@ use super::problem::{Outcome, Problem};
 use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{Read, Write};
-use std::path::Path;
-use tempfile::NamedTempFile;
+use std::path::{Path, PathBuf};
+use tempfile::TempPath;
 
 /// Largest file that is read whole: robots, fits, universal files.
 const LARGEST: u64 = 1 << 30;
@@ -84,6 +84,15 @@ pub fn replace(path: &Path, content: &[u8]) -> Outcome<()> {
     replace_all(&[(path, content)])
 }
 
+/// Replaces several text files, as [`replace_all`] does.
+pub fn replace_texts(files: &[(PathBuf, String)]) -> Outcome<()> {
+    let all: Vec<(&Path, &[u8])> = files
+        .iter()
+        .map(|(path, text)| (path.as_path(), text.as_bytes()))
+        .collect();
+    replace_all(&all)
+}
+
 /// Replaces several files: all are written beside their places before the first is renamed, so
 /// that a full disk or a forbidden folder leaves every old file.
 pub fn replace_all(files: &[(&Path, &[u8])]) -> Outcome<()> {
@@ -104,8 +113,9 @@ pub fn replace_all(files: &[(&Path, &[u8])]) -> Outcome<()> {
     Ok(())
 }
 
-/// Writes a temporary file in the folder of `path`; it removes itself unless it is renamed.
-fn stage(path: &Path, content: &[u8]) -> std::io::Result<NamedTempFile> {
+/// Writes a temporary file in the folder of `path`; it removes itself unless it is renamed. It is closed: a campaign has more
+/// files than a process may hold open.
+fn stage(path: &Path, content: &[u8]) -> std::io::Result<TempPath> {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
     std::fs::create_dir_all(folder)?;
@@ -117,7 +127,7 @@ fn stage(path: &Path, content: &[u8]) -> std::io::Result<NamedTempFile> {
     file.write_all(content)?;
     file.as_file().sync_all()?;
     set_plain_permissions(file.as_file())?;
-    Ok(file)
+    Ok(file.into_temp_path())
 }
 
 /// Start of the names of temporary files; the number of the process that writes them follows.

@@ -6,15 +6,11 @@ use crate::ground::problem::Outcome;
 use crate::sheet::page::{Page, file};
 use std::path::{Path, PathBuf};
 
-/// Writes a page into a folder, each file in one step, the page last: what it links to is there.
-/// Everything is inked before anything is written. Returns the files in the order of writing.
+/// Writes a page and its figures into a folder: all of them, or none. Returns the files in the order of writing.
 pub fn write_as(folder: &Path, name: &str, page: &Page) -> Outcome<Vec<PathBuf>> {
-    let mut written = Vec::new();
-    for (path, content) in inked(folder, name, page)? {
-        files::replace(&path, content.as_bytes())?;
-        written.push(path);
-    }
-    Ok(written)
+    let all = inked(folder, name, page)?;
+    files::replace_texts(&all)?;
+    Ok(all.into_iter().map(|(path, _)| path).collect())
 }
 
 /// Files (path and text) and a page that rests on them: all of them, or none. Returns the page's path.
@@ -22,17 +18,13 @@ pub fn write_as(folder: &Path, name: &str, page: &Page) -> Outcome<Vec<PathBuf>>
 /// # Errors
 /// What cannot be inked or written.
 pub fn write_with(
-    mut files: Vec<(PathBuf, String)>,
+    files: Vec<(PathBuf, String)>,
     folder: &Path,
     name: &str,
     page: &Page,
 ) -> Outcome<PathBuf> {
-    files.extend(inked(folder, name, page)?);
-    let all: Vec<(&Path, &[u8])> = files
-        .iter()
-        .map(|(path, text)| (path.as_path(), text.as_bytes()))
-        .collect();
-    crate::ground::files::replace_all(&all)?;
+    let all = [files, inked(folder, name, page)?].concat();
+    files::replace_texts(&all)?;
     Ok(folder.join(name))
 }
 

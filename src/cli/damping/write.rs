@@ -9,7 +9,7 @@ use crate::ground::problem::Outcome;
 use crate::report::{html, svg};
 use crate::robot::write::write as robot_text;
 use rayon::prelude::*;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Writes everything, in one step as far as the file system allows. The robot is written only in a
 /// campaign: a file outside `measurements/` has no identified robot.
@@ -28,11 +28,7 @@ pub fn all(damped: &Damped) -> Outcome<Vec<PathBuf>> {
         .collect::<Vec<Outcome<(PathBuf, String)>>>();
     contents.extend(inked.into_iter().collect::<Outcome<Vec<_>>>()?);
     contents.push((reports.join("damping.html"), html::ink(&page)?));
-    let all: Vec<(&Path, &[u8])> = contents
-        .iter()
-        .map(|(path, text)| (path.as_path(), text.as_bytes()))
-        .collect();
-    files::replace_all(&all)?;
+    files::replace_texts(&contents)?;
     Ok(contents.into_iter().map(|(path, _)| path).collect())
 }
 

@@ -12,7 +12,7 @@ use super::{Ending, Verb, arguments, parsed};
 use crate::findings::campaign::DiagnosedFile;
 use crate::findings::kinds::{kind, load_cycle};
 use crate::findings::sentence::sentences;
-use crate::ground::files::replace;
+use crate::ground::files::replace_texts;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::workspace::Place;
 use crate::report::json::body;
@@ -78,7 +78,7 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
     let results = results.collect::<Outcome<Vec<DiagnosedFile>>>()?;
     progress.finish();
     if !arguments.dry_run {
-        write(&results, Vec::new())?;
+        replace_texts(&written(&results)?)?;
     }
     let said = match arguments.json {
         true => as_json(&results, arguments.dry_run)?,
@@ -133,12 +133,9 @@ fn results(diagnosed: &DiagnosedFile) -> Outcome<Vec<(PathBuf, String)>> {
 fn whole(place: &Place, arguments: &Arguments) -> Outcome<Ending> {
     let campaign = campaign::examine(place, arguments.progress)?;
     if !arguments.dry_run {
-        write(&campaign.files, campaign::written(&campaign))?;
-        folder::write_as(
-            &place.reports(),
-            "diagnosis.html",
-            &campaign::story(&campaign),
-        )?;
+        let files = campaign::written(&campaign)?;
+        let story = campaign::story(&campaign);
+        folder::write_with(files, &place.reports(), "diagnosis.html", &story)?;
     }
     let said = match arguments.json {
         true => {
@@ -154,15 +151,14 @@ fn whole(place: &Place, arguments: &Arguments) -> Outcome<Ending> {
     Ok(campaign::ending(&campaign))
 }
 
-fn write(files: &[DiagnosedFile], more: Vec<(PathBuf, String)>) -> Outcome<()> {
+/// What is written for these files.
+fn written(files: &[DiagnosedFile]) -> Outcome<Vec<(PathBuf, String)>> {
     files
         .iter()
         .try_for_each(|one| Place::nameable(one.path()))?;
     let inked: Vec<Vec<(PathBuf, String)>> =
         files.par_iter().map(results).collect::<Outcome<_>>()?;
-    let all = [inked.concat(), more].concat();
-    all.iter()
-        .try_for_each(|(path, content)| replace(path, content.as_bytes()))
+    Ok(inked.concat())
 }
 
 fn as_text(results: &[DiagnosedFile], dry: bool) -> Outcome<String> {

@@ -11,7 +11,6 @@ use super::{Ending, Verb, arguments, parsed};
 use crate::fit::cut_force::{Account, identify};
 use crate::fit::parameter::Status;
 use crate::fit::suitability::{self, Doubt, is_odd};
-use crate::ground::files;
 use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::milling_force::MillingForce;
 use crate::measurement::workspace::Place;
@@ -141,16 +140,13 @@ fn ending(found: &Found) -> Ending {
 
 fn write(found: &Found) -> Outcome<Vec<PathBuf>> {
     let page = page::page(found);
-    let report = folder::write_as(
-        &found.place.reports(),
-        &format!("force-{}.html", found.name),
-        &page,
-    )?;
-    let Some(path) = found.material_path() else {
-        return Ok(report);
-    };
-    files::replace(&path, material::text(found).as_bytes())?;
-    Ok([vec![path], report].concat())
+    let material = found.material_path();
+    let files = material
+        .iter()
+        .map(|path| (path.clone(), material::text(found)));
+    let name = format!("force-{}.html", found.name);
+    let report = folder::write_with(files.collect(), &found.place.reports(), &name, &page)?;
+    Ok(material.into_iter().chain([report]).collect())
 }
 
 fn account(found: &Found, written: &[PathBuf]) -> String {

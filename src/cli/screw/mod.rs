@@ -13,7 +13,6 @@ use crate::fit::screw::in_motion::{Demand, Run, in_motion};
 use crate::fit::screw::positions::Extremes;
 use crate::fit::screw::{Account, identify};
 use crate::fit::suitability::{self, Doubt, is_odd};
-use crate::ground::files;
 use crate::ground::problem::Outcome;
 use crate::measurement::pitch_table::{EXPORTERS, Exporter, PitchTable, exporter};
 use crate::measurement::screw::ScrewTest;
@@ -249,8 +248,9 @@ impl Judged {
 fn write(judged: &Judged) -> Outcome<()> {
     let table = (judged.exporter.write)(&judged.table)?;
     let page = page::page(judged);
-    folder::write_as(&judged.place.reports(), &judged.report(), &page)?;
-    files::replace(&judged.table_path(), table.as_bytes())
+    let files = vec![(judged.table_path(), table)];
+    folder::write_with(files, &judged.place.reports(), &judged.report(), &page)?;
+    Ok(())
 }
 
 fn account(judged: &Judged, dry: bool) -> String {

@@ -202,19 +202,16 @@ impl Identified {
 fn write(found: &Identified) -> Outcome<()> {
     let inputs = found.tests.iter().map(SensorTest::provenance).collect();
     let stored = StoredSensor::of(&found.account, inputs, found.synthetic()).text()?;
-    folder::write_as(&found.place.reports(), &found.report(), &page::page(found))?;
-    let record = found
-        .applied
-        .as_ref()
-        .map(|applied| (applied.path(), applied.text()));
-    let model = found.model_path();
-    let mut all: Vec<(&Path, &[u8])> = vec![(&model, stored.as_bytes())];
-    all.extend(
-        record
-            .iter()
-            .map(|(path, text)| (path.as_path(), text.as_bytes())),
+    let mut files = vec![(found.model_path(), stored)];
+    files.extend(
+        found
+            .applied
+            .as_ref()
+            .map(|applied| (applied.path(), applied.text())),
     );
-    files::replace_all(&all)
+    let page = page::page(found);
+    folder::write_with(files, &found.place.reports(), &found.report(), &page)?;
+    Ok(())
 }
 
 fn said(found: &Identified, dry: bool) -> String {

@@ -24,7 +24,7 @@ use crate::robot::load::load;
 use crate::sheet::page::file;
 use clap::{ArgMatches, Args};
 use rayon::prelude::*;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// The verb.
 pub const VERB: Verb = Verb {
@@ -203,11 +203,7 @@ fn write(results: &[Result]) -> Outcome<()> {
     for group in places(results) {
         inked.extend(ink(&group)?);
     }
-    let inked: Vec<(&Path, &[u8])> = inked
-        .iter()
-        .map(|(path, content)| (path.as_path(), content.as_bytes()))
-        .collect();
-    files::replace_all(&inked)?;
+    files::replace_texts(&inked)?;
     places(results)
         .into_iter()
         .try_for_each(|group| collect(group[0]))

@@ -202,9 +202,9 @@ fn write(validated: &Validated, page: &crate::sheet::page::Page) -> Outcome<Vec<
         validated.test.facts.synthetic,
     );
     let path = validated.robot_path();
-    let report = folder::write_as(&validated.place.reports(), "validate.html", page)?;
-    files::replace(&path, robot.as_bytes())?;
-    Ok([vec![path], report].concat())
+    let files = vec![(path.clone(), robot)];
+    let report = folder::write_with(files, &validated.place.reports(), "validate.html", page)?;
+    Ok(vec![path, report])
 }
 
 fn account(validated: &Validated, written: &[PathBuf]) -> String {

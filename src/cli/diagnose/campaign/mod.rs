@@ -13,6 +13,7 @@ use crate::cli::chapter::Chapter;
 use crate::cli::output::warn;
 use crate::cli::progress::Progress;
 use crate::findings::campaign::Campaign;
+use crate::ground::files::replace_texts;
 use crate::ground::problem::Outcome;
 use crate::measurement::workspace::Place;
 use crate::robot::write;
@@ -32,12 +33,17 @@ pub fn examine(place: &Place, progress: bool) -> Outcome<Campaign> {
     Ok(campaign)
 }
 
-/// Everything that is written beside the files' own results.
-pub fn written(campaign: &Campaign) -> Vec<(PathBuf, String)> {
+/// Everything that is written but its page.
+///
+/// # Errors
+/// A file whose name no result can have, a chart that cannot be inked.
+pub fn written(campaign: &Campaign) -> Outcome<Vec<(PathBuf, String)>> {
+    let mut all = super::written(&campaign.files)?;
     let labelled = |robot| write::labelled(robot, campaign.synthetic());
     let robot = campaign.robot.as_ref();
     let robot = robot.map(|robot| (campaign.robot_path(), labelled(robot)));
-    robot.into_iter().collect()
+    all.extend(robot);
+    Ok(all)
 }
 
 /// How the verb ends.
@@ -51,7 +57,7 @@ pub fn ending(campaign: &Campaign) -> Ending {
 /// A file that cannot be read, results that cannot be written.
 pub fn chapter(place: &Place) -> Outcome<Option<Chapter>> {
     let campaign = examine(place, false)?;
-    super::write(&campaign.files, written(&campaign))?;
+    replace_texts(&written(&campaign)?)?;
     let sources = campaign.files.iter().map(|file| file.found.source());
     Ok(Some(Chapter {
         title: "What the simulation gets wrong".into(),

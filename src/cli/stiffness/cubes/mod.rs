@@ -202,10 +202,13 @@ impl Identified {
 
 fn write(found: &Identified) -> Outcome<()> {
     Place::nameable(&found.tests[0].path)?;
-    folder::write_as(&found.place.reports(), &found.report(), &page::page(found))?;
-    files::replace(&found.fit_path(), found.stored().text()?.as_bytes())?;
-    match found.place.campaign.is_empty() {
-        true => files::replace(&found.robot_path(), found.robot_text().as_bytes()),
+    let single = found.place.campaign.is_empty();
+    let mut files = vec![(found.fit_path(), found.stored().text()?)];
+    files.extend(single.then(|| (found.robot_path(), found.robot_text())));
+    let page = page::page(found);
+    folder::write_with(files, &found.place.reports(), &found.report(), &page)?;
+    match single {
+        true => Ok(()),
         false => validate::collect(&found.place, &found.base, found.synthetic()),
     }
 }
