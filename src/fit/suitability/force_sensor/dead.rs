@@ -10,10 +10,13 @@ pub const RULE: Rule = Rule {
     look,
 };
 
-/// A force always changes with the orientation; a moment stays zero where the centre lies on its axis.
+/// A force changes with the orientation where the weight comes to point into all directions; a moment stays zero where the centre lies on its axis.
 fn look(on: &Turned) -> Said {
     let (forces, moments) = on.channels.split_at(3);
-    let mut found = channel::dead(forces);
+    let mut found = match on.all_round {
+        true => channel::dead(forces),
+        false => Vec::new(),
+    };
     let still = moments.iter().filter(|c| channel::is_dead(&c.values));
     let stuck = still.filter(|c| c.values[0] != 0.0);
     found.extend(stuck.map(|c| {

@@ -8,8 +8,9 @@ mod unrelated;
 
 use super::channel::{self, Channel, Sum, sum};
 use super::{Doubt, Said};
-use crate::ground::spatial::{V3, norm, of_quaternion, rotate_back};
+use crate::ground::spatial::{V3, norm, of_quaternion, rotate_back, sub};
 use crate::measurement::force_sensor::{CHANNELS, SensorTest};
+use nalgebra::{Matrix3, Vector3};
 
 /// What the rules look at: six channels over the direction of the weight.
 pub struct Turned<'a> {
@@ -17,9 +18,24 @@ pub struct Turned<'a> {
     pub test: &'a SensorTest,
     /// Its channels, driven by a number that tells orientations apart.
     pub channels: Vec<Channel>,
+    /// Whether the weight points into all directions of the sensor, one after the other: else a force may stay as it is.
+    pub all_round: bool,
     /// Each channel over the direction of the weight in the sensor frame; none where orientations are too
     /// few to tell.
     pub sums: Vec<Option<Sum>>,
+}
+
+/// Least standard deviation of the direction of the weight, along the direction in which it changes least, from which on every
+/// force must change: six degrees.
+const ROUND: f64 = 0.1;
+
+/// Whether directions differ in every direction.
+fn is_all_round(down: &[V3]) -> bool {
+    let count = down.len().max(1) as f64;
+    let middle: V3 = std::array::from_fn(|k| down.iter().map(|d| d[k]).sum::<f64>() / count);
+    let off = down.iter().map(|d| Vector3::from(sub(*d, middle)));
+    let spread = off.fold(Matrix3::zeros(), |sum, d| sum + d * d.transpose() / count);
+    spread.symmetric_eigenvalues().min() > ROUND * ROUND
 }
 
 /// One rule of this kind.
@@ -53,9 +69,12 @@ pub fn doubts(test: &SensorTest) -> Vec<Doubt> {
         Channel::new(*name, values, apart.clone())
     };
     let channels: Vec<Channel> = CHANNELS.iter().enumerate().map(channel).collect();
+    let all_round = is_all_round(&down);
+    let over_weight = |c: &Channel| all_round.then(|| sum(&c.values, &along))?;
     let turned = Turned {
         test,
-        sums: channels.iter().map(|c| sum(&c.values, &along)).collect(),
+        all_round,
+        sums: channels.iter().map(over_weight).collect(),
         channels,
     };
     super::doubts(RULES, |look| look(&turned))
