@@ -162,21 +162,73 @@ impl<S: Scalar> Steady<S> {
         if teeth == 1 {
             return [of(1); 2];
         }
-        let all =
-            |for_each: fn(usize) -> f64| (1..=teeth).map(move |k| (k, rough(k) / for_each(k)));
-        let most = |for_each| all(for_each).fold(f64::INFINITY, |m, (_, chip)| m.min(chip));
-        let least = |for_each: fn(usize) -> f64, most: f64| {
-            let near = all(for_each).filter(|(_, chip)| *chip <= most + ALIKE);
-            near.map(|(k, _)| of(k) / for_each(k)).reduce(S::min)
-        };
-        let [whole, each]: [fn(usize) -> f64; 2] = [|_| 1.0, |k| k as f64];
-        let thickness = least(whole, most(whole)).unwrap_or_else(|| of(1));
-        let slope = q * turn(1) * plain[1].abs().max(FLAT);
-        let last = most(each);
-        match last > WITHIN * slope {
-            true => [thickness; 2],
-            false => [thickness, least(each, last).unwrap_or(thickness)],
+        let mut least = [Least::UNTOLD; 2];
+        for k in 1..=teeth {
+            let chip = rough(k);
+            least[0].hear(k, chip);
+            least[1].hear(k, chip / k as f64);
         }
+        let [whole, each] = least;
+        let thickness = whole.told(teeth, |_| 1.0, rough, of);
+        let slope = q * turn(1) * plain[1].abs().max(FLAT);
+        if each.chip > WITHIN * slope {
+            return [thickness; 2];
+        }
+        let per_pitch = match each.is_plain() && whole.is_plain() && each.k == whole.k {
+            true => thickness / each.k as f64,
+            false => each.told(teeth, |k| k as f64, rough, of),
+        };
+        [thickness, per_pitch]
+    }
+}
+
+/// The least of some chips, told roughly.
+#[derive(Debug, Clone, Copy)]
+struct Least {
+    /// Pitches since the surface that leaves it.
+    k: usize,
+    /// m.
+    chip: f64,
+    /// The next one, m.
+    next: f64,
+}
+
+impl Least {
+    const UNTOLD: Self = Self {
+        k: 1,
+        chip: f64::INFINITY,
+        next: f64::INFINITY,
+    };
+
+    #[inline]
+    fn hear(&mut self, k: usize, chip: f64) {
+        if chip < self.chip {
+            (self.next, self.chip, self.k) = (self.chip, chip, k);
+        } else if chip < self.next {
+            self.next = chip;
+        }
+    }
+
+    /// Whether no other may be as small.
+    fn is_plain(&self) -> bool {
+        self.next > self.chip + ALIKE
+    }
+
+    /// Told exactly: of those that may be the least, divided each `by` its own.
+    #[inline]
+    fn told<S: Scalar>(
+        &self,
+        teeth: usize,
+        by: impl Fn(usize) -> f64,
+        rough: impl Fn(usize) -> f64,
+        of: impl Fn(usize) -> S,
+    ) -> S {
+        if self.is_plain() {
+            return of(self.k) / by(self.k);
+        }
+        let near = (1..=teeth).filter(|k| rough(*k) / by(*k) <= self.chip + ALIKE);
+        let exact = near.map(|k| of(k) / by(k)).reduce(S::min);
+        exact.unwrap_or_else(|| of(1))
     }
 }
 
