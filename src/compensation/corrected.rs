@@ -96,6 +96,8 @@ pub struct Corrected {
     pub met: Met,
     /// What was checked along the corrected path.
     pub checked: Vec<Checked>,
+    /// What of the stock is gone without a force, in sentences.
+    pub not_cut: Vec<String>,
 }
 
 /// Corrects a planned job.
@@ -203,6 +205,7 @@ pub fn correct(planned: Planned, request: Request) -> Outcome<Corrected> {
         certainty,
         doubts,
         checked,
+        not_cut: second.not_cut(),
     })
 }
 

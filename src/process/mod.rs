@@ -7,6 +7,7 @@
 pub mod course;
 pub mod loose;
 pub mod measured_tip;
+mod not_cut;
 pub mod oscillator;
 pub mod planned;
 pub mod pose;

@@ -165,7 +165,7 @@ pub fn mill(
             let steps = structure.steps_per_tick(cutter);
             let place = add(tick.to.tip, structure.deviation());
             let bout = cutter
-                .advance(place, tick.to.axis)
+                .follow([tick.from.tip, tick.to.tip], place, tick.to.axis)
                 .and_then(|()| structure.cut(cutter, &tick));
             let bout = bout.map_err(|p| stationed(p, &tick.to))?;
             book.note(way, &tick, &bout, steps);

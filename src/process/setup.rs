@@ -66,6 +66,9 @@ pub struct Setup {
 /// Most and fewest steps per tooth passing.
 const STEPS: [usize; 2] = [12, 20_000];
 
+/// Share of the distance of the rays that the tool may go before it is looked again what it stands in, where a run is coarse.
+const PATIENCE: f64 = 0.25;
+
 impl Setup {
     /// A planned job. `spindle_rad_s` is the path's own speed, used where the job states none;
     /// `step_s` the step of time, if it is not to be chosen.
@@ -120,7 +123,9 @@ impl Setup {
     /// The same job with the cut resolved `times` more coarsely, as far as the passing of a tooth is still resolved: for
     /// runs of which the difference or the direction is asked.
     pub fn coarser(&self, times: f64) -> Self {
-        let Fineness { spacing_m, steps } = self.fineness;
+        let Fineness {
+            spacing_m, steps, ..
+        } = self.fineness;
         let now = steps / self.tool.teeth;
         let per_tooth = (now as f64 / times).ceil() as usize;
         Self {
@@ -128,6 +133,7 @@ impl Setup {
             fineness: Fineness {
                 spacing_m: times * spacing_m,
                 steps: per_tooth.max(STEPS[0].min(now)) * self.tool.teeth,
+                patience_m: PATIENCE * times * spacing_m,
             },
             ..self.clone()
         }

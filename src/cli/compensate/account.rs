@@ -130,10 +130,12 @@ pub fn remarks(result: &Corrected) -> Vec<String> {
     if result.checked.iter().any(|c| !c.ok) {
         said.push("the corrected path exceeds a limit that was checked: do not run it".into());
     }
-    if !result.found.converged {
-        said.push(
-            "the mirror does not converge: the cut answers the correction too strongly".into(),
-        );
+    if !result.found.converged && result.met != Met::Yes {
+        said.push(format!(
+            "the mirror does not converge: trials still change the correction by {} mm, and the best of them is kept",
+            significant(1e3 * result.found.last_change_m, 2)
+        ));
     }
+    said.extend(result.not_cut.iter().cloned());
     said
 }

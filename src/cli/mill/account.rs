@@ -3,7 +3,6 @@
 use super::{Driven, Result, Written};
 use crate::compensation::corrected::Met;
 use crate::ground::spatial::norm;
-use crate::process::Milled;
 use crate::process::run::NOTHING_CUT;
 use crate::process::setup::Support;
 use crate::sheet::number::{significant, with_interval};
@@ -115,7 +114,12 @@ pub fn remarks(result: &Result) -> Vec<String> {
     if result.milled.removed_m3 == 0.0 {
         said.push(NOTHING_CUT.join(": "));
     }
-    said.extend(not_cut(&result.milled));
+    said.extend(result.milled.not_cut());
+    if result.support != Support::Coupled && result.step_asked {
+        said.push(
+            "--step-us has no effect: without masses a step is the passing of a tooth".into(),
+        );
+    }
     if result.planned.toolpath.corrected {
         said.push("the path is a corrected one: its deviations are from the corrected commands, not from the part that was drawn; `ident compensate` judges the part".to_string());
     }
@@ -126,30 +130,4 @@ pub fn remarks(result: &Result) -> Vec<String> {
         ));
     }
     said
-}
-
-/// Share of what is taken away from which on it is told that no tooth cut it.
-const TOLD: f64 = 0.01;
-
-/// Volume of which nobody need be told, m³: a tenth of a cubic millimetre, less than cells of the stock hold.
-const LEAST_M3: f64 = 1e-10;
-
-/// Material that is gone without a force.
-fn not_cut(milled: &Milled) -> Vec<String> {
-    let all = milled.removed_m3 + milled.stood_in_m3;
-    let counts = |volume: f64| volume > (TOLD * all).max(LEAST_M3);
-    let mm3 = |volume: f64| significant(1e9 * volume, 3);
-    let drilled = counts(milled.drilled_m3).then(|| {
-        format!(
-            "{} mm³ are taken without a force: where a tool plunges its flat end drills, and no law here says what that takes",
-            mm3(milled.drilled_m3)
-        )
-    });
-    let stood_in = counts(milled.stood_in_m3).then(|| {
-        format!(
-            "the tool begins within {} mm³ of stock: they are gone without a cut, and not counted; begin the path beside the stock",
-            mm3(milled.stood_in_m3)
-        )
-    });
-    drilled.into_iter().chain(stood_in).collect()
 }

@@ -98,6 +98,8 @@ struct Result {
     driven: Option<Driven>,
     /// Whether an interval was asked for.
     asked: bool,
+    /// Whether a step of time was.
+    step_asked: bool,
 }
 
 /// The joint angles that drove the robot in the place of the plan.
@@ -196,6 +198,7 @@ fn act(arguments: &Arguments) -> Outcome<Result> {
         doubts,
         driven,
         asked: !arguments.no_interval,
+        step_asked: step_s.is_some(),
     })
 }
 

@@ -30,6 +30,8 @@ pub struct Fineness {
     pub spacing_m: f64,
     /// Steps per revolution: a multiple of the teeth.
     pub steps: usize,
+    /// How far the tool is told to go before it is looked again what it stands in, m; 0: at every passing of a tooth.
+    pub patience_m: f64,
 }
 
 impl Fineness {
@@ -38,6 +40,7 @@ impl Fineness {
         Self {
             spacing_m: tool.radius_m / 20.0,
             steps: tool.teeth * 120_usize.div_ceil(tool.teeth),
+            patience_m: 0.0,
         }
     }
 }
@@ -53,6 +56,10 @@ pub struct Cutter {
     edges: Vec<Edge>,
     forward: V3,
     place: Option<(V3, V3)>,
+    /// Where the tool was told to be when it was looked last, and where it went then.
+    looked: Option<(V3, Option<V3>)>,
+    /// Its way since then, m.
+    unbooked: V3,
     latest: VecDeque<Solid>,
     /// The last place that is noted, or was beside the stock.
     mark: V3,
@@ -104,6 +111,8 @@ impl Cutter {
             stock,
             forward,
             place: None,
+            looked: None,
+            unbooked: [0.0; 3],
             latest: VecDeque::new(),
             mark: [0.0; 3],
             removed: 0.0,

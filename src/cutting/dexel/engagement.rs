@@ -194,8 +194,7 @@ impl Engagement {
         for k in 0..n {
             let next = if k + 1 == n { 0 } else { k + 1 };
             let follows = self.heading.leads(&ring, next);
-            let ends = [k, next].map(|k| self.columns[i * n + k]);
-            let [[a, c], [b, d]] = ends;
+            let ends @ [[a, c], [b, d]] = [self.columns[i * n + k], self.columns[i * n + next]];
             let all = |share: f64| Part::even(share);
             self.parts[i * n + k] = match (leads, follows) {
                 // behind the front there is nothing to cut, whatever the depths say
@@ -248,22 +247,20 @@ impl Engagement {
     pub fn swept(&self, way: V3) -> [f64; 2] {
         let step = TAU / self.angles as f64;
         let mut sums = [0.0; 2];
+        let along = |direction: &[f64; 2]| dot(way, self.frame.outward(*direction));
+        let along: Vec<f64> = self.directions.iter().map(along).collect();
+        let raised = dot(way, self.frame.z);
         for (i, ring) in self.rings().iter().enumerate() {
             let [sin, cos] = ring.disc.normal;
             let area = ring.length_m * ring.disc.radius_m * step;
-            let lift = -cos * dot(way, self.frame.z);
+            let lift = -cos * raised;
             let row = &self.parts[i * self.angles..(i + 1) * self.angles];
             for (k, part) in row.iter().enumerate().filter(|(_, p)| p.share() > 0.0) {
                 let next = (k + 1) % self.angles;
-                let [a, b] = [k, next]
-                    .map(|k| sin * dot(way, self.frame.outward(self.directions[k])) + lift);
+                let (a, b) = (sin * along[k] + lift, sin * along[next] + lift);
                 let ([from, to], height) = part.span();
                 let chip = positive_mean(a + from * (b - a), a + to * (b - a));
-                let more = 0.5
-                    * [k, next]
-                        .map(|k| self.heading.second_order(k))
-                        .iter()
-                        .sum::<f64>();
+                let more = 0.5 * (self.heading.second_order(k) + self.heading.second_order(next));
                 let own = height * (to - from) * (area * chip + ring.disc.height_m * step * more);
                 sums[0] += own;
                 sums[1] += if ring.disc.edge_m == 0.0 { own } else { 0.0 };
