@@ -74,10 +74,21 @@ impl Held {
 
     /// Where the weight alone moves the tool, m, workpiece axes.
     pub fn sag(&self) -> V3 {
+        self.moved(&self.bent())
+    }
+
+    /// How far the weight alone bends each elastic coordinate, rad.
+    pub fn bent(&self) -> Vec<f64> {
         let n = self.linear.n;
-        let bent = |i: usize| -self.weight[i] / self.linear.stiffness[i * n + i];
-        let columns = self.linear.tool.iter().enumerate();
-        columns.fold([0.0; 3], |sum, (i, v)| add(sum, scale(bent(i), *v)))
+        let own = self.weight.iter().enumerate();
+        own.map(|(i, w)| -w / self.linear.stiffness[i * n + i])
+            .collect()
+    }
+
+    /// Where elastic coordinates that are bent so (rad) move the tool, m, workpiece axes.
+    pub fn moved(&self, bent: &[f64]) -> V3 {
+        let columns = self.linear.tool.iter().zip(bent);
+        columns.fold([0.0; 3], |sum, (v, b)| add(sum, scale(*b, *v)))
     }
 
     /// Its modes.

@@ -8,8 +8,11 @@ use super::rest::Rest;
 use super::search::Scored;
 use super::statement::{Experiment, Statement};
 use super::verdict::{Named, verdict};
-use crate::findings::answer::{Answer, Candidate, Discrepancy, Structure};
+use crate::findings::answer::{Answer, Candidate, Discrepancy, Structure, Verdict};
 use crate::ground::stats::rms;
+
+/// What is said of what is left where it does not count.
+const NOTHING_LEFT: &str = "no more than the noise, and what laws miss anyway";
 
 /// From what is named and what is left.
 pub(super) fn answer(
@@ -24,8 +27,9 @@ pub(super) fn answer(
     let noise = rms(statement.noise.spread()) * set.fit.posterior.noise_variance.sqrt();
     let before = rms(missed);
     let remaining = experiment.remaining(left);
+    let verdict = verdict(&named, &rest, judgement);
     Answer {
-        verdict: verdict(&named, &rest, judgement),
+        verdict,
         discrepancy: Discrepancy {
             rms: before,
             noise_rms: noise,
@@ -37,7 +41,10 @@ pub(super) fn answer(
             share_of_variance: share_left(left, (noise, missed)),
             shape: remaining.shape,
             over_time: remaining.over_time,
-            description: remaining.description,
+            description: match verdict {
+                Verdict::UnknownCause | Verdict::PartlyExplained => remaining.description,
+                _ => NOTHING_LEFT.into(),
+            },
         },
         p_value: (-rest.nats).exp(),
         candidates: posterior

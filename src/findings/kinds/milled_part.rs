@@ -4,7 +4,7 @@ use super::{Diagnosed, Measured, Source, examined};
 use crate::findings::engine::{Found, Judgement};
 use crate::findings::milled_part::{Case, Row, backlash};
 use crate::findings::physics;
-use crate::fit::suitability::{self, Doubt};
+use crate::fit::suitability::{self, Doubt, Weight};
 use crate::ground::problem::Outcome;
 use crate::measurement::job::beside;
 use crate::measurement::milled_part::PartTest;
@@ -36,7 +36,16 @@ impl Measured for Case {
     }
 
     fn doubts(&self) -> Vec<Doubt> {
-        suitability::milled_part::doubts(&self.test)
+        let mut doubts = suitability::milled_part::doubts(&self.test);
+        if self.counts_by_points {
+            doubts.push(Doubt {
+                rule: "counted",
+                weight: Weight::Note,
+                what: "`s_mm` goes beyond the end of the drawn path, and is taken to count from point to point, without the blends".into(),
+                remedy: "give the arc length of the path as it is drawn",
+            });
+        }
+        doubts
     }
 
     /// A datum or a radius is plain in many places although each shows little of it, and so is a spring beside a datum

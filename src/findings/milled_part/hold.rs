@@ -16,6 +16,9 @@ pub struct Hold {
     pub compliance: M3,
     /// Where the weight moves the tool, less what it does at the start of the job (calibrated away), m.
     pub sag: V3,
+    /// Where the tool stands with every spring bent as the weight bends it at the start, less what that is there, m: the rest of
+    /// the sag if angles were calibrated there and no place.
+    pub as_at_first: V3,
 }
 
 impl Hold {
@@ -32,12 +35,14 @@ impl Hold {
 pub(super) fn holds(setup: &Setup, robot: &Robot, stations: &[Station]) -> Outcome<Vec<Hold>> {
     let mut carrier = Carrier::new(elastic(robot), setup.workpiece);
     let start = setup.way.at(setup.way.span()[0]);
-    let first = carrier.held(&start.joints)?.sag();
+    let start = carrier.held(&start.joints)?;
+    let (bent, first) = (start.bent(), start.sag());
     let at = |carrier: &mut Carrier, s: &Station| {
         let held = carrier.held(&s.joints)?;
         Ok(Hold {
             compliance: held.compliance(),
             sag: sub(held.sag(), first),
+            as_at_first: sub(held.moved(&bent), first),
         })
     };
     stations

@@ -4,6 +4,7 @@ mod again;
 mod anew;
 pub mod backlash;
 mod corner_lag;
+mod counted;
 mod cutting_coefficients;
 mod driven;
 mod experiment;
@@ -28,6 +29,7 @@ use crate::measurement::milled_part::PartTest;
 use crate::process::Planned;
 use crate::process::setup::{Setup, Support};
 use crate::robot::Robot;
+use counted::Counted;
 use hold::{Hold, holds};
 use stations::{LAW, placed, rows, spreads};
 pub use stations::{Row, Station};
@@ -62,6 +64,8 @@ pub struct Case {
     is_short: bool,
     /// Whether the robot swings in a job that is too long for that.
     pub swings_unheard: bool,
+    /// Whether the file counts its arc length from point to point, without the blends.
+    pub counts_by_points: bool,
     /// Where it was probed, in the order of the file; places that are not cut are left out.
     pub stations: Vec<Station>,
     /// Its rows, one for each direction across the feed that was measured.
@@ -124,7 +128,9 @@ impl Case {
     pub fn new(test: PartTest, planned: Planned) -> Outcome<Self> {
         let setup = planned.setup(None)?;
         let (milled, _) = setup.run(Support::Coupled, |_| {})?;
-        let stations = placed(&test, &setup, &milled).map_err(|p| p.in_text(&test.path))?;
+        let counted = Counted::of(&test, &planned.toolpath, &setup.way);
+        let stations =
+            placed((&test, &counted), &setup, &milled).map_err(|p| p.in_text(&test.path))?;
         let rows = rows(&stations);
         let simulated: Vec<f64> = rows
             .iter()
@@ -164,6 +170,7 @@ impl Case {
             trial,
             support,
             is_short,
+            counts_by_points: counted.is_by_points(),
             swings_unheard: shows && !is_short,
             planned,
             test,

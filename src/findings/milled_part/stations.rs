@@ -1,6 +1,7 @@
 //! Where a part was probed: places along the simulated way, the two directions across the feed that a
 //! surface shows, and how well a simulation knows them.
 
+use super::counted::Counted;
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::spatial::{V3, add, cross, dot, norm, sub, unit};
 use crate::measurement::milled_part::{At, PartTest, Reading};
@@ -67,7 +68,7 @@ pub struct Row {
 }
 
 /// How well a place is known, m.
-const NEAR: f64 = 0.25e-3;
+pub(super) const NEAR: f64 = 0.25e-3;
 /// Distance over which a simulated deviation is called steep, m: as far as a tool that gives way is ahead or behind.
 const STEEP: f64 = 0.15e-3;
 /// A component that a direction hardly has may be missing.
@@ -79,10 +80,14 @@ pub(super) const LAW: f64 = 0.015;
 ///
 /// # Errors
 /// A place that is not on the path, with its line; nothing that is cut.
-pub(super) fn placed(test: &PartTest, setup: &Setup, milled: &Milled) -> Outcome<Vec<Station>> {
+pub(super) fn placed(
+    (test, counted): (&PartTest, &Counted),
+    setup: &Setup,
+    milled: &Milled,
+) -> Outcome<Vec<Station>> {
     let mut stations = Vec::new();
     for reading in &test.readings {
-        let time_s = when(reading, setup).map_err(|p| p.at_line(reading.line))?;
+        let time_s = when(reading, counted, setup).map_err(|p| p.at_line(reading.line))?;
         stations.extend(station(reading, time_s, setup, milled));
     }
     match stations.is_empty() {
@@ -95,15 +100,16 @@ pub(super) fn placed(test: &PartTest, setup: &Setup, milled: &Milled) -> Outcome
     }
 }
 
-fn when(reading: &Reading, setup: &Setup) -> Outcome<f64> {
+fn when(reading: &Reading, counted: &Counted, setup: &Setup) -> Outcome<f64> {
     let rows = setup.way.rows();
     match reading.at {
-        At::Along(s) => {
+        At::Along(told) => {
+            let s = counted.drawn(told);
             let last = rows.last().map_or(0.0, |r| r.s_m);
             if s < -NEAR || s > last + NEAR {
                 let what = format!(
                     "s = {:.3} mm is not on the path of {:.3} mm",
-                    1e3 * s,
+                    1e3 * told,
                     1e3 * last
                 );
                 return Err(

@@ -5,7 +5,7 @@ use super::stations::LAW;
 use crate::causes::places::soften;
 use crate::findings::engine::Nuisance;
 use crate::findings::physics::{self, OnRobot};
-use crate::ground::spatial::{dot, sub};
+use crate::ground::spatial::{dot, scale, sub};
 use crate::ground::stats::{Z95, rms};
 use crate::process::setup::Setup;
 use crate::robot::{Robot, Spring};
@@ -24,6 +24,8 @@ pub enum Known {
     Coefficient(usize),
     /// Where the part was found again, along one axis, m.
     Datum,
+    /// Whether the sag at the start was calibrated away as a place or as angles of the joints: none or one.
+    Calibration,
     /// Whether a place was measured where the tool passes it, or what the tool did when it was told to be there: none or one.
     Instant,
     /// What the laws of the cut do not know, as a share of the simulated deviation times one of some waves along the path.
@@ -61,11 +63,22 @@ pub(super) fn uncertain(case: &Case) -> Vec<(Known, Nuisance)> {
         .chain(coefficients)
         .chain(datum);
     let all = all
+        .chain(calibration(case))
         .chain(instant(case))
         .chain(laws(case))
         .chain(forms(case));
     all.filter(|(_, n)| n.column.iter().any(|x| x.abs() > 1e-12))
         .collect()
+}
+
+/// What is left of the sag if angles were calibrated away at the start: no file says which.
+fn calibration(case: &Case) -> [(Known, Nuisance); 1] {
+    let moved = case.holds.iter().map(|h| scale(-1.0, h.as_at_first));
+    let nuisance = Nuisance {
+        column: case.answered(&moved.collect::<Vec<_>>()),
+        spread: 1.0,
+    };
+    [(Known::Calibration, nuisance)]
 }
 
 /// What a file shows more that tells what a tool did at a time; where nothing swings that is noise of steep places.
@@ -184,7 +197,9 @@ pub(super) fn put(known: &Known, amount: f64, setup: &mut Setup) -> bool {
         Known::Spring(site) => soften(&mut setup.robot, site, amount),
         Known::Dampers | Known::Damper(_) => damp(&mut setup.robot, known, amount),
         Known::Coefficient(k) => setup.material.coefficients[*k] *= (1.0 + amount).max(0.05),
-        Known::Datum | Known::Instant | Known::Law(_) | Known::Form => return false,
+        Known::Datum | Known::Calibration | Known::Instant | Known::Law(_) | Known::Form => {
+            return false;
+        }
     }
     true
 }
