@@ -228,7 +228,7 @@ fn share(part: usize, all: usize) -> f64 {
 fn hidden_effects_are_found() {
     let mut kinds = product(EFFECTS, per_kind(few_or_all(2, 5)));
     kinds.extend(product(&["clean"], per_kind(few_or_all(2, 5)) * 6));
-    kinds.extend(product(&["pair"], per_kind(few_or_all(3, 5)) * 6));
+    kinds.extend(product(&["pair"], per_kind(few_or_all(2, 5)) * 6));
     kinds.extend(product(OUTSIDE, per_kind(few_or_all(3, 5)) / 2));
     let tally = tally(&kinds, |kind, seed| match kind {
         "clean" => blind_generator::clean(seed),

@@ -47,7 +47,7 @@ fn some(kinds: Vec<(String, u64)>) -> Vec<(String, u64)> {
         let class = class(kind);
         seen[class] += 1;
         match class {
-            0 => seen[0] % 5 == 1,
+            0 => seen[0] % 7 == 1,
             _ => seen[class] == 1,
         }
     };

@@ -5,7 +5,7 @@
 //! `IDENT_DEBUG=1` prints every case, `IDENT_PART_CASES=1` takes all of them instead of the first (every third in a thorough run):
 //! `cargo test --test suite milled_part:: -- --nocapture`.
 
-use crate::common::few_or_all;
+use crate::common::{few_or_all, is_thorough};
 use crate::part_bench::{OUTLINE, SLOT, job, ready};
 use ident::findings::kinds;
 use ident::findings::{Answer, Verdict};
@@ -214,6 +214,14 @@ fn outside(setup: &Setup) -> Vec<Plant> {
     ]
 }
 
+/// The job at half the speed of its spindle: half as many teeth to simulate.
+fn slower(job: &Path) {
+    let text = std::fs::read_to_string(job).unwrap();
+    let half = text.replace("spindle_rpm = 13000.0", "spindle_rpm = 6500.0");
+    assert!(half != text);
+    std::fs::write(job, half).unwrap();
+}
+
 #[test]
 fn single_causes_are_named_and_sound_parts_are_left_alone() {
     let debug = std::env::var_os("IDENT_DEBUG").is_some();
@@ -222,7 +230,11 @@ fn single_causes_are_named_and_sound_parts_are_left_alone() {
         .and_then(|s| s.parse().ok())
         .unwrap_or(1);
     let folder = tempfile::tempdir().unwrap();
-    let (planned, setup) = ready(&job(folder.path(), OUTLINE, 3000.0, ""));
+    let path = job(folder.path(), OUTLINE, 3000.0, "");
+    if !is_thorough() {
+        slower(&path);
+    }
+    let (planned, setup) = ready(&path);
     let z = Random::new(seed).normal().clamp(-1.0, 1.0);
     let mut right = 0;
     let mut wrong = 0;

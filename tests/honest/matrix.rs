@@ -303,12 +303,12 @@ fn judged(ran: &Ran, clean: &Value, right: fn(&Value, &Value) -> bool) -> &'stat
     }
 }
 
-/// Every second corruption before one of the verbs that can be wrong, turn by turn (the first of several looks only); in a thorough
+/// Every third corruption before one of the verbs that can be wrong, turn by turn (the first of several looks only); in a thorough
 /// run every corruption before every verb.
 fn asked(corruption: usize, verb: usize, verbs: usize) -> bool {
     let first = usize::from(verbs > 1);
-    let turn = first + corruption / 2 % (verbs - first);
-    is_thorough() || (corruption.is_multiple_of(2) && verb == turn)
+    let turn = first + corruption / 3 % (verbs - first);
+    is_thorough() || (corruption.is_multiple_of(3) && verb == turn)
 }
 
 /// Puts every corruption before the verbs; how many answers are wrong without a word.
