@@ -34,7 +34,7 @@ fn is_asked() -> bool {
     names.iter().any(|name| std::env::var_os(name).is_some())
 }
 
-/// Every fifth single cause; of what is clean, two together or strange, the first.
+/// Every seventh single cause; of what is clean, two together or strange, the first.
 fn some(kinds: Vec<(String, u64)>) -> Vec<(String, u64)> {
     let class = |kind: &str| match kind {
         "clean" => 1,

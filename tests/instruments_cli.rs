@@ -275,3 +275,42 @@ fn what_was_hidden_in_the_screw_is_named() {
         "{found:?}"
     );
 }
+
+/// Where the model of a sensor cannot be written no page about it stays behind.
+#[test]
+fn what_cannot_be_written_whole_is_not_written() {
+    let bench = bench("kr300");
+    std::fs::write(bench.path().join("fits"), "a file where a folder would be").unwrap();
+    let ran = ident(bench.path(), &["sensor", "measurements/kr300/weights.csv"]);
+    let said = String::from_utf8_lossy(&ran.stderr);
+    assert_eq!(ran.status.code(), Some(2), "{said}");
+    assert!(said.contains("cannot be written"), "{said}");
+    let pages = std::fs::read_dir(bench.path().join("reports/kr300"));
+    assert_eq!(pages.into_iter().flatten().count(), 0);
+}
+
+/// Turned about the vertical alone, a sensor reads the same force along its axis: no dead channel, and weight and offset are one.
+#[test]
+fn a_sensor_turned_about_the_vertical_alone_is_asked_for_more() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut text = String::from("# kind = \"force-sensor\"\n# synthetic = true\n");
+    text += "point,qw,qx,qy,qz,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm\n";
+    for i in 0..12 {
+        let half = f64::from(i) * std::f64::consts::PI / 12.0;
+        let off = |k: i32| 0.02 * f64::from((7 * i + k) % 5 - 2);
+        let [fx, fy, fz] = [1.0, 2.0, -27.0].map(|f| f + off(i));
+        let [mx, my, mz] = [0.7, 0.5, 0.3].map(|m| m + 0.1 * off(i + 1));
+        let (qw, qz) = (half.cos(), half.sin());
+        text += &format!("{i},{qw:.7},0,0,{qz:.7},{fx},{fy},{fz},{mx},{my},{mz}\n");
+    }
+    std::fs::write(folder.path().join("turned.csv"), text).unwrap();
+    let ran = ident(
+        folder.path(),
+        &["sensor", "turned.csv", "--json", "--dry-run"],
+    );
+    assert_eq!(ran.status.code(), Some(1));
+    let parameters = json(&ran)["parameters"].clone();
+    let weight = parameters.as_array().unwrap().iter();
+    let weight: Vec<&Value> = weight.filter(|p| p["name"] == "weight").collect();
+    assert_eq!(weight[0]["status"], "not-identifiable", "{parameters}");
+}

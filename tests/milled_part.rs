@@ -6,11 +6,13 @@
 //! `cargo test --test suite milled_part:: -- --nocapture`.
 
 use crate::common::{few_or_all, is_thorough};
-use crate::part_bench::{OUTLINE, SLOT, job, ready};
+use crate::part_bench::{CORNER, OUTLINE, SLOT, job, ready};
 use ident::findings::kinds;
+use ident::findings::milled_part::Case;
 use ident::findings::{Answer, Verdict};
 use ident::ground::random::Random;
 use ident::ground::spatial::{V3, add, cross, norm, scale, sub};
+use ident::measurement::milled_part::PartTest;
 use ident::process::setup::{Setup, Support};
 use ident::process::{Planned, Way};
 use std::fmt::Write as _;
@@ -338,4 +340,30 @@ fn a_block_that_stands_elsewhere_is_told_alone() {
     for ((axis, told, _), true_mm) in answer.causes[0].parameters.iter().zip(offset_mm) {
         assert!((1e3 * told - true_mm).abs() < 0.02, "{axis}: {told}");
     }
+}
+
+/// A file that counts its arc length from point to point, without the blend, is read at the places that it means.
+#[test]
+fn arc_lengths_from_point_to_point_are_read_as_such() {
+    let folder = tempfile::tempdir().unwrap();
+    job(folder.path(), CORNER, 3000.0, "");
+    let path = folder.path().join("part.csv");
+    let told = |last: f64| {
+        let text = format!(
+            "# kind = \"milled-part\"\n# synthetic = true\n# job = \"job.toml\"\ns_mm,dx_mm,dy_mm,dz_mm\n\
+             20,,0.01,\n40,,0.01,\n50,,0.01,0\n70,0.01,,\n80,0.01,,0\n{last},0.01,,\n"
+        );
+        std::fs::write(&path, text).unwrap();
+        let test = PartTest::read(&path).unwrap();
+        let planned = Planned::read(&folder.path().join("job.toml")).unwrap();
+        let case = Case::new(test, planned).unwrap();
+        (case.counts_by_points, 1e3 * case.stations[4].tip[1])
+    };
+    let (by_points, y) = told(101.9);
+    assert!(by_points && (y - 44.0).abs() < 0.1, "{by_points} {y}");
+    let (by_points, y) = told(90.0);
+    assert!(
+        !by_points && (0.3..1.5).contains(&(y - 44.0)),
+        "{by_points} {y}"
+    );
 }

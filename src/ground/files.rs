@@ -103,8 +103,16 @@ pub fn replace_all(files: &[(&Path, &[u8])]) -> Outcome<()> {
         )
         .in_file(path)
     };
+    let mut folders: Vec<&Path> = files.iter().map(|(path, _)| folder(path)).collect();
+    folders.sort_unstable();
+    folders.dedup();
+    folders.into_iter().for_each(sweep);
     let mut staged = Vec::new();
     for (path, content) in files {
+        if path.is_dir() {
+            let what = std::io::Error::from(std::io::ErrorKind::IsADirectory);
+            return Err(refused(path, what));
+        }
         staged.push(stage(path, content).map_err(|e| refused(path, e))?);
     }
     for (file, (path, _)) in staged.into_iter().zip(files) {
@@ -113,13 +121,17 @@ pub fn replace_all(files: &[(&Path, &[u8])]) -> Outcome<()> {
     Ok(())
 }
 
+/// The folder of a file.
+fn folder(path: &Path) -> &Path {
+    let own = path.parent().filter(|p| !p.as_os_str().is_empty());
+    own.unwrap_or(Path::new("."))
+}
+
 /// Writes a temporary file in the folder of `path`; it removes itself unless it is renamed. It is closed: a campaign has more
 /// files than a process may hold open.
 fn stage(path: &Path, content: &[u8]) -> std::io::Result<TempPath> {
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
-    let folder = folder.unwrap_or(Path::new("."));
+    let folder = folder(path);
     std::fs::create_dir_all(folder)?;
-    sweep(folder);
     let mut file = tempfile::Builder::new()
         .prefix(&format!("{TEMPORARY}{}-", std::process::id()))
         .suffix(".tmp")

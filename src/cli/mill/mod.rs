@@ -157,7 +157,8 @@ fn run(matches: &ArgMatches) -> Outcome<Ending> {
 fn act(arguments: &Arguments) -> Outcome<Result> {
     let step_s = step(arguments.step_us)?;
     let mut planned = Planned::read(&arguments.job)?;
-    let mut setup = planned.setup(step_s)?;
+    let coupled = arguments.support() == Support::Coupled;
+    let mut setup = planned.setup(step_s.filter(|_| coupled))?;
     let driven = arguments.joints.as_deref();
     let mut driven = driven
         .map(|file| Driven::of(&planned.plan, file))

@@ -16,7 +16,7 @@ const LATEST: f64 = 0.6;
 const STRAIGHT_ON: f64 = 0.999;
 
 impl Cutter {
-    /// Moves the tool as [`Cutter::advance`] does; `told`: from where to where it was told to go meanwhile. Where the cut is
+    /// Moves the tool as [`Cutter::advance`] does, `from` where `to` where it was told to go meanwhile. Where the cut is
     /// resolved less finely, what it stands in is looked at anew only as often as that: by what it was told, so that two runs of
     /// one way look at the same places.
     ///
@@ -30,7 +30,8 @@ impl Cutter {
         };
         let known = self.looked.as_ref();
         let is_known = known.is_some_and(|(at, way)| norm(sub(to, *at)) < patience && goes_on(way));
-        if is_known && !turned_from(axis, self.engagement.frame.z) {
+        let turns = turned_from(axis, self.engagement.frame.z);
+        if is_known && !turns {
             let (before, _) = self.place.unwrap_or((tip, axis));
             self.place = Some((tip, axis));
             self.unbooked = add(self.unbooked, sub(tip, before));
@@ -38,7 +39,9 @@ impl Cutter {
             return Ok(());
         }
         self.looked = Some((to, ahead));
-        let further = 0.5 * (patience - norm(sub(to, from))).max(0.0);
+        // an axis that turns is looked at every time, in the middle of its way
+        let stretch = if turns { 0.0 } else { patience };
+        let further = 0.5 * (stretch - norm(sub(to, from))).max(0.0);
         self.look_and_take(tip, axis, scale(further, ahead.unwrap_or_default()))
     }
 

@@ -2,14 +2,23 @@
 //! little shorter than its corner.
 
 use super::stations::NEAR;
-use crate::ground::spatial::{norm, sub};
+use crate::ground::spatial::{V3, add, dot, norm, scale, sub};
 use crate::measurement::milled_part::{At, PartTest};
 use crate::measurement::toolpath::{Shape, Toolpath};
 use crate::process::Way;
+use crate::process::way::Row;
 
-/// Lengths from point to point at every point, and those of the drawn path where it passes it, m; none: the drawn path is counted.
+/// One point: its length from point to point and where the drawn path is nearest to it, m, and its place, workpiece frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Point {
+    told: f64,
+    drawn: f64,
+    place: V3,
+}
+
+/// Every point of a file that counts from point to point, beside the drawn path; none: the drawn path is counted.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Counted(Vec<[f64; 2]>);
+pub(super) struct Counted(Vec<Point>);
 
 impl Counted {
     /// How a file counts: it goes beyond the end of the drawn path, and not beyond the last point, only if it counts from point to point.
@@ -25,7 +34,9 @@ impl Counted {
             return Self::default();
         }
         let points = points(toolpath, way);
-        let reaches = points.last().is_some_and(|last| farthest <= last[0] + NEAR);
+        let reaches = points
+            .last()
+            .is_some_and(|last| farthest <= last.told + NEAR);
         Self(if reaches { points } else { Vec::new() })
     }
 
@@ -34,48 +45,64 @@ impl Counted {
         !self.0.is_empty()
     }
 
-    /// Length along the drawn path, m.
-    pub fn drawn(&self, s_m: f64) -> f64 {
-        let after = self.0.partition_point(|point| point[0] < s_m);
-        let (Some(a), Some(b)) = (self.0.get(after.saturating_sub(1)), self.0.get(after)) else {
-            return self.0.last().map_or(s_m, |last| last[1]);
+    /// Length along the drawn path, m: where that is nearest to the place on the straight line from point to point.
+    pub fn drawn(&self, told_m: f64, way: &Way) -> f64 {
+        let after = self.0.partition_point(|point| point.told < told_m);
+        let ends = (self.0.get(after.wrapping_sub(1)), self.0.get(after));
+        let (Some(a), Some(b)) = ends else {
+            let last = self.0.last().filter(|last| told_m > last.told);
+            return last.map_or(told_m, |last| last.drawn);
         };
-        match b[0] > a[0] {
-            true => a[1] + (s_m - a[0]) / (b[0] - a[0]) * (b[1] - a[1]),
-            false => b[1],
-        }
+        let share = (told_m - a.told) / (b.told - a.told);
+        let place = add(a.place, scale(share, sub(b.place, a.place)));
+        let about = a.drawn + share * (b.drawn - a.drawn);
+        let shorter = (b.told - a.told) - (b.drawn - a.drawn);
+        let near = shorter.abs() + NEAR;
+        pass(way, [about - near, about + near], place).unwrap_or(about)
     }
 }
 
-/// Every point: its length from point to point, and where the drawn path is nearest to it.
-fn points(toolpath: &Toolpath, way: &Way) -> Vec<[f64; 2]> {
-    let rows = way.rows();
-    let mut points = vec![[0.0; 2]];
-    for ends in toolpath.moves.windows(2) {
-        let [before, drawn] = points[points.len() - 1];
-        let length = norm(sub(ends[1].to, ends[0].to));
-        let [from, to] = [drawn + 0.5 * length, before + length + NEAR]
-            .map(|s| rows.partition_point(|row| row.s_m < s));
-        let far = |row: &&crate::process::way::Row| norm(sub(row.tip, ends[1].to));
-        let own = rows[from.min(to)..to].iter();
-        let nearest = own.min_by(|a, b| far(a).total_cmp(&far(b)));
-        points.push([
-            before + length,
-            nearest.map_or(drawn + length, |row| row.s_m),
-        ]);
+/// Every point of a path.
+fn points(toolpath: &Toolpath, way: &Way) -> Vec<Point> {
+    let places = toolpath.moves.iter().map(|step| step.to);
+    let mut points: Vec<Point> = Vec::new();
+    for place in places {
+        let next = match points.last() {
+            None => Point {
+                told: 0.0,
+                drawn: 0.0,
+                place,
+            },
+            Some(before) => {
+                let length = norm(sub(place, before.place));
+                // a blend is no longer than the corner that it cuts
+                let within = [0.5 * length, length + NEAR].map(|s| before.drawn + s);
+                Point {
+                    told: before.told + length,
+                    drawn: pass(way, within, place).unwrap_or(before.drawn + length),
+                    place,
+                }
+            }
+        };
+        points.push(next);
     }
     points
 }
 
-#[cfg(test)]
-mod tests {
-    use super::Counted;
+/// Where the drawn path, within some of its length (m), is nearest to a place; none where it has no such piece.
+fn pass(way: &Way, within: [f64; 2], place: V3) -> Option<f64> {
+    let rows = way.rows();
+    let [from, to] = within.map(|s| rows.partition_point(|row| row.s_m < s));
+    let pieces = rows[from.saturating_sub(1)..(to + 1).min(rows.len())].windows(2);
+    let passes = pieces.map(|piece| nearest([&piece[0], &piece[1]], place));
+    passes.min_by(|a, b| a.1.total_cmp(&b.1)).map(|pass| pass.0)
+}
 
-    #[test]
-    fn lengths_lie_between_those_of_the_points() {
-        let counted = Counted(vec![[0.0, 0.0], [10.0, 9.5], [20.0, 19.0]]);
-        let told = [0.0, 5.0, 10.0, 15.0, 20.0].map(|s| counted.drawn(s));
-        assert_eq!(told, [0.0, 4.75, 9.5, 14.25, 19.0]);
-        assert_eq!(Counted::default().drawn(12.5), 12.5);
-    }
+/// Where a straight piece of the drawn path is nearest to a point, and how far that is, m.
+fn nearest([a, b]: [&Row; 2], point: V3) -> (f64, f64) {
+    let way = sub(b.tip, a.tip);
+    let share = dot(sub(point, a.tip), way) / dot(way, way).max(f64::MIN_POSITIVE);
+    let share = share.clamp(0.0, 1.0);
+    let far = norm(sub(point, add(a.tip, scale(share, way))));
+    (a.s_m + share * (b.s_m - a.s_m), far)
 }

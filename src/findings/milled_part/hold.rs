@@ -16,8 +16,8 @@ pub struct Hold {
     pub compliance: M3,
     /// Where the weight moves the tool, less what it does at the start of the job (calibrated away), m.
     pub sag: V3,
-    /// Where the tool stands with every spring bent as the weight bends it at the start, less what that is there, m: the rest of
-    /// the sag if angles were calibrated there and no place.
+    /// Where the tool stands with every spring bent as the weight bends it at the start, less what that is there, m: what
+    /// the sag is less if bends were calibrated there and no place.
     pub as_at_first: V3,
 }
 

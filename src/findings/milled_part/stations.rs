@@ -104,7 +104,7 @@ fn when(reading: &Reading, counted: &Counted, setup: &Setup) -> Outcome<f64> {
     let rows = setup.way.rows();
     match reading.at {
         At::Along(told) => {
-            let s = counted.drawn(told);
+            let s = counted.drawn(told, &setup.way);
             let last = rows.last().map_or(0.0, |r| r.s_m);
             if s < -NEAR || s > last + NEAR {
                 let what = format!(

@@ -24,7 +24,7 @@ pub enum Known {
     Coefficient(usize),
     /// Where the part was found again, along one axis, m.
     Datum,
-    /// Whether the sag at the start was calibrated away as a place or as angles of the joints: none or one.
+    /// Whether the sag at the start was calibrated away as a place or as the bend of every spring: none or one.
     Calibration,
     /// Whether a place was measured where the tool passes it, or what the tool did when it was told to be there: none or one.
     Instant,
@@ -71,7 +71,7 @@ pub(super) fn uncertain(case: &Case) -> Vec<(Known, Nuisance)> {
         .collect()
 }
 
-/// What is left of the sag if angles were calibrated away at the start: no file says which.
+/// What is left of the sag if bends of springs were calibrated away at the start, and no place: no file says which.
 fn calibration(case: &Case) -> [(Known, Nuisance); 1] {
     let moved = case.holds.iter().map(|h| scale(-1.0, h.as_at_first));
     let nuisance = Nuisance {

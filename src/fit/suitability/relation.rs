@@ -27,6 +27,8 @@ pub struct Relation {
     pub share: f64,
     /// Ramps.
     pub ramps: usize,
+    /// Means of neighbouring rows of which the share is one.
+    pub cells: usize,
     /// Whether the response follows the drive on every one of at least three ramps, by much the same slope.
     pub follows: bool,
 }
@@ -52,14 +54,18 @@ const LOADINGS: usize = 5;
 /// Ramps, chance and share that together tell a response of which one ramp holds something else, such as a slip: of 2000 random walks
 /// over five ramps, and as many integrated once more, none had such a share.
 const DESCRIBED: (usize, f64, f64) = (4, 1e-2, 0.95);
+/// Means of neighbouring rows from which on that share says something: drive, history and drift have ten columns.
+const CELLS: usize = 40;
 /// Widths of the play operators, as shares of half the drive's range.
 const PLAYS: [f64; 4] = [0.1, 0.3, 0.6, 0.9];
 
 impl Relation {
     /// Whether the response depends on the drive.
     pub fn is_real(&self) -> bool {
-        let described =
-            self.ramps >= DESCRIBED.0 && self.p_value < DESCRIBED.1 && self.share > DESCRIBED.2;
+        let described = self.ramps >= DESCRIBED.0
+            && self.cells >= CELLS
+            && self.p_value < DESCRIBED.1
+            && self.share > DESCRIBED.2;
         (self.p_value < CHANCE || self.follows || described) && self.share > SHARE
     }
 
@@ -92,6 +98,7 @@ impl Relation {
                     .min(bent::p_value(&ramps, &drive, &response)),
             share: share(&ramps, &drive, &response),
             ramps: ramps.len(),
+            cells: cells(&ramps, drive.len()).len(),
             follows: follows(&ramps, &drive, &response),
         }
     }

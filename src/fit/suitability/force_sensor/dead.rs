@@ -10,13 +10,16 @@ pub const RULE: Rule = Rule {
     look,
 };
 
-/// A force changes with the orientation where the weight comes to point into all directions; a moment stays zero where the centre lies on its axis.
+/// A force changes with the orientation where the weight comes to point along its axis; a moment stays zero where the centre lies on its axis.
 fn look(on: &Turned) -> Said {
     let (forces, moments) = on.channels.split_at(3);
-    let mut found = match on.all_round {
-        true => channel::dead(forces),
-        false => Vec::new(),
-    };
+    let changing = forces
+        .iter()
+        .zip(on.changes)
+        .filter(|(_, changes)| *changes);
+    let mut found: Said = changing
+        .flat_map(|(force, _)| channel::dead(std::slice::from_ref(force)))
+        .collect();
     let still = moments.iter().filter(|c| channel::is_dead(&c.values));
     let stuck = still.filter(|c| c.values[0] != 0.0);
     found.extend(stuck.map(|c| {

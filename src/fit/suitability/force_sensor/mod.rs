@@ -8,9 +8,9 @@ mod unrelated;
 
 use super::channel::{self, Channel, Sum, sum};
 use super::{Doubt, Said};
-use crate::ground::spatial::{V3, norm, of_quaternion, rotate_back, sub};
+use crate::ground::spatial::{V3, norm, of_quaternion, rotate_back};
+use crate::ground::stats::{mean, rms};
 use crate::measurement::force_sensor::{CHANNELS, SensorTest};
-use nalgebra::{Matrix3, Vector3};
 
 /// What the rules look at: six channels over the direction of the weight.
 pub struct Turned<'a> {
@@ -18,25 +18,16 @@ pub struct Turned<'a> {
     pub test: &'a SensorTest,
     /// Its channels, driven by a number that tells orientations apart.
     pub channels: Vec<Channel>,
-    /// Whether the weight points into all directions of the sensor, one after the other: else a force may stay as it is.
-    pub all_round: bool,
+    /// Whether the weight comes to point along and across each axis of the sensor: else that force may stay as it is.
+    pub changes: [bool; 3],
     /// Each channel over the direction of the weight in the sensor frame; none where orientations are too
-    /// few to tell.
+    /// few to tell, or change nothing of it.
     pub sums: Vec<Option<Sum>>,
 }
 
-/// Least standard deviation of the direction of the weight, along the direction in which it changes least, from which on every
-/// force must change: six degrees.
-const ROUND: f64 = 0.1;
-
-/// Whether directions differ in every direction.
-fn is_all_round(down: &[V3]) -> bool {
-    let count = down.len().max(1) as f64;
-    let middle: V3 = std::array::from_fn(|k| down.iter().map(|d| d[k]).sum::<f64>() / count);
-    let off = down.iter().map(|d| Vector3::from(sub(*d, middle)));
-    let spread = off.fold(Matrix3::zeros(), |sum, d| sum + d * d.transpose() / count);
-    spread.symmetric_eigenvalues().min() > ROUND * ROUND
-}
+/// Least standard deviation of a component of the direction of the weight from which on the force along that axis must change: six
+/// degrees.
+const CHANGES: f64 = 0.1;
 
 /// One rule of this kind.
 pub type Rule = super::Rule<for<'a, 'b> fn(&'b Turned<'a>) -> Said>;
@@ -69,22 +60,35 @@ pub fn doubts(test: &SensorTest) -> Vec<Doubt> {
         Channel::new(*name, values, apart.clone())
     };
     let channels: Vec<Channel> = CHANNELS.iter().enumerate().map(channel).collect();
-    let all_round = is_all_round(&down);
-    let over_weight = |c: &Channel| all_round.then(|| sum(&c.values, &along))?;
+    let changes = [0, 1, 2].map(|k| {
+        let middle = mean(&along[k]);
+        let off: Vec<f64> = along[k].iter().map(|x| x - middle).collect();
+        rms(&off) > CHANGES
+    });
+    // a component that hardly changes is rounding, and tells nothing
+    let told = along.iter().zip(changes);
+    let told: Vec<Vec<f64>> = told
+        .map(|(own, changes)| own.iter().map(|x| if changes { *x } else { 0.0 }).collect())
+        .collect();
+    let over_weight = |(c, channel): (usize, &Channel)| {
+        let may = changes.get(c).copied().unwrap_or(changes.contains(&true));
+        may.then(|| sum(&channel.values, &told))?
+    };
     let turned = Turned {
         test,
-        all_round,
-        sums: channels.iter().map(over_weight).collect(),
+        changes,
+        sums: channels.iter().enumerate().map(over_weight).collect(),
         channels,
     };
     super::doubts(RULES, |look| look(&turned))
 }
 
 impl Turned<'_> {
-    /// Weight that each force channel alone shows, N.
-    fn weights(&self) -> Option<V3> {
-        let rows: Option<Vec<f64>> = (0..3).map(|c| Some(norm(self.row(c)?))).collect();
-        V3::try_from(rows?).ok()
+    /// Weight that each force channel alone shows, N, as far as it must show one.
+    fn weights(&self) -> Vec<(&Channel, f64)> {
+        let own = self.channels.iter().take(3).enumerate();
+        own.filter_map(|(c, channel)| Some((channel, norm(self.row(c)?))))
+            .collect()
     }
 
     fn row(&self, c: usize) -> Option<V3> {

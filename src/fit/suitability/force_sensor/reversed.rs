@@ -2,7 +2,7 @@
 
 use super::{Rule, Turned};
 use crate::fit::suitability::{Said, Weight, said_if};
-use crate::ground::spatial::{cross, dot};
+use crate::ground::spatial::{cross, dot, norm};
 
 /// The forces of a weight are a turned vector; a wrong sign or two swapped axes mirror it.
 pub const RULE: Rule = Rule {
@@ -15,12 +15,11 @@ pub const RULE: Rule = Rule {
 const MIRRORED: f64 = -0.3;
 
 fn look(on: &Turned) -> Said {
-    let (Some(x), Some(y), Some(z), Some(weights)) =
-        (on.row(0), on.row(1), on.row(2), on.weights())
-    else {
+    let (Some(x), Some(y), Some(z)) = (on.row(0), on.row(1), on.row(2)) else {
         return Vec::new();
     };
-    let volume = dot(x, cross(y, z)) / weights.iter().product::<f64>();
+    let weights = [x, y, z].map(norm).iter().product::<f64>();
+    let volume = dot(x, cross(y, z)) / weights;
     said_if(
         volume < MIRRORED,
         Weight::Fatal,

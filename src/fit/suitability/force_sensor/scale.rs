@@ -22,23 +22,23 @@ const WEIGHTS: std::ops::RangeInclusive<f64> = 0.05..=1e5;
 const REACH: f64 = 3.0;
 
 fn look(on: &Turned) -> Said {
-    let Some(weights) = on.weights() else {
+    let weights = on.weights();
+    let mut sorted: Vec<f64> = weights.iter().map(|w| w.1).collect();
+    sorted.sort_by(f64::total_cmp);
+    let Some(weight) = sorted.get(sorted.len() / 2).copied() else {
         return Vec::new();
     };
-    let mut sorted = weights;
-    sorted.sort_by(f64::total_cmp);
-    let weight = sorted[1];
     let mut found = Vec::new();
     let mut say = |what: String, ratio: f64| {
         let why = explanation(ratio).map_or(String::new(), |why| format!("; {why}"));
         found.push((Weight::Fatal, what + &why));
     };
-    for (k, own) in weights.iter().enumerate() {
+    for (channel, own) in &weights {
         let ratio = own / weight;
         if !(1.0 / FAR..=FAR).contains(&ratio) {
             let what = format!(
                 "{} shows {} the weight of the others",
-                on.channels[k].name,
+                channel.name,
                 times(ratio)
             );
             say(what, ratio);
