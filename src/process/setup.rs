@@ -66,7 +66,9 @@ pub struct Setup {
 /// Most and fewest steps per tooth passing.
 const STEPS: [usize; 2] = [12, 20_000];
 
-/// Share of the distance of the rays that the tool may go before it is looked again what it stands in, where a run is coarse.
+/// Share of the distance of the rays that the tool may go before it is looked again what it stands in, where a run is coarse. A
+/// choice for time: a third of the looks on usual feeds changes force and volume along a wall and a corner by less than three
+/// thousandths (`cutting/cutter/motion`).
 const PATIENCE: f64 = 0.25;
 
 impl Setup {
