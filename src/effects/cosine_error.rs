@@ -13,7 +13,7 @@ impl Law for CosineError {
         summary: "The laser is inclined to the motion and reads only its component, or the load pulls aslant.",
         equation: "φ_read = (1 − shortfall) · φ, shortfall = 1 − cos(inclination)",
         source: "Abbe and cosine errors, ISO 230-1:2012, annex A",
-        signature: "one laser reads too little; never too much",
+        signature: "one laser reads too little of what moves along itself, or too much of a plate that moves square to its face",
         parameters: &[Parameter {
             name: "shortfall",
             meaning: "share of the motion that the inclined laser does not see",

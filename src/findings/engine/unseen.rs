@@ -10,8 +10,8 @@ use crate::inference::gaussian::{Size, limited};
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
 
-/// The gain of every member of a set: on the first split that shows it, coarse before fine; where none does,
-/// that of the coarsest. What happens once, in as many readings as it has amounts, shows in no other reading:
+/// The gain of every member of a set: on the first split that plainly shows it, coarse before fine; where none does, on the first that
+/// shows it, else that of the coarsest. Whole cycles held out show little of a delay beside a drift that nobody can continue into them. What happens once, in as many readings as it has amounts, shows in no other reading:
 /// its gain is that on the readings themselves, each amount paid for.
 pub fn gains(statement: &Statement, bank: &Bank, fit: &Fit) -> Vec<Gain> {
     let design = Design::of(statement, bank, fit);
@@ -20,6 +20,9 @@ pub fn gains(statement: &Statement, bank: &Bank, fit: &Fit) -> Vec<Gain> {
     each.map(|(at, member)| design.decided(bank, (at, *member), &mut splits).0)
         .collect()
 }
+
+/// Gain from which a split plainly shows a cause, percent: as much as a companion must gain (`Judgement::companion_gain`).
+const PLAINLY: f64 = 1.5;
 
 /// Whether a member acts on no more rows than it has amounts.
 fn happens_once(bank: &Bank, member: usize) -> bool {
@@ -116,7 +119,7 @@ impl<'a> Design<'a> {
                 return (found, None);
             }
         }
-        let mut first = None;
+        let mut first: Option<(Gain, Option<usize>)> = None;
         for (i, of) in self.statement.splits.iter().enumerate() {
             if splits.len() == i {
                 splits.push(self.split(of, &all));
@@ -127,10 +130,13 @@ impl<'a> Design<'a> {
                 &split.errors,
                 split.of,
             );
-            if found.is_real() {
+            if found.is_real() && found.reduction_percent >= PLAINLY {
                 return (found, Some(i));
             }
-            first.get_or_insert((found, Some(i)));
+            let shown_before = first.as_ref().is_some_and(|(gain, _)| gain.is_real());
+            if first.is_none() || found.is_real() && !shown_before {
+                first = Some((found, Some(i)));
+            }
         }
         first.unwrap_or((Gain::of(1.0, 1.0, f64::INFINITY), None))
     }

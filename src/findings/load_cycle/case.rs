@@ -2,7 +2,7 @@
 
 use super::diagnosis::Settings;
 use super::naming::site;
-use super::noise::Coloured;
+use super::noise::{Coloured, rough};
 use super::patterns::JUMPS;
 use super::present::Present;
 use super::refine::{Refined, refine_from};
@@ -153,6 +153,14 @@ fn judged(file: &LoadCycle, data: &Observation, settings: &Settings) -> (Found, 
     if seen == JUMPS {
         *seen = record.jumps();
     }
-    let restless = record.is_restless(&found.left);
+    let restless =
+        record.is_restless(&found.left) || record.is_beyond(&found.left, stated(file, data));
     (found, record.noise, restless)
+}
+
+/// Deviation of a reading by the data sheet, with what the load's own scatter makes of it; none where no sheet is stated.
+fn stated(file: &LoadCycle, data: &Observation) -> Option<f64> {
+    let sheet = file.facts.sensor_noise? / file.facts.sensor_lever.unwrap_or(1.0);
+    let scene = &data.scene;
+    Some(sheet.hypot(rough(&scene.load) * scene.deflection_scale / scene.load_scale))
 }

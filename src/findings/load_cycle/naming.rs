@@ -101,14 +101,13 @@ impl Case<'_> {
         if own.clone().any(|one| nothing(&one)) {
             return Vec::new();
         }
-        own.map(|(s, v)| {
-            (
-                s.parameter.name,
-                *v,
-                unit_of(s.parameter.scale, self.file.port),
-            )
-        })
-        .collect()
+        let told = own.map(|(s, v)| {
+            let unit = unit_of(s.parameter.scale, self.file.port);
+            (s.parameter.name, *v, unit)
+        });
+        // rows that are counted are no seconds
+        told.filter(|p| !(self.file.counts_rows && p.2 == "s"))
+            .collect()
     }
 
     pub(super) fn name_lattice(&self) -> Named {

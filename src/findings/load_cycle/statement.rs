@@ -35,6 +35,9 @@ pub struct Record<'a> {
 const STRUCTURED: ([f64; 3], f64) = ([1.5, 6.0, 25.0], 8.0);
 /// What is left may be so many times the scatter of neighbours and is nothing else: half a deviation beside it.
 const SCATTER: f64 = 1.12;
+/// Deviations of a data sheet, and scatters of neighbours, beyond which what is left is no noise whatever its colour: sheets are right
+/// within a factor of two, and coloured noise of sensors is about twice the scatter. Choices, no measurement.
+const BEYOND: (f64, f64) = (5.0, 2.0);
 /// Sets whose evidence chooses the noise.
 const LEADING: usize = 4;
 /// Rounds in which noise and causes are sought in turn.
@@ -73,6 +76,12 @@ impl<'a> Record<'a> {
     /// Whether a residual holds what no noise makes.
     pub fn is_restless(&self, left: &[f64]) -> bool {
         is_no_noise(left, &self.noise, &self.view)
+    }
+
+    /// Whether a residual is neither what a data sheet says, within [`BEYOND`], nor scatter.
+    pub fn is_beyond(&self, left: &[f64], sheet: Option<f64>) -> bool {
+        let far = |sheet: f64| rms(left) > BEYOND.0 * sheet;
+        sheet.is_some_and(far) && above_neighbours(left, &self.noise.spread) > BEYOND.1
     }
 
     /// Its jumps in words.

@@ -33,8 +33,10 @@ impl Channels {
         let has = |stem: &str| table.column(stem).is_some();
         let header = table.first_line - 1;
         let missing = |what: &str, remedy: &str| Problem::new(what, remedy).at_line(header);
-        if !has("time") {
-            return Err(missing("has no time column", "add a column `time_s`"));
+        let needs_time = [facts.rest.is_some(), facts.sensor_delay != 0.0];
+        if !has("time") && needs_time.contains(&true) {
+            let what = "has no time column, which `rest_s` and `sensor_delay_s` speak of";
+            return Err(missing(what, "add a column `time_s`, or remove the fact"));
         }
         let turning =
             has("moment") || has("angle") || facts.load_lever.or(facts.sensor_lever).is_some();
@@ -118,7 +120,11 @@ impl Channels {
     pub(super) fn assemble(self, mut table: Table, facts: Facts) -> Outcome<LoadCycle> {
         check_time(&table)?;
         let conversions = self.conversions(&table, &facts);
-        let time = take(&mut table, "time", 1.0);
+        let counts_rows = table.column("time").is_none();
+        let time = match counts_rows {
+            true => (0..table.rows).map(|row| row as f64).collect(),
+            false => take(&mut table, "time", 1.0),
+        };
         let load = take(&mut table, self.load.0, self.load.1);
         let deflection = take(&mut table, self.deflection.0, self.deflection.1);
         let second = self
@@ -129,6 +135,7 @@ impl Channels {
             dialect: dialect(&table),
             facts,
             port: self.port,
+            counts_rows,
             time,
             load,
             deflection,
@@ -146,7 +153,10 @@ impl Channels {
 
     fn conversions(&self, table: &Table, facts: &Facts) -> Vec<String> {
         let name = |stem: &str| table.column(stem).map_or(String::new(), |c| c.name.clone());
-        let mut lines = vec![format!("time from `{}`", name("time"))];
+        let mut lines = vec![match table.column("time") {
+            Some(own) => format!("time from `{}`", own.name),
+            None => "time not given: rows are counted".into(),
+        }];
         let lever = |value: Option<f64>| match value {
             Some(lever) if self.port == Port::Rotational => format!(" at a lever of {lever} m"),
             _ => String::new(),

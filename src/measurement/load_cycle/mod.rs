@@ -26,7 +26,9 @@ pub struct LoadCycle {
     pub facts: Facts,
     /// Rotational or linear.
     pub port: Port,
-    /// Time, s.
+    /// Whether the file has no time: rows are counted in its place.
+    pub counts_rows: bool,
+    /// Time, s; the number of the row where that is counted.
     pub time: Vec<f64>,
     /// Moment N·m or force N.
     pub load: Vec<f64>,

@@ -6,14 +6,20 @@ use super::{Family, Shapes, View};
 pub const TIME_SKEW: Family = Family {
     cause: "time_skew",
     mechanism: "delay",
-    suits: |view| !view.stepped,
+    suits: |view| !view.stepped || SHORTEST * view.row < LONGEST * view.period,
     members: skew,
 };
 
+/// Longest delay that is tried, periods.
+const LONGEST: f64 = 0.06;
+/// Rows from which a delay shows under a load that jumps: when between two rows it jumped nobody knows.
+const SHORTEST: f64 = 2.0;
+
 fn skew(view: &View) -> Shapes {
     let mut shapes = Shapes::none();
-    let delays = [0.003, 0.006, 0.01, 0.016, 0.024, 0.036].map(|d| d * view.period);
-    for d in delays {
+    let delays = [0.003, 0.006, 0.01, 0.016, 0.024, 0.036, LONGEST].map(|d| d * view.period);
+    let shows = |d: &f64| !view.stepped || *d > SHORTEST * view.row;
+    for d in delays.into_iter().filter(shows) {
         shapes.positive(view, &view.delayed(|_| d));
         shapes.positive(view, &view.delayed(|_| -d));
         let late: Vec<f64> = view
@@ -27,6 +33,6 @@ fn skew(view: &View) -> Shapes {
     let small = delays[2];
     shapes.one(view, &view.delayed(|t| small * t));
     let all = delays.map(|d| view.delayed(|_| d));
-    shapes.density(view, &all, &[1.0; 6], (0.7, true));
+    shapes.density(view, &all, &[1.0; 7], (0.7, true));
     shapes
 }

@@ -12,8 +12,12 @@ pub struct View {
     pub t: Vec<f64>,
     /// Duration of a cycle over that of the record.
     pub period: f64,
+    /// Duration of a row over that of the record.
+    pub row: f64,
     /// Half cycle of every row: counts turning points.
     pub half_cycle: Vec<usize>,
+    /// Stroke of every row: counts how often the load left zero, from where it was nearest to that.
+    pub stroke: Vec<usize>,
     /// Whether the load takes both signs.
     pub two_sided: bool,
     /// Whether the load jumps from level to level (dead weights): delays cannot be seen there.
@@ -53,9 +57,11 @@ impl View {
             .fold((0.0_f64, 0.0_f64), |(l, h), v| (l.min(*v), h.max(*v)));
         Self {
             jumps: jumps(&u, &t, &data.reading),
+            row: 1.0 / t.len().saturating_sub(1).max(1) as f64,
             t,
             period: data.scene.period / data.scene.duration,
             half_cycle: half_cycles(&data.cycles.turning, u.len()),
+            stroke: strokes(&u),
             two_sided: high.min(-low) > OTHER_SIDE * high.max(-low),
             stepped: is_stepped(&u),
             slow: (SLOW * data.block as f64).min(1.0),
@@ -150,6 +156,26 @@ fn interpolate(x: &[f64], y: &[f64], at: f64) -> f64 {
 fn half_cycles(turning: &[usize], rows: usize) -> Vec<usize> {
     (0..rows)
         .map(|i| turning.iter().filter(|t| **t <= i).count())
+        .collect()
+}
+
+/// Every stroke begins in the row nearest to zero between two stretches of load.
+fn strokes(u: &[f64]) -> Vec<usize> {
+    let mut begins = vec![0; u.len()];
+    let mut last: Option<usize> = None;
+    for i in (0..u.len()).filter(|i| u[*i].abs() > LOADED) {
+        if let Some(before) = last.filter(|before| before + 1 < i || u[*before] * u[i] < 0.0) {
+            let nearest = (before + 1..=i).min_by(|a, b| u[*a].abs().total_cmp(&u[*b].abs()));
+            begins[nearest.unwrap_or(i)] = 1;
+        }
+        last = Some(i);
+    }
+    begins
+        .iter()
+        .scan(0, |count, begins| {
+            *count += begins;
+            Some(*count)
+        })
         .collect()
 }
 

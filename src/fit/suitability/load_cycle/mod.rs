@@ -1,9 +1,11 @@
 //! The gate for load cycles.
 
+mod ceiling;
 mod clipped;
 mod clock;
 mod coarse;
 mod copied;
+mod counted;
 mod few_rows;
 mod left_out;
 mod long;
@@ -53,6 +55,7 @@ pub const RULES: &[Rule] = &[
     part_of_a_cycle::RULE,
     wild_load::RULE,
     clipped::RULE,
+    ceiling::RULE,
     reversed::RULE,
     unrelated::RULE,
     scale::RULE,
@@ -62,6 +65,7 @@ pub const RULES: &[Rule] = &[
     wild_response::RULE,
     long::RULE,
     left_out::RULE,
+    counted::RULE,
     coarse::RULE,
 ];
 
