@@ -2,6 +2,8 @@
 //! read as it was meant or reported. Runs the program as a user does.
 
 use crate::bench_of_files::{Bench, FRONT, HEADER, Ran, document, rows, with_body, with_rows};
+use ident::measurement::load_cycle::LoadCycle;
+use ident::measurement::table::Table;
 
 /// A refusal: what the file holds, on which line the problem lies, a word of the message.
 struct Refused {
@@ -226,7 +228,6 @@ fn bad_headers_are_refused() {
         case("duplicate column", "time_s,force_N,force_N", "twice"),
         case("duplicate quantity", "time_s,force_N,force_kN", "twice"),
         case("units swapped", "time_s,force_mm,displacement_N", "unit of"),
-        case("no time", "x_mm,force_N,displacement_mm", "no time"),
         case("no load", "time_s,x_N,displacement_mm", "no load"),
         case("no deflection", "time_s,force_N,x_mm", "no deflection"),
         case("two loads", "time_s,force_N,moment_Nm", "both"),
@@ -644,4 +645,23 @@ fn the_same_input_gives_the_same_bytes() {
         .into();
     assert!(outputs[0] == outputs[1], "one thread and two differ");
     assert!(outputs[1] == outputs[2], "two runs differ");
+}
+
+/// `moment_Nm, angle_rad` alone: rows are counted, which is said, and what is meant in seconds is refused.
+#[test]
+fn a_table_without_time_counts_its_rows() {
+    let read = |facts: &str| {
+        let head = format!("# kind = \"load-cycle\"\n# joint = 2\n# axis = \"rotation\"\n{facts}");
+        let text =
+            format!("{head}moment_Nm,angle_rad\n0,0\n100,1e-4\n,2e-4\n0,0\n-100,-1e-4\n0,0\n");
+        let table = Table::from_reader("cycle.csv".as_ref(), text.as_bytes(), text.len() as u64);
+        LoadCycle::from_table(table.unwrap())
+    };
+    let file = read("").unwrap();
+    assert!(file.counts_rows);
+    assert_eq!(file.time, [0.0, 1.0, 3.0, 4.0, 5.0]);
+    let doubts = ident::fit::suitability::load_cycle::doubts(&file);
+    assert!(doubts.iter().any(|d| d.rule == "counted"));
+    let refused = read("# rest_s = 2.0\n").unwrap_err().to_string();
+    assert!(refused.contains("rest_s"), "{refused}");
 }

@@ -1,7 +1,7 @@
 //! Observed deflections under a load history, ready for fitting: reduced, whitened, repaired.
 
 use crate::effects::Scene;
-use crate::ground::stats::ends;
+use crate::ground::stats::{ends, largest};
 use crate::measurement::cycles::Cycles;
 use crate::measurement::load_cycle::LoadCycle;
 use crate::signal::cosine::Cosine;
@@ -97,6 +97,8 @@ pub const MOST_ROWS: usize = 3000;
 /// Distance beyond its neighbours, in robust standard deviations of their jumps, that makes a lone
 /// reading wild.
 const WILD: f64 = 3.5;
+/// Share of the largest reading that is rounding.
+const ROUNDING: f64 = 1e-9;
 
 impl Observation {
     /// Smallest and largest load.
@@ -273,7 +275,12 @@ fn repair(load: &[f64], reading: &mut [f64]) -> Vec<usize> {
         .zip(load)
         .map(|(r, l)| r - slope * l)
         .collect();
-    let wild = outliers::isolated(&excess, WILD);
+    // what is left of a record without noise is rounding
+    let is_exact = largest(&excess) <= ROUNDING * largest(reading);
+    let wild = match is_exact {
+        true => Vec::new(),
+        false => outliers::isolated(&excess, WILD),
+    };
     for i in &wild {
         excess[*i] = outliers::neighbours(&excess, *i);
         reading[*i] = excess[*i] + slope * load[*i];

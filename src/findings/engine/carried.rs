@@ -7,6 +7,7 @@
 //! may have lent it. The second is no small change of a logarithm: amounts are drawn.
 
 use super::bank::{Bank, Fit};
+use super::judgement::Judgement;
 use super::materiality::raw_parts;
 use super::statement::Statement;
 use super::unseen::{Design, Fold, Split, compare};
@@ -21,8 +22,13 @@ const DRAWS: usize = 2000;
 
 /// The gains of a set as they are told; `present`: measured less simulated as the simulation is, where the statement is about
 /// something else.
-pub(super) fn told(statement: &Statement, present: &[f64], bank: &Bank, fit: &Fit) -> Vec<Gain> {
-    let design = Design::of(statement, bank, fit);
+pub(super) fn told(
+    statement: &Statement,
+    present: &[f64],
+    (bank, fit): (&Bank, &Fit),
+    judgement: &Judgement,
+) -> Vec<Gain> {
+    let design = Design::of(statement, bank, fit, judgement.companion_gain);
     let more = beyond(statement, present, bank, fit);
     let mut splits = Vec::new();
     let each = fit.members.iter().enumerate();

@@ -120,7 +120,7 @@ pub(super) fn drop_unreal(
     judgement: &Judgement,
 ) -> (Scored, Vec<Gain>) {
     loop {
-        let gains = gains(statement, bank, &set.fit);
+        let gains = gains(statement, bank, &set.fit, judgement.companion_gain);
         let least = match gains.len() {
             1 => 0.0,
             _ => judgement.companion_gain,

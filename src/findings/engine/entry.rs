@@ -22,6 +22,20 @@ pub(super) struct Entry {
     pub forms: usize,
     /// Products of its columns with one another.
     pub own: DMatrix<f64>,
+    /// How many of its columns are independent: a shift along a wall shows nothing there, and costs nothing.
+    pub rank: usize,
+}
+
+/// Share of the largest from which a direction of columns counts.
+const COUNTS: f64 = 1e-6;
+
+fn rank(own: &DMatrix<f64>) -> usize {
+    if own.nrows() < 2 {
+        return own.nrows();
+    }
+    let values = own.symmetric_eigenvalues();
+    let largest = values.max();
+    values.iter().filter(|v| **v > COUNTS * largest).count()
 }
 
 /// The members in a row; columns of free size are scaled to one noise deviation rms each reading (in the
@@ -57,13 +71,15 @@ pub(super) fn entries(
             marginal
                 .columns_mut(range.start, range.len())
                 .scale_mut(scale);
+            let own = product(columns, marginal);
             entries.push(Entry {
                 suspect,
                 member,
                 size: m.size,
                 scale,
                 forms,
-                own: product(columns, marginal),
+                rank: rank(&own),
+                own,
                 columns: range,
             });
         }

@@ -5,7 +5,7 @@ use super::choice::{
     choose, drop_unreal, less, loses_to_structure, missed_by_law, nothing, plain, possible,
 };
 use super::leaves::{Leaves, Weighing};
-use super::materiality::in_noise;
+use super::materiality::{in_noise, raw_parts};
 use super::posterior::Posterior;
 use super::search::Scored;
 use super::statement::Experiment;
@@ -71,7 +71,7 @@ pub(super) fn carrying(
         ..
     } = kept;
     loop {
-        let gains = carried::told(statement, present, bank, &set.fit);
+        let gains = carried::told(statement, present, (bank, &set.fit), judgement);
         let is_named = |at: &usize| bank.suspects[set.suspects[*at]].named;
         let surely_worse = |at: &usize| gains[*at].ci95_percent[1] < 0.0;
         let gained = |at: &usize| gains[*at].reduction_percent;
@@ -79,7 +79,9 @@ pub(super) fn carrying(
         let is_last = named.clone().count() == 1;
         let must_be_plain = leaves.rest.is_left || judgement.companion_is_plain && !is_last;
         let stands_in = |at: &usize| must_be_plain && gains[*at].ci95_percent[0] <= 0.0;
-        let decided = |at: usize| unseen::gains(statement, bank, &set.fit)[at].reduction_percent;
+        let plainly = judgement.companion_gain;
+        let decided =
+            |at: usize| unseen::gains(statement, bank, &set.fit, plainly)[at].reduction_percent;
         let stands = |at: &usize| is_last && decided(*at) >= judgement.companion_gain;
         let none_gains = !is_last && named.clone().all(|at| gains[at].ci95_percent[0] <= 0.0);
         let worse =
@@ -116,7 +118,7 @@ fn outweighed(weighing: &Weighing, posterior: &Posterior, mut kept: Picked) -> P
             break;
         }
         let set = less(bank, posterior, &kept.set, at, judgement);
-        let gains = unseen::gains(weighing.statement, bank, &set.fit);
+        let gains = unseen::gains(weighing.statement, bank, &set.fit, judgement.companion_gain);
         let leaves = weighing.leaves(&set, None);
         kept = Picked { set, gains, leaves };
     }
@@ -165,7 +167,12 @@ fn needed(
     let own = chosen.suspects.iter().copied();
     let probable: Vec<usize> = own.filter(|s| !is_dropped(s) || is_probable(s)).collect();
     let chosen = posterior.set(&probable)?.clone();
-    let gains = unseen::gains(weighing.statement, bank, &chosen.fit);
+    let gains = unseen::gains(
+        weighing.statement,
+        bank,
+        &chosen.fit,
+        judgement.companion_gain,
+    );
     let leaves = weighing.leaves(&chosen, None);
     let is_strained = kept.leaves.strain > leaves.strain + judgement.further();
     let largest = gains.iter().map(Gain::explained).fold(0.0, f64::max);
@@ -178,10 +185,24 @@ fn needed(
             gain.is_real() && is_little && gain.explained() < missed || gain.explained() < law;
         (is_strained || !is_missed) && gain.reduction_percent > -judgement.companion_gain
     };
-    let mut each = chosen.suspects.iter().zip(&gains);
-    let all =
-        each.all(|(s, gain)| !is_dropped(s) || may_stand(gain) && !judgement.is_negligible(gain));
-    if !all || !chosen.suspects.iter().any(is_dropped) {
+    // what spares strain is as large as what it does, however little unseen rows show of that
+    let parts = raw_parts(bank, &chosen.fit);
+    let is_negligible = |at: usize| match is_strained {
+        true => rms(&parts[at]) < judgement.negligible,
+        false => judgement.is_negligible(&gains[at]),
+    };
+    let falls = |at: &usize| {
+        let stands = may_stand(&gains[*at]) && !is_negligible(*at);
+        is_dropped(&chosen.suspects[*at]) && !stands
+    };
+    let gained = |at: &usize| gains[*at].reduction_percent;
+    let fallen = (0..gains.len()).filter(falls);
+    if let Some(at) = fallen.min_by(|a, b| gained(a).total_cmp(&gained(b))) {
+        // the others may be needed without it
+        let others = less(bank, posterior, &chosen, at, judgement);
+        return needed(weighing, posterior, &others, kept);
+    }
+    if !chosen.suspects.iter().any(is_dropped) {
         return None;
     }
     if loses_to_structure(bank, posterior, &chosen, weighing.span, judgement) {

@@ -160,12 +160,12 @@ impl Book<'_> {
 /// What a set costs before the data, nats.
 pub(super) fn price(bank: &Bank, members: &[usize], judgement: &Judgement) -> f64 {
     let own = |m: &usize| {
-        let (suspect, member) = (bank.suspect(*m), bank.member(*m));
-        let free = match member.size {
-            Size::Free => member.columns.len().saturating_sub(1) as f64,
+        let (suspect, entry) = (bank.suspect(*m), &bank.entries[*m]);
+        let free = match entry.size {
+            Size::Free => entry.rank.saturating_sub(1) as f64,
             Size::Given(_) | Size::Drawn => 0.0,
         };
-        let shapes = (bank.entries[*m].forms as f64).ln();
+        let shapes = (entry.forms as f64).ln();
         judgement.name - suspect.share + shapes + judgement.amount * free
     };
     let kin = |i: usize| {

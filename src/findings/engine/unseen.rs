@@ -13,16 +13,13 @@ use std::ops::Range;
 /// The gain of every member of a set: on the first split that plainly shows it, coarse before fine; where none does, on the first that
 /// shows it, else that of the coarsest. Whole cycles held out show little of a delay beside a drift that nobody can continue into them. What happens once, in as many readings as it has amounts, shows in no other reading:
 /// its gain is that on the readings themselves, each amount paid for.
-pub fn gains(statement: &Statement, bank: &Bank, fit: &Fit) -> Vec<Gain> {
-    let design = Design::of(statement, bank, fit);
+pub fn gains(statement: &Statement, bank: &Bank, fit: &Fit, plainly: f64) -> Vec<Gain> {
+    let design = Design::of(statement, bank, fit, plainly);
     let mut splits = Vec::new();
     let each = fit.members.iter().enumerate();
     each.map(|(at, member)| design.decided(bank, (at, *member), &mut splits).0)
         .collect()
 }
-
-/// Gain from which a split plainly shows a cause, percent: as much as a companion must gain (`Judgement::companion_gain`).
-const PLAINLY: f64 = 1.5;
 
 /// Whether a member acts on no more rows than it has amounts.
 fn happens_once(bank: &Bank, member: usize) -> bool {
@@ -43,6 +40,8 @@ pub(super) struct Design<'a> {
     most: Vec<f64>,
     /// Columns of every member.
     pub own: Vec<Range<usize>>,
+    /// Gain from which a split plainly shows a cause, percent: what a companion must gain (`Judgement::companion_gain`).
+    plainly: f64,
 }
 
 /// One way to hold out rows.
@@ -63,7 +62,7 @@ pub(super) struct Fold {
 }
 
 impl<'a> Design<'a> {
-    pub fn of(statement: &'a Statement, bank: &Bank, fit: &Fit) -> Self {
+    pub fn of(statement: &'a Statement, bank: &Bank, fit: &Fit, plainly: f64) -> Self {
         let spread = statement.noise.spread();
         let white = |c: &[f64], scale: f64| {
             let each = c.iter().zip(spread);
@@ -101,6 +100,7 @@ impl<'a> Design<'a> {
             precision,
             most,
             own,
+            plainly,
         }
     }
 
@@ -130,7 +130,7 @@ impl<'a> Design<'a> {
                 &split.errors,
                 split.of,
             );
-            if found.is_real() && found.reduction_percent >= PLAINLY {
+            if found.is_real() && found.reduction_percent >= self.plainly {
                 return (found, Some(i));
             }
             let shown_before = first.as_ref().is_some_and(|(gain, _)| gain.is_real());

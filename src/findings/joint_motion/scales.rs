@@ -76,7 +76,7 @@ impl Joint {
         };
         let bank = Bank::new(&statement);
         let fit = bank.fit(&[0])?;
-        gains(&statement, &bank, &fit).first().copied()
+        gains(&statement, &bank, &fit, 0.0).first().copied()
     }
 
     /// A constant difference of the encoders, where the file says how well their zeros agree: beyond what the spring, as the

@@ -145,7 +145,19 @@ impl Measured for Case {
             "The robot swings, but the job is too long to be milled again and again in time: springs and gaps are told from what they do at rest."
                 .to_string()
         });
-        left_out.into_iter().chain(unheard).collect()
+        let still = self.shows_no_swing.then(|| {
+            "The robot is simulated to swing by its dampings, and the part shows nothing of it: springs alone carry the tool here. Dampings from hammer tests (`ident damping --frf`) would tell whether it swings."
+                .to_string()
+        });
+        let alone = (self.stands_out > 0).then(|| {
+            format!(
+                "{} of {} probed deviations stand out alone, and count as little as that.",
+                self.stands_out,
+                self.rows.len()
+            )
+        });
+        let all = left_out.into_iter().chain(unheard);
+        all.chain(still).chain(alone).collect()
     }
 }
 

@@ -13,10 +13,12 @@ mod noise;
 mod patterns;
 mod robot;
 mod stations;
+mod still;
 mod thermal_growth;
 mod tool_radius;
 mod tried;
 mod uncertain;
+mod wild;
 mod workpiece_offset;
 mod workpiece_rotation;
 
@@ -34,8 +36,10 @@ use hold::{Hold, holds};
 use stations::{LAW, placed, rows, spreads};
 pub use stations::{Row, Station};
 use std::sync::{Mutex, OnceLock};
+use still::{Simulated, is_still};
 use tried::{left, tried};
 use uncertain::Known;
+use wild::wild;
 
 /// Effects beside the causes of the whole robot (`robot`).
 pub const EFFECTS: &[Effect<Case>] = &[
@@ -64,12 +68,16 @@ pub struct Case {
     is_short: bool,
     /// Whether the robot swings in a job that is too long for that.
     pub swings_unheard: bool,
+    /// Whether the robot is simulated to swing, and the part shows none of it: then springs alone carry the tool.
+    pub shows_no_swing: bool,
     /// Whether the file counts its arc length from point to point, without the blends.
     pub counts_by_points: bool,
     /// Where it was probed, in the order of the file; places that are not cut are left out.
     pub stations: Vec<Station>,
     /// Its rows, one for each direction across the feed that was measured.
     pub rows: Vec<Row>,
+    /// How many of them stand out alone, and count as little as that.
+    pub stands_out: usize,
     /// What the simulation says, row by row, m.
     pub simulated: Vec<f64>,
     /// Measured less simulated, m.
@@ -107,6 +115,8 @@ struct Stated {
 const COARSER: f64 = 1.5;
 /// Deviations of the probe, rms, from which the swing of the robot shows on the part. A choice, no measurement.
 const SWINGS: f64 = 2.0;
+/// The same from which it is asked whether the part shows that swing. A choice, no measurement.
+const SWAYS: f64 = 0.2;
 /// Swing of which no trial is told, m: the cut is not resolved so finely.
 const LEAST: f64 = 1e-6;
 /// Steps of the simulated job beyond which trials are not coupled in time: some two hundred of them take minutes then. A choice for
@@ -127,28 +137,40 @@ impl Case {
     /// The job cannot be milled, or the file has a place that is not on its path.
     pub fn new(test: PartTest, planned: Planned) -> Outcome<Self> {
         let setup = planned.setup(None)?;
-        let (milled, _) = setup.run(Support::Coupled, |_| {})?;
         let counted = Counted::of(&test, &planned.toolpath, &setup.way);
-        let stations =
-            placed((&test, &counted), &setup, &milled).map_err(|p| p.in_text(&test.path))?;
-        let rows = rows(&stations);
-        let simulated: Vec<f64> = rows
-            .iter()
-            .map(|row| dot(row.across, stations[row.station].deviation))
-            .collect();
-        let own = rows.iter().zip(&simulated);
-        let missed = own.map(|(row, s)| row.measured - s).collect();
         let probe = probe(&test);
+        let mut milled = Milled::of((&test, &counted), &setup, Support::Coupled)?;
+        let alone = seen(
+            &milled.rows,
+            &left(&setup, &milled.stations, Support::Static)?,
+        );
+        let swing = difference(&milled.simulated, &alone);
+        let shows_no_swing =
+            rms(&swing) > SWAYS * probe.max(LEAST) && milled.is_still(&alone, probe);
+        if shows_no_swing {
+            milled = Milled::of((&test, &counted), &setup, Support::Static)?;
+        }
+        let shows = !shows_no_swing && rms(&swing) > SWINGS * probe.max(LEAST);
+        let Milled {
+            stations,
+            rows,
+            simulated,
+            steps,
+        } = milled;
+        let own = rows.iter().zip(&simulated);
+        let missed: Vec<f64> = own.map(|(row, s)| row.measured - s).collect();
         let trial = setup.coarser(COARSER);
-        let alone = left(&setup, &stations, Support::Static)?;
-        let swing = difference(&simulated, &seen(&rows, &alone));
-        let shows = rms(&swing) > SWINGS * probe.max(LEAST);
-        let is_short = milled.steps <= LONGEST;
+        let is_short = steps <= LONGEST;
         let swings = shows && is_short;
         let (support, trial, ahead) = match swings {
             true => (Support::Coupled, trial.with_steps(PER_TOOTH), AHEAD),
             false => (Support::Static, trial, 1.0),
         };
+        let mut spread = spreads(&stations, &rows, probe, ahead);
+        let stands_out = wild(&stations, &rows, &missed);
+        for (row, off) in &stands_out {
+            spread[*row] = spread[*row].hypot(*off);
+        }
         let tried = tried(&trial, &stations, support)?;
         let coefficients = tried.coefficients.iter();
         Ok(Self {
@@ -161,7 +183,8 @@ impl Case {
             swung: OnceLock::new(),
             milled: Mutex::default(),
             anew: Mutex::default(),
-            spread: spreads(&stations, &rows, probe, ahead),
+            stands_out: stands_out.len(),
+            spread,
             missed,
             simulated,
             rows,
@@ -172,6 +195,7 @@ impl Case {
             is_short,
             counts_by_points: counted.is_by_points(),
             swings_unheard: shows && !is_short,
+            shows_no_swing,
             planned,
             test,
         })
@@ -213,6 +237,46 @@ impl Case {
         let each = moved.iter().zip(&self.answer);
         let answered: Vec<V3> = each.map(|(m, answer)| rotate(answer, *m)).collect();
         self.seen(&answered)
+    }
+}
+
+/// The job as it is simulated, where it was probed.
+struct Milled {
+    stations: Vec<Station>,
+    rows: Vec<Row>,
+    /// What is left, row by row, m.
+    simulated: Vec<f64>,
+    /// Steps of the run.
+    steps: usize,
+}
+
+impl Milled {
+    fn of(
+        (test, counted): (&PartTest, &Counted),
+        setup: &Setup,
+        support: Support,
+    ) -> Outcome<Self> {
+        let (milled, _) = setup.run(support, |_| {})?;
+        let stations =
+            placed((test, counted), setup, &milled).map_err(|p| p.in_text(&test.path))?;
+        let rows = rows(&stations);
+        let left = rows
+            .iter()
+            .map(|row| dot(row.across, stations[row.station].deviation));
+        Ok(Self {
+            simulated: left.collect(),
+            steps: milled.steps,
+            rows,
+            stations,
+        })
+    }
+
+    fn is_still(&self, alone: &[f64], probe: f64) -> bool {
+        let simulated = Simulated {
+            coupled: &self.simulated,
+            alone,
+        };
+        is_still((&self.stations, &self.rows), &simulated, probe)
     }
 }
 

@@ -44,6 +44,28 @@ pub struct Station {
 }
 
 impl Station {
+    /// A place on a straight way along x where nothing is simulated to be left.
+    #[cfg(test)]
+    pub(super) fn at_rest(s_m: f64) -> Self {
+        Self {
+            time_s: s_m,
+            progress: s_m,
+            share: s_m,
+            s_m,
+            tip: [s_m, 0.0, 0.0],
+            axis: [0.0, 0.0, 1.0],
+            feed: [1.0, 0.0, 0.0],
+            speed: 1.0,
+            joints: Vec::new(),
+            speeds: Vec::new(),
+            force: [0.0; 3],
+            deviation: [0.0; 3],
+            told: [0.0; 3],
+            steep: 0.0,
+            measured: [0.0; 3],
+        }
+    }
+
     /// The plane in which it was probed.
     pub(super) fn plane(&self) -> Plane {
         Plane {
@@ -72,7 +94,7 @@ pub(super) const NEAR: f64 = 0.25e-3;
 /// Distance over which a simulated deviation is called steep, m: as far as a tool that gives way is ahead or behind.
 const STEEP: f64 = 0.15e-3;
 /// A component that a direction hardly has may be missing.
-const HARDLY: f64 = 0.02;
+pub(super) const HARDLY: f64 = 0.02;
 /// Share of a simulated deviation that the laws of the cut do not know.
 pub(super) const LAW: f64 = 0.015;
 

@@ -1,6 +1,7 @@
 //! The workpiece stands elsewhere than the job says.
 
 use super::Case;
+use super::stations::HARDLY;
 use crate::findings::engine::{Blamed, Member};
 use crate::findings::table::{Effect, Place, together};
 use crate::ground::spatial::{IDENTITY, V3};
@@ -12,11 +13,10 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     law_error: 0.0,
     can_be: |_, _| true,
     places: |case| vec![Place::new("workpiece", members(case))],
-    parameters: |_, blamed| {
-        let names = ["x", "y", "z"].iter();
-        names
-            .zip(&blamed.amounts)
-            .map(|(name, amount)| (*name, *amount, "m"))
+    parameters: |case, blamed| {
+        let shows = |k: &usize| case.rows.iter().any(|row| row.across[*k].abs() > HARDLY);
+        let own = (0..3).filter(shows);
+        own.map(|k| (["x", "y", "z"][k], blamed.amounts[k], "m"))
             .collect()
     },
     would_tell: "probe the datum faces of the workpiece before the cut",

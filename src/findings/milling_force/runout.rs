@@ -99,7 +99,7 @@ fn towards(case: &Case, angle: f64) -> Vec<f64> {
 }
 
 /// The largest of all cuts, m.
-fn feed_per_tooth(case: &Case) -> f64 {
+pub(super) fn feed_per_tooth(case: &Case) -> f64 {
     let own = |cut: &CutSamples| cut.present.scene.cut.feed_per_tooth(case.places().teeth);
     case.cuts().iter().map(own).fold(0.0, f64::max)
 }

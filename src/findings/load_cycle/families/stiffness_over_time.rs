@@ -39,9 +39,10 @@ fn loosening(view: &View) -> Shapes {
     shapes.one(view, &grown(&|i| (1.0 + count(i)).ln()));
     // what gives way from stroke to stroke, or from cycle to cycle, is another where the load is nought
     let strokes = if view.two_sided { 2 } else { 1 };
-    let stroke = |i: usize| view.stroke[i] as f64;
     let cycle = |i: usize| (view.stroke[i] / strokes) as f64;
-    shapes.one(view, &grown(&stroke));
+    if view.two_sided {
+        shapes.one(view, &grown(&|i| view.stroke[i] as f64));
+    }
     shapes.one(view, &grown(&cycle));
     shapes.one(view, &grown(&|i| (1.0 + cycle(i)).ln()));
     let hats: Vec<Vec<f64>> = even(0.0, 0.85, 6)

@@ -20,7 +20,7 @@ pub struct View {
     pub stroke: Vec<usize>,
     /// Whether the load takes both signs.
     pub two_sided: bool,
-    /// Whether the load jumps from level to level (dead weights): delays cannot be seen there.
+    /// Whether the load jumps from level to level (dead weights): delays of less than a few rows cannot be seen there.
     pub stepped: bool,
     /// Whether the record starts under load: what came before is unknown.
     pub loaded_start: bool,
@@ -164,9 +164,12 @@ fn strokes(u: &[f64]) -> Vec<usize> {
     let mut begins = vec![0; u.len()];
     let mut last: Option<usize> = None;
     for i in (0..u.len()).filter(|i| u[*i].abs() > LOADED) {
-        if let Some(before) = last.filter(|before| before + 1 < i || u[*before] * u[i] < 0.0) {
-            let nearest = (before + 1..=i).min_by(|a, b| u[*a].abs().total_cmp(&u[*b].abs()));
-            begins[nearest.unwrap_or(i)] = 1;
+        let from = last.map_or(i, |before| before + 1);
+        let nearest = (from..=i).min_by(|a, b| u[*a].abs().total_cmp(&u[*b].abs()));
+        let nearest = nearest.unwrap_or(i);
+        // a load that trembles about the border has not been at zero
+        if last.is_some_and(|before| u[before] * u[i] < 0.0 || u[nearest].abs() < 0.5 * LOADED) {
+            begins[nearest] = 1;
         }
         last = Some(i);
     }
@@ -187,4 +190,27 @@ fn is_stepped(u: &[f64]) -> bool {
     let jumps: f64 = steps.iter().filter(|s| **s > JUMP).sum();
     let busy = still as f64 > STANDS * steps.len() as f64;
     busy && jumps > STANDS * way
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ground::random::Random;
+
+    #[test]
+    fn a_stroke_begins_where_the_load_is_nearest_to_zero() {
+        let mut random = Random::new(2);
+        let tremble = 0.01;
+        let sine = |i: usize| (std::f64::consts::TAU * i as f64 / 750.0).sin();
+        let both: Vec<f64> = (0..2250)
+            .map(|i| sine(i) + tremble * random.normal())
+            .collect();
+        let found = strokes(&both);
+        assert_eq!(found[2249], 5);
+        let begins = |k: usize| found.iter().position(|s| *s == k).unwrap() as f64;
+        (1..6).for_each(|k| assert!((begins(k) - 375.0 * k as f64).abs() < 8.0));
+        let one: Vec<f64> = both.iter().map(|u| u.abs()).collect();
+        assert_eq!(strokes(&one)[2249], 5);
+        assert!(strokes(&[1.0; 20]).iter().all(|s| *s == 0));
+    }
 }

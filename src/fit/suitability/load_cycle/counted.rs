@@ -3,7 +3,7 @@
 use super::{Course, Rule};
 use crate::fit::suitability::{Said, Weight, said_if};
 
-/// Without time rows are taken as equally far apart, and no number in seconds follows.
+/// Without time rows are taken as one second apart: whatever is told in seconds counts rows.
 pub const RULE: Rule = Rule {
     name: "counted",
     remedy: "record the time of every row",
@@ -11,7 +11,6 @@ pub const RULE: Rule = Rule {
 };
 
 fn look(on: &Course) -> Said {
-    let what =
-        "the file has no time: rows are taken as equally far apart, and nothing is told in seconds";
+    let what = "the file has no time: rows are taken as one second apart, and no time that a fit tells is one";
     said_if(on.file.counts_rows, Weight::Note, what)
 }

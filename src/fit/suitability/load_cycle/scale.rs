@@ -4,7 +4,8 @@ use super::{Course, Rule};
 use crate::experiments::load_cycle::straight_line;
 use crate::fit::suitability::magnitude::{explanation, times};
 use crate::fit::suitability::{Said, Weight};
-use crate::measurement::load_cycle::{LEVER_REL_STD, LoadCycle};
+use crate::measurement::load_cycle::{LEVER_REL_STD, LoadCycle, Port};
+use crate::robot::load::load;
 
 /// A stiffness far from the nominal one may be a unit or a lever, not the joint.
 pub const RULE: Rule = Rule {
@@ -28,12 +29,13 @@ fn look(on: &Course) -> Said {
     let file = on.file;
     let mut found = levers(file);
     let line = straight_line(&file.load, &on.deflection);
-    let Some(nominal) = file.facts.nominal_stiffness else {
-        return found;
-    };
     if !(line.is_finite() && line > 0.0 && on.relation.is_real()) {
         return found;
     }
+    let Some(nominal) = file.facts.nominal_stiffness else {
+        found.extend(beside_robot(file, line));
+        return found;
+    };
     let ratio = line / nominal;
     let lever = file.facts.lever_rel_std.unwrap_or(LEVER_REL_STD);
     let spread = file
@@ -55,6 +57,22 @@ fn look(on: &Course) -> Said {
     };
     found.push((weight, what));
     found
+}
+
+/// The same beside the robot that the file names, of which no spread is known: only what no joint is off by.
+fn beside_robot(file: &LoadCycle, line: f64) -> Option<(Weight, String)> {
+    file.facts.axis.filter(|_| file.port == Port::Rotational)?;
+    let robot = load(file.facts.robot.as_ref()?, Some(&file.path)).ok()?;
+    let site = file.site();
+    let own = robot.robot.springs().find(|(name, _)| *name == site)?.1;
+    let ratio = line / own.stiffness;
+    let is_far = ratio.max(1.0 / ratio) > UNIT;
+    is_far.then(|| {
+        let why = explanation(ratio).map_or(String::new(), |why| format!("; {why}"));
+        let times = times(ratio);
+        let what = format!("the stiffness comes out {times} that of {site} of the robot{why}");
+        (Weight::Fatal, what)
+    })
 }
 
 /// Levers that no rig has.
