@@ -34,7 +34,7 @@ fn is_asked() -> bool {
     names.iter().any(|name| std::env::var_os(name).is_some())
 }
 
-/// Every seventh single cause; of what is clean, two together or strange, the first.
+/// Every fourteenth single cause; of what is clean, two together or strange, the first.
 fn some(kinds: Vec<(String, u64)>) -> Vec<(String, u64)> {
     let class = |kind: &str| match kind {
         "clean" => 1,
@@ -47,7 +47,7 @@ fn some(kinds: Vec<(String, u64)>) -> Vec<(String, u64)> {
         let class = class(kind);
         seen[class] += 1;
         match class {
-            0 => seen[0] % 7 == 1,
+            0 => seen[0] % 14 == 1,
             _ => seen[class] == 1,
         }
     };

@@ -159,7 +159,7 @@ fn times() -> usize {
 #[test]
 fn single_causes_are_named() {
     let mut cases = Vec::new();
-    let apart = apart([5, 2]);
+    let apart = apart([7, 2]);
     for (k, fault) in FAULTS.iter().enumerate().step_by(apart) {
         cases.extend(seeds(100 * k as u64, times()).map(|s| (s, vec![*fault])));
     }
@@ -170,7 +170,7 @@ fn single_causes_are_named() {
 #[test]
 fn two_causes_are_named() {
     let mut random = Random::new(number("IDENT_BLIND_SEED", 1));
-    let cases: Vec<(u64, Vec<&'static str>)> = seeds(2000, each(2, 4) * times())
+    let cases: Vec<(u64, Vec<&'static str>)> = seeds(2000, each(1, 4) * times())
         .map(|s| {
             let first = random.below(FAULTS.len());
             let second = (first + 1 + random.below(FAULTS.len() - 1)) % FAULTS.len();
@@ -191,6 +191,7 @@ fn a_cut_as_stated_is_sufficient() {
 }
 
 #[test]
+#[ignore = "takes long: .ci/thorough runs it"]
 fn what_no_effect_makes_is_flagged() {
     let apart = apart([STRANGERS.len(), 3]);
     let cases: Vec<(u64, Vec<&'static str>)> = seeds(6000, STRANGERS.len() * times())

@@ -155,6 +155,48 @@ fn lobes_of_a_modal_file_are_those_of_the_benchmark() {
     assert!(lobes["limit_depth_mm"][1].is_null() && lobes["chatter_Hz"][1].is_null());
 }
 
+/// Two modes, a slot, four straight teeth: nothing of the cut changes over a turn, and the chatter has one line. Frequencies by a
+/// zero-order solution (Altintas, Budak 1995) that somebody else wrote, who simulated two of them in time as well.
+#[test]
+fn chatter_is_told_at_the_frequency_that_sounds() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = r#"kind = "modal"
+[[modes]]
+direction = [1, 0, 0]
+frequency_Hz = 600.0
+damping_ratio = 0.03
+stiffness_N_m = 5.6e6
+[[modes]]
+direction = [0, 1, 0]
+frequency_Hz = 660.0
+damping_ratio = 0.035
+stiffness_N_m = 5.7e6
+[tool]
+diameter_mm = 19.05
+teeth = 4
+helix_deg = 0.0
+flute_mm = 40.0
+spindle_rpm = 6000.0
+[material]
+Ktc_N_mm2 = 600.0
+Krc_N_mm2 = 42.0
+Kac_N_mm2 = 0.0
+Kte_N_mm = 0.0
+Kre_N_mm = 0.0
+Kae_N_mm = 0.0
+[cut]
+width_mm = 19.05
+cut = "slot"
+"#;
+    std::fs::write(folder.path().join("m.toml"), text).unwrap();
+    let arguments = ["lobes", "m.toml", "--rpm", "4000:12000:1000", "--json"];
+    let found = json(&ident(folder.path(), &arguments));
+    for (speed, hz) in [(0, 645.0), (1, 593.0), (6, 579.5), (7, 590.0), (8, 597.0)] {
+        let told = found["chatter_Hz"][speed].as_f64().unwrap();
+        assert!((told - hz).abs() < 2.0, "{speed}: {told} Hz");
+    }
+}
+
 #[test]
 fn a_modal_file_that_is_wrong_is_refused_with_its_line() {
     let folder = tempfile::tempdir().unwrap();
@@ -178,6 +220,8 @@ fn a_modal_file_states_its_own_cut() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("m.toml");
     std::fs::write(&path, MODAL).unwrap();
+    let along = ident(folder.path(), &["lobes", "m.toml", "--along"]);
+    assert!(String::from_utf8_lossy(&along.stderr).contains("leave --along out"));
     for option in [["--cut", "up"], ["--width-mm", "5"]] {
         let all = [&["lobes", "m.toml", "--at", "5000,0.5"], &option[..]].concat();
         let output = ident(folder.path(), &all);

@@ -42,7 +42,7 @@ fn asked(variable: &str, default: u64) -> u64 {
 #[test]
 fn hidden_effects_are_named() {
     let (each, seed) = (
-        asked("IDENT_BLIND_CASES", common::few_or_all(3, 16)),
+        asked("IDENT_BLIND_CASES", common::few_or_all(2, 16)),
         asked("IDENT_BLIND_SEED", 1),
     );
     let jobs: Vec<(&'static str, u64)> = NAMES
@@ -115,7 +115,7 @@ fn hidden_effects_are_named() {
 #[test]
 fn what_no_cause_makes_takes_no_name() {
     let (each, seed) = (
-        asked("IDENT_BLIND_CASES", common::few_or_all(3, 10)),
+        asked("IDENT_BLIND_CASES", common::few_or_all(2, 10)),
         asked("IDENT_BLIND_SEED", 1),
     );
     let mut named = [0; 2];

@@ -61,7 +61,7 @@ fn the_result_does_not_depend_on_the_threads() {
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let pool = pool.build().unwrap();
-        pool.install(|| tuned(80, true, true, 3).tuned.values)
+        pool.install(|| tuned(80, true, true, 2).tuned.values)
     };
     assert_eq!(on(1), on(2));
 }

@@ -32,7 +32,7 @@ fn screws_by_strangers_are_judged_rightly() {
 fn force_sensors_by_strangers_are_judged_rightly() {
     let rates = conclude(
         "force-sensor",
-        &judged(judge::force_sensor::draw, few_or_all(9, 18)),
+        &judged(judge::force_sensor::draw, few_or_all(6, 18)),
     );
     let floors = Floors {
         clean: 0.5,
@@ -140,7 +140,7 @@ fn an_offset_beside_a_wrong_speed_is_found() {
 /// 97 / 99 of 101, 31 / 40 of 44, 28 / 28 of 28, 3 / 1 of 206.
 #[test]
 fn cubes_by_strangers_are_judged_rightly() {
-    let rates = conclude("cubes", &judged(judge::cubes::draw, few_or_all(12, 16)));
+    let rates = conclude("cubes", &judged(judge::cubes::draw, few_or_all(8, 16)));
     let floors = Floors {
         clean: 0.4,
         single: 0.4,

@@ -4,6 +4,7 @@
 //! every case, `IDENT_JUDGE_KEEP` names a folder for the files. Misses are always printed.
 //! `cargo test --test suite judge_load_cycle:: -- --nocapture` prints the rates.
 
+use crate::common::few_or_all;
 use crate::judge::intervals::told;
 use crate::judge::load_cycle::{UNFIT, draw, stiffness, table, unfit};
 use crate::judge::{Floors, Held, conclude, judged, number};
@@ -73,7 +74,7 @@ fn intervals_of_axes_hold_the_truth() {
         let (files, truth, said) = stiffness(*seed);
         (*seed, truth, said, asked("stiffness", *seed, &files[0].1))
     };
-    let all: Vec<_> = two(|| seeds(12).par_iter().map(one).collect());
+    let all: Vec<_> = two(|| seeds(few_or_all(8, 12)).par_iter().map(one).collect());
     let mut held = Held::default();
     for (seed, truth, said, answer) in &all {
         for (name, _, value) in truth {
@@ -114,7 +115,7 @@ fn no_number_comes_from_what_carries_none() {
             asked("diagnose", *seed, &text),
         )
     };
-    let all: Vec<_> = two(|| seeds(9).par_iter().map(one).collect());
+    let all: Vec<_> = two(|| seeds(few_or_all(6, 9)).par_iter().map(one).collect());
     let mut kept = 0;
     for (seed, name, truth, stiffness, diagnosis) in &all {
         let number = interval(stiffness, "stiffness");

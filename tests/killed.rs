@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 const FILES: [&str; 3] = ["axis6.csv", "axis6-tilt.csv", "workspace.csv"];
 /// How many moments to kill at, evenly over a run.
 fn kills() -> u32 {
-    few_or_all(3, 16) as u32
+    few_or_all(2, 16) as u32
 }
 
 type Results = BTreeMap<PathBuf, Vec<u8>>;

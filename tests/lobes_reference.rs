@@ -49,13 +49,12 @@ impl Bench {
 
     fn radius(&self, rpm: f64, depth_mm: f64, immersion: f64, side: Side) -> f64 {
         self.passing(rpm, immersion, side, 1.0)
-            .multiplier(1e-3 * depth_mm)
-            .radius
+            .radius(1e-3 * depth_mm)
     }
 
     fn limit_mm(&self, rpm: f64, immersion: f64, side: Side) -> f64 {
         let passing = self.passing(rpm, immersion, side, 1.0);
-        1e3 * limit(|d| passing.multiplier(d).radius, 1e-6, 10e-3).unwrap_or(f64::NAN)
+        1e3 * limit(|d| passing.radius(d), 1e-6, 10e-3).unwrap_or(f64::NAN)
     }
 }
 

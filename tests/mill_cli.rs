@@ -36,7 +36,7 @@ path_jerk_m_s3 = 20.0
 
 /// A slot with a corner, two millimetres deep.
 const PATH: &str = "# kind = \"path\"\nx_mm,y_mm,z_mm,i,j,k,rapid\n\
-    -12,0,-2,0,0,1,0\n20,0,-2,0,0,1,0\n20,20,-2,0,0,1,0\n20,45,-2,0,0,1,1\n";
+    -12,0,-2,0,0,1,0\n20,0,-2,0,0,1,0\n20,20,-2,0,0,1,0\n20,39,-2,0,0,1,0\n20,45,-2,0,0,1,1\n";
 
 fn ident(folder: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_ident"))
@@ -529,5 +529,11 @@ fn material_that_no_tooth_meets_is_told() {
     assert!(
         !beside.contains("plunges") && !beside.contains("begins"),
         "{beside}"
+    );
+    assert!(!beside.contains("rapid"), "{beside}");
+    let rapid = remarks("-12,0,-2,0,0,1,0\n45,0,-2,0,0,1,0\n60,9,-2,0,0,1,0\n-32,9,-2,0,0,1,1\n");
+    assert!(
+        rapid.contains("line 6") && rapid.contains("a rapid motion cuts"),
+        "{rapid}"
     );
 }

@@ -60,6 +60,31 @@ fn a_job_gives_trajectory_report_and_json() {
     assert_eq!((ran.out, text), (again.out, bench.text(file)));
 }
 
+/// A line that holds the orientation of its end begins with it: in the trajectory, and in the program that the robot runs.
+#[test]
+fn a_program_starts_with_the_orientation_of_the_plan() {
+    let turning = "# kind = \"path\"\nx_mm,y_mm,z_mm,a_deg,b_deg,c_deg\n\
+                   0,0,0,180,0,180\n100,0,0,180,20,180\n100,60,0,180,20,150\n";
+    let first = |orientation: &str| {
+        let bench = Bench::new();
+        bench.put("part.csv", turning.as_bytes());
+        bench.put(
+            "job.toml",
+            job(&format!("orientation = \"{orientation}\"")).as_bytes(),
+        );
+        let ran = bench.run(&["plan", "job.toml", "--program", "krl"]);
+        assert!(ran.status < 2, "{}", ran.errors);
+        let program = bench.text("reports/job/part.src");
+        let line = program.lines().find(|line| line.starts_with("LIN {"));
+        let told = ran.errors.contains("over the whole of each line");
+        (line.unwrap().to_string(), told)
+    };
+    let (blend, told) = first("blend");
+    assert!(blend.contains("B 20") && told, "{blend}");
+    let (whole, told) = first("whole");
+    assert!(whole.contains("B 0") && !told, "{whole}");
+}
+
 #[test]
 fn a_dry_run_writes_nothing() {
     let bench = Bench::new();

@@ -3,6 +3,7 @@
 //! `IDENT_STRANGER_SEED` and `IDENT_STRANGER_CASES` choose other cases, `IDENT_DEBUG=1` prints the misses.
 //! `cargo test --test suite stranger:: -- --nocapture` prints the rates.
 
+use crate::common::few_or_all;
 use crate::stranger_generator;
 
 use crate::stranger_generator::Case;
@@ -144,7 +145,7 @@ fn reliability(judged: &[(Case, Diagnosis)]) {
 #[test]
 fn data_by_strangers_are_judged_rightly() {
     let base = number("IDENT_STRANGER_SEED").unwrap_or(1) * 100_000;
-    let count = number("IDENT_STRANGER_CASES").unwrap_or(60);
+    let count = number("IDENT_STRANGER_CASES").unwrap_or_else(|| few_or_all(30, 60));
     let seeds: Vec<u64> = (base..base + count).collect();
     let judged: Vec<(Case, Diagnosis)> = seeds
         .par_iter()

@@ -94,7 +94,7 @@ impl Case {
         let at = |rpm: &f64| -> Vec<f64> {
             let passing_s = 60.0 / rpm / self.tool.teeth as f64;
             let passing = Passing::new(&self.modes, &cut, passing_s, 1.0);
-            let radius = |depth: &f64| passing.multiplier(*depth).radius;
+            let radius = |depth: &f64| passing.radius(*depth);
             self.depths.iter().map(radius).collect()
         };
         self.speeds.par_iter().map(at).collect()

@@ -13,10 +13,29 @@ const MORE: f64 = 1.4;
 const SETTLED: f64 = 1e-10;
 /// A new vector this much shorter than its map lies within the space.
 const WITHIN: f64 = 1e-13;
+/// Share by which inverse iteration stands beside an eigenvalue: at it nothing can be solved.
+const BESIDE: f64 = 1e-9;
 
 /// The eigenvalue of largest modulus (imaginary part not negative) of a real map of `size` dimensions;
 /// `None` where the map gives numbers that are not finite, or has no dimension.
 pub fn largest(size: usize, map: impl Fn(&DVector<f64>) -> DVector<f64>) -> Option<Complex<f64>> {
+    settled(size, map).map(|found| found.0)
+}
+
+/// The same with its vector.
+pub fn pair(
+    size: usize,
+    map: impl Fn(&DVector<f64>) -> DVector<f64>,
+) -> Option<(Complex<f64>, DVector<Complex<f64>>)> {
+    let (value, space) = settled(size, map)?;
+    let vector = space.vector(value)?;
+    Some((value, vector))
+}
+
+fn settled(
+    size: usize,
+    map: impl Fn(&DVector<f64>) -> DVector<f64>,
+) -> Option<(Complex<f64>, Space)> {
     let mut space = Space::new(size)?;
     let mut before: Option<Complex<f64>> = None;
     let mut aim = FIRST;
@@ -25,7 +44,7 @@ pub fn largest(size: usize, map: impl Fn(&DVector<f64>) -> DVector<f64>) -> Opti
         let value = space.largest()?;
         let settled = before.is_some_and(|b| (value - b).norm() <= SETTLED * value.norm());
         if whole || settled {
-            return Some(value);
+            return Some((value, space));
         }
         before = Some(value);
         aim = (MORE * aim as f64) as usize;
@@ -83,10 +102,28 @@ impl Space {
         (parts, vector)
     }
 
-    fn largest(&self) -> Option<Complex<f64>> {
+    /// The map between the vectors that were mapped.
+    fn inner(&self) -> DMatrix<f64> {
         let n = self.columns.len();
         let part = |i: usize, j: usize| self.columns[j].get(i).copied().unwrap_or(0.0);
-        let values = DMatrix::from_fn(n, n, part).complex_eigenvalues();
+        DMatrix::from_fn(n, n, part)
+    }
+
+    /// The vector of an eigenvalue, by inverse iteration beside it.
+    fn vector(&self, value: Complex<f64>) -> Option<DVector<Complex<f64>>> {
+        let inner = self.inner().map(Complex::from);
+        let n = inner.nrows();
+        let beside = value * (1.0 + BESIDE) + Complex::from(f64::MIN_POSITIVE);
+        let solved = (inner - DMatrix::identity(n, n) * beside).lu();
+        let start = DVector::from_element(n, Complex::new(1.0, 0.0));
+        let found = (0..2).try_fold(start, |v, _| Some(solved.solve(&v)?.normalize()))?;
+        let zero = DVector::zeros(self.basis[0].len());
+        let parts = found.iter().zip(&self.basis);
+        Some(parts.fold(zero, |sum, (part, own)| sum + own.map(|x| part * x)))
+    }
+
+    fn largest(&self) -> Option<Complex<f64>> {
+        let values = self.inner().complex_eigenvalues();
         let found = values.iter().copied();
         let found = found.max_by(|a, b| a.norm().total_cmp(&b.norm()).then(a.im.total_cmp(&b.im)));
         found.map(|v| Complex::new(v.re, v.im.abs()))
@@ -113,6 +150,15 @@ mod tests {
             let matrix = DMatrix::from_fn(size, size, |i, _| weight(i as i32) * random.normal());
             assert!(apart(&matrix) < 1e-8, "{size} {decay}: {}", apart(&matrix));
         }
+    }
+
+    #[test]
+    fn a_value_comes_with_its_vector() {
+        let mut random = Random::new(6);
+        let matrix = DMatrix::from_fn(30, 30, |i, _| f64::powi(0.8, i as i32) * random.normal());
+        let (value, vector) = pair(30, |v| &matrix * v).unwrap();
+        let mapped = matrix.map(Complex::from) * &vector;
+        assert!((mapped - vector * value).norm() < 1e-6 * value.norm());
     }
 
     #[test]

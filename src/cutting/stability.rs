@@ -53,6 +53,9 @@ pub struct Multiplier {
     pub frequency_hz: f64,
 }
 
+/// Imaginary part, of its size, below which a multiplier is real.
+const REAL: f64 = 1e-9;
+
 /// No answer.
 const UNSTABLE: Multiplier = Multiplier {
     radius: f64::INFINITY,
@@ -195,30 +198,46 @@ impl Passing {
         })
     }
 
-    /// The multiplier that decides at a depth of cut, m. A map that cannot be made counts as unstable.
-    pub fn multiplier(&self, depth_m: f64) -> Multiplier {
-        let size = self.nodes.nrows() + self.carry.nrows();
+    /// Size of the multiplier that decides at a depth of cut, m. A map that cannot be made counts as unstable.
+    pub fn radius(&self, depth_m: f64) -> f64 {
         let map = self.map(depth_m);
-        let value = map.and_then(|map| krylov::largest(size, |before| map.after(before)));
-        value.map_or(UNSTABLE, |value| Multiplier {
+        let value = map.and_then(|map| krylov::largest(self.size(), |before| map.after(before)));
+        value.map_or(UNSTABLE.radius, Complex::norm)
+    }
+
+    /// The same with the frequency at which it swings.
+    pub fn multiplier(&self, depth_m: f64) -> Multiplier {
+        let map = self.map(depth_m);
+        let found = map.and_then(|map| krylov::pair(self.size(), |before| map.after(before)));
+        found.map_or(UNSTABLE, |(value, vector)| Multiplier {
             radius: value.norm(),
-            frequency_hz: self.frequency(value),
+            frequency_hz: self.frequency(value, &vector.as_slice()[self.nodes.nrows()..]),
         })
     }
 
-    /// The frequency k/τ ± arg/2πτ that is nearest above a mode, relative to that mode.
-    fn frequency(&self, value: Complex<f64>) -> f64 {
-        let base = value.arg().abs() / (TAU * self.period_s);
-        let comb = |omega: &f64| {
-            let natural = omega / TAU;
-            let near = |sign: f64| {
-                let k = (natural * self.period_s - sign * base * self.period_s).ceil();
-                (k / self.period_s + sign * base).abs()
-            };
-            [near(1.0), near(-1.0)].map(|f| (f, (f - natural).abs() / natural))
+    /// Displacements at the nodes, and states.
+    fn size(&self) -> usize {
+        self.nodes.nrows() + self.carry.nrows()
+    }
+
+    /// Of all frequencies |arg/2πτ + k/τ| the one at which the strongest mode swings: how fast it goes where it stands says which. A real
+    /// multiplier (0, or half a turn per passing) has no such phase: there the one nearest to that mode.
+    fn frequency(&self, value: Complex<f64>, states: &[Complex<f64>]) -> f64 {
+        let base = value.arg() / (TAU * self.period_s);
+        let size = |i: &usize| states[2 * i].norm_sqr() + states[2 * i + 1].norm_sqr();
+        let modes = 0..self.omegas.len();
+        let Some(strongest) = modes.max_by(|a, b| size(a).total_cmp(&size(b))) else {
+            return base;
         };
-        let all = self.omegas.iter().flat_map(comb);
-        all.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(base, |f| f.0)
+        let (place, speed) = (states[2 * strongest], states[2 * strongest + 1]);
+        let turns = (place.conj() * speed).im / place.norm_sqr();
+        let natural = self.omegas[strongest] / TAU;
+        let swings = match value.im.abs() > REAL * value.norm() && turns.is_finite() {
+            true => natural * turns,
+            false => natural,
+        };
+        let passings = ((swings - base) * self.period_s).round();
+        (base + passings / self.period_s).abs()
     }
 }
 

@@ -38,6 +38,12 @@ impl Element {
     pub fn asked_blend(&self, job: Option<f64>) -> f64 {
         self.own_blend.or(job).or(self.blend).unwrap_or(0.0)
     }
+
+    /// Whether the tool turns from one end to the other, of a line or an arc.
+    pub fn turns(&self) -> bool {
+        let is_spline = matches!(self.curve, Curve::Nurbs(_));
+        !is_spline && norm(self.ends[0].way_to(self.ends[1])) > SAME_ORIENTATION
+    }
 }
 
 /// The elements of a path and the turns on the spot between them.

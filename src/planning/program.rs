@@ -90,7 +90,9 @@ impl Writer<'_> {
         let elements = &path.programme.elements;
         let mut turns = path.programme.turns.iter().peekable();
         let first = path.programme.turns.first().filter(|turn| turn.before == 0);
-        let start = first.map_or(elements[0].ends[0], |turn| turn.ends[0]);
+        // a line that holds the orientation of its end begins with that
+        let start = || path.orientation(0.0, Side::After);
+        let start = first.map_or_else(start, |turn| turn.ends[0]);
         let begin = elements[0].curve.point(0.0);
         self.push(begin, start, 0.0, Shape::Line, &elements[0], 0.0);
         for (k, element) in elements.iter().enumerate() {

@@ -11,6 +11,7 @@ mod not_cut;
 pub mod oscillator;
 pub mod planned;
 pub mod pose;
+mod rapid;
 pub mod recorded;
 pub mod rigid;
 pub mod run;

@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 /// A path that cuts nothing, and where to look then.
 pub const NOTHING_CUT: [&str; 2] = [
     "the path cuts nothing",
-    "check origin_m, abc_deg and the stock of [workpiece], and the path's heights",
+    "check origin_m, abc_deg and the stock of [workpiece], the path's heights, and whether its flutes reach the stock",
 ];
 
 /// How the way is run.
@@ -69,6 +69,8 @@ pub struct Outcome {
     pub peak_n: f64,
     /// Mean force while in the cut, N, workpiece frame.
     pub mean_n: V3,
+    /// Mean size of the force of a tooth passing there, N: what acts one way and then the other does not cancel.
+    pub mean_size_n: f64,
     /// Steps of time.
     pub steps: usize,
     /// Step in the cut, s.
@@ -204,6 +206,8 @@ struct Book {
     teeth: usize,
     cutting_s: f64,
     impulse: V3,
+    /// The same of its size.
+    impulse_size: f64,
     peak: f64,
     steps: usize,
     per_tick: usize,
@@ -223,6 +227,7 @@ impl Book {
         if bout.peak > 0.0 {
             self.cutting_s += tick.duration_s();
             self.impulse = add(self.impulse, scale(tick.duration_s(), bout.force));
+            self.impulse_size += tick.duration_s() * norm(bout.force);
             self.peak = self.peak.max(bout.peak);
         }
         self.latest
@@ -286,6 +291,7 @@ impl Book {
         };
         Outcome {
             mean_n: mean(self.impulse),
+            mean_size_n: mean([self.impulse_size, 0.0, 0.0])[0],
             course: self.course,
             removed_m3: cutter.removed(),
             drilled_m3: cutter.drilled(),

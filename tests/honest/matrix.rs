@@ -303,12 +303,15 @@ fn judged(ran: &Ran, clean: &Value, right: fn(&Value, &Value) -> bool) -> &'stat
     }
 }
 
-/// Every third corruption before one of the verbs that can be wrong, turn by turn (the first of several looks only); in a thorough
+/// One corruption of so many is asked in a quick run.
+const APART: usize = 5;
+
+/// One corruption of [`APART`] before one of the verbs that can be wrong, turn by turn (the first of several looks only); in a thorough
 /// run every corruption before every verb.
 fn asked(corruption: usize, verb: usize, verbs: usize) -> bool {
     let first = usize::from(verbs > 1);
-    let turn = first + corruption / 3 % (verbs - first);
-    is_thorough() || (corruption.is_multiple_of(3) && verb == turn)
+    let turn = first + corruption / APART % (verbs - first);
+    is_thorough() || (corruption.is_multiple_of(APART) && verb == turn)
 }
 
 /// Puts every corruption before the verbs; how many answers are wrong without a word.

@@ -21,7 +21,7 @@ fn count() -> u64 {
     let asked = std::env::var("IDENT_UNRELATED").ok();
     asked
         .and_then(|n| n.parse().ok())
-        .unwrap_or_else(|| few_or_all(10, 40))
+        .unwrap_or_else(|| few_or_all(6, 40))
 }
 
 fn displacement(kind: usize, random: &mut Random) -> Vec<f64> {

@@ -136,6 +136,13 @@ pub fn remarks(result: &Corrected) -> Vec<String> {
             significant(1e3 * result.found.last_change_m, 2)
         ));
     }
+    let is_beside =
+        |(name, left): &(&str, Vec<_>)| (*left == result.stations[1]).then(|| name.to_string());
+    if let Some(name) = result.beside.as_ref().and_then(is_beside) {
+        said.push(format!(
+            "the simulated force is used nowhere, since it differs too little from the measured one: this is `{name}`"
+        ));
+    }
     said.extend(result.not_cut.iter().cloned());
     said
 }

@@ -135,7 +135,8 @@ impl Found {
 fn ending(found: &Found) -> Ending {
     let open = |s: &Status| *s == Status::NotIdentifiable;
     let coefficients = &found.account.parameters[..6];
-    Ending::attention_if(is_odd(&found.doubts) || coefficients.iter().any(|p| open(&p.status)))
+    let is_odd = is_odd(&found.doubts) || found.account.leaves_much();
+    Ending::attention_if(is_odd || coefficients.iter().any(|p| open(&p.status)))
 }
 
 fn write(found: &Found) -> Outcome<Vec<PathBuf>> {

@@ -42,17 +42,22 @@ fn read_file(arguments: &Arguments) -> Outcome<Case> {
     let bytes = read_bytes(path)?;
     let text = String::from_utf8_lossy(&bytes);
     let table = text.parse::<toml::Table>().unwrap_or_default();
-    match table.get("kind").and_then(toml::Value::as_str) {
-        Some("modal") => modal(arguments, path),
-        _ => match arguments.station {
+    match is_modal(&table) {
+        true => modal(arguments, path),
+        false => match arguments.station {
             Some(mm) => at_station(arguments, mm),
             None => at_start(arguments),
         },
     }
 }
 
+fn is_modal(table: &toml::Table) -> bool {
+    table.get("kind").and_then(toml::Value::as_str) == Some("modal")
+}
+
 fn modal(arguments: &Arguments, path: &Path) -> Outcome<Case> {
     let asks = [
+        ("--along", "has no path", arguments.along),
         ("--station", "has no path", arguments.station.is_some()),
         ("--cut", "states its own cut", arguments.cut.is_some()),
         (
@@ -146,6 +151,11 @@ fn counted(cutter: &Cutter, material: &Material) -> Vec<String> {
 
 /// The job planned, and the cut at each of its places, without modes yet.
 pub fn planned(arguments: &Arguments) -> Outcome<(Case, Planned)> {
+    let bytes = read_bytes(&arguments.file)?;
+    let table = String::from_utf8_lossy(&bytes).parse::<toml::Table>();
+    if is_modal(&table.unwrap_or_default()) {
+        modal(arguments, &arguments.file)?;
+    }
     let planned = Planned::read(&arguments.file)?;
     let robot = &planned.plan.cell.robot;
     check::dynamics(robot).map_err(|p| p.in_file(&planned.job.path))?;

@@ -120,15 +120,19 @@ impl Case {
     fn limit(&self, rpm: f64, deepest_m: f64, refine: f64) -> Limit {
         let straight = !self.directional(deepest_m).depends_on_depth();
         let ready = straight.then(|| self.passing(rpm, deepest_m, refine));
-        let at = |depth: f64| match &ready {
-            Some(passing) => passing.multiplier(depth),
-            None => self.multiplier(rpm, depth, refine),
+        let radius = |depth: f64| match &ready {
+            Some(passing) => passing.radius(depth),
+            None => self.passing(rpm, depth, refine).radius(depth),
         };
-        let depth = limit(|d| at(d).radius, SHALLOWEST * deepest_m, deepest_m);
+        let depth = limit(radius, SHALLOWEST * deepest_m, deepest_m);
+        let chatter_hz = |depth: f64| {
+            let depth = depth.max(SHALLOWEST * deepest_m);
+            self.multiplier(rpm, depth, refine).frequency_hz
+        };
         Limit {
             rpm,
             depth_m: depth,
-            chatter_hz: depth.map(|d| at(d.max(SHALLOWEST * deepest_m)).frequency_hz),
+            chatter_hz: depth.map(chatter_hz),
         }
     }
 
@@ -216,6 +220,7 @@ fn one(arguments: &Arguments, case: &Case, at: &str) -> Outcome<Ending> {
         )?,
         false => print(&account::sentence(rpm, depth_mm, &found))?,
     }
+    // a question, and no limit that was set
     Ok(Ending::Done)
 }
 

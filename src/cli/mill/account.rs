@@ -25,7 +25,7 @@ pub fn sentences(result: &Result) -> Vec<String> {
         significant(milled.duration_s, 4),
         significant(milled.cutting_s, 4),
         significant(milled.peak_n, 4),
-        significant(norm(milled.mean_n), 4),
+        significant(milled.mean_size_n, 4),
     )];
     said.extend(result.driven.as_ref().map(driven));
     said.extend(deviation(result));
@@ -113,6 +113,13 @@ pub fn remarks(result: &Result) -> Vec<String> {
     }
     if result.milled.removed_m3 == 0.0 {
         said.push(NOTHING_CUT.join(": "));
+    }
+    if let Some(s) = result.cut_in_rapid() {
+        said.push(format!(
+            "line {} of the path: a rapid motion cuts, from {} mm of the path on: do not run it; move above the stock, or at the feed",
+            result.planned.plan.path.line(s),
+            significant(1e3 * s, 4)
+        ));
     }
     said.extend(result.milled.not_cut());
     if result.support != Support::Coupled && result.step_asked {

@@ -17,6 +17,7 @@ pub fn body(result: &Result, written: &Written) -> Value {
         "duration_s": number(milled.duration_s),
         "cutting_s": number(milled.cutting_s),
         "peak_force_N": number(milled.peak_n),
+        "mean_force_size_N": number(milled.mean_size_n),
         "mean_force_N": (milled.cutting_s > 0.0).then(|| numbers(&milled.mean_n)),
         "deviation_mm": deviation(result),
         "joints": result.driven.as_ref().map(driven),

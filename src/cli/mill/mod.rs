@@ -46,7 +46,8 @@ struct Arguments {
     /// Nothing gives way: forces only
     #[arg(long)]
     rigid: bool,
-    /// Springs only: deflection is compliance times force (default: robot and cut coupled in time)
+    /// Springs only: deflection is compliance times force, and the sag since the start of the path (default: robot and cut
+    /// coupled in time)
     #[arg(long = "static", conflicts_with = "rigid")]
     springs: bool,
     /// Recorded joint angles (kind trajectory or joint-motion) drive the robot instead of the plan
@@ -263,7 +264,14 @@ impl Result {
     fn needs_attention(&self) -> bool {
         let holds = self.met().is_none_or(|met| met == Met::Yes);
         let is_whole = self.milled.removed_m3 > 0.0 && self.ends_at().is_none();
-        !(holds && is_whole && self.planned.plan.exceeded.is_empty())
+        let is_allowed = self.planned.plan.exceeded.is_empty() && self.cut_in_rapid().is_none();
+        !(holds && is_whole && is_allowed)
+    }
+
+    /// Where a rapid motion cuts first, m of the path.
+    fn cut_in_rapid(&self) -> Option<f64> {
+        let path = &self.planned.plan.path;
+        self.milled.cut_in_rapid(|s| path.is_rapid(s))
     }
 }
 

@@ -2,6 +2,8 @@
 
 use super::json::{stops, tangential};
 use super::{Planned, Written};
+use crate::measurement::job::Turning;
+use crate::path::element::Element;
 use crate::planning::exceeded::Exceeded;
 use crate::sheet::number::significant;
 
@@ -36,13 +38,16 @@ pub fn sentences(planned: &Planned) -> Vec<String> {
         plan.rows.len(),
         significant(plan.cycle * 1e3, 3)
     )];
-    said.push(format!(
-        "Corners are passed at {} mm at most. The asked feed of {} mm/s is held on {} % of the length, the lowest is {} mm/s.",
-        significant(path.max_deviation() * 1e3, 3),
-        significant(plan.feed.asked * 1e3, 4),
-        significant(100.0 * plan.feed.held_share, 4),
-        significant(plan.feed.min * 1e3, 4)
-    ));
+    let corners = significant(path.max_deviation() * 1e3, 3);
+    said.push(match path.programme.elements.iter().all(|e| e.rapid) {
+        true => format!("Corners are passed at {corners} mm at most. All of it is rapid motion."),
+        false => format!(
+            "Corners are passed at {corners} mm at most. The asked feed of {} mm/s is held on {} % of the length, the lowest is {} mm/s.",
+            significant(plan.feed.asked * 1e3, 4),
+            significant(100.0 * plan.feed.held_share, 4),
+            significant(plan.feed.min * 1e3, 4)
+        ),
+    });
     let busiest = plan.joints.iter().filter_map(|joint| {
         let limit = joint.speed_limit?;
         Some((joint, 100.0 * joint.max_speed / limit))
@@ -109,6 +114,10 @@ pub fn remarks(planned: &Planned) -> Vec<String> {
             significant(first.radius * 1e3, 3),
             significant(first.asked * 1e3, 3)
         ));
+    }
+    let turns = path.programme.elements.iter().any(Element::turns);
+    if turns && planned.job.orientation != Turning::Whole {
+        all.push("the tool is planned to turn about the corners; a controller that runs the program turns it over the whole of each line: `orientation = \"whole\"` plans that motion".into());
     }
     if path.programme.duplicates > 0 {
         let count = path.programme.duplicates;

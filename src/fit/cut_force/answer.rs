@@ -120,10 +120,23 @@ pub fn identify(files: &[MillingForce]) -> Account {
     account
 }
 
+/// Times the stated noise of a channel, where one is, and share of the force, from which what the law leaves needs attention. Choices, no
+/// measurement: laws of real cuts leave a tenth.
+const MUCH: (f64, f64) = (10.0, 0.25);
+
 impl Account {
     /// Whether the law leaves so much that its numbers are those of another cut.
     pub fn is_another_cut(&self) -> bool {
         self.repeating > ANOTHER
+    }
+
+    /// Whether it leaves far more than the stated noise, and a good share of the force.
+    pub fn leaves_much(&self) -> bool {
+        let size = |v: V3| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let force: Vec<Vec<V3>> = self.cuts.iter().map(|c| c.data.force.clone()).collect();
+        let of_one = size(self.rms) / 3.0_f64.sqrt();
+        let is_noise = self.stated_noise.is_some_and(|n| of_one < MUCH.0 * n);
+        !is_noise && size(self.rms) > MUCH.1 * size(rms(&force))
     }
 
     fn withhold(&mut self) {

@@ -116,9 +116,12 @@ fn corner_radius(keys: &Keys<'_>, diameter: f64) -> Outcome<f64> {
     Err(keys.problem("corner_radius_mm", what, remedy))
 }
 
+/// Share of the diameter that no runout reaches: the stock is taken by a tool that runs true.
+const MOST_RUNOUT: f64 = 0.05;
+
 fn runout(keys: &Keys<'_>, diameter: f64) -> Outcome<f64> {
-    let is_one = |um: f64| um >= 0.0 && 1e-6 * um < 0.5 * diameter;
-    let remedy = "write how far the tool's axis is from the spindle's in micrometres: some 5 to 50, less than its radius";
+    let is_one = |um: f64| um >= 0.0 && 1e-6 * um < MOST_RUNOUT * diameter;
+    let remedy = "write how far the tool's axis is from the spindle's in micrometres: some 5 to 50, less than a twentieth of its diameter";
     let um = keys.judged("runout_um", is_one, "no runout of this tool", remedy)?;
     Ok(1e-6 * um.unwrap_or(0.0))
 }
