@@ -304,7 +304,7 @@ fn judged(ran: &Ran, clean: &Value, right: fn(&Value, &Value) -> bool) -> &'stat
 }
 
 /// One corruption of so many is asked in a quick run.
-const APART: usize = 5;
+const APART: usize = 7;
 
 /// One corruption of [`APART`] before one of the verbs that can be wrong, turn by turn (the first of several looks only); in a thorough
 /// run every corruption before every verb.
