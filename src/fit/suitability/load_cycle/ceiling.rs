@@ -1,7 +1,7 @@
 //! A deflection that follows the load so far and no farther.
 
 use super::{Course, Rule};
-use crate::fit::suitability::{Said, Weight, said_if};
+use crate::fit::suitability::{Said, Weight, agreement, said_if};
 use crate::ground::stats::{largest, mean, rms};
 
 /// A sensor at the end of its range, an amplifier that saturates, or a stop beside the joint: noise that is added behind it hides the
@@ -62,17 +62,14 @@ fn slope(pairs: &[[f64; 2]]) -> Option<[f64; 2]> {
     if pairs.len() < ROWS {
         return None;
     }
-    let column = |k: usize| pairs.iter().map(|p| p[k]).collect::<Vec<f64>>();
-    let [x, y] = [0, 1].map(|k| {
-        let own = column(k);
-        let middle = mean(&own);
-        own.iter().map(|v| v - middle).collect::<Vec<f64>>()
-    });
-    let wide: f64 = x.iter().map(|x| x * x).sum();
+    let [x, y] = [0, 1].map(|k| pairs.iter().map(|p| p[k]).collect::<Vec<f64>>());
+    let (slope, wide) = agreement::slope((0, x.len() - 1), &x, &y);
+    let each = x.iter().zip(&y);
+    let left: Vec<f64> = each.map(|(x, y)| y - slope * x).collect();
+    let middle = mean(&left);
+    let left: Vec<f64> = left.iter().map(|l| l - middle).collect();
     // a level that is held tells no slope, whatever its noise
-    let ranges = wide > pairs.len() as f64 * (RANGES * largest(&column(0))).powi(2);
-    let slope = x.iter().zip(&y).map(|(x, y)| x * y).sum::<f64>() / wide;
-    let left: Vec<f64> = x.iter().zip(&y).map(|(x, y)| y - slope * x).collect();
+    let ranges = wide > pairs.len() as f64 * (RANGES * largest(&x)).powi(2);
     ranges.then(|| [slope, rms(&left) / wide.sqrt()])
 }
 

@@ -46,10 +46,10 @@ fn look(on: &Course) -> Said {
     if ratio.ln().abs() < SPREADS * spread + SHAPE {
         return found;
     }
-    let why = explanation(ratio).map_or(String::new(), |why| format!("; {why}"));
     let what = format!(
-        "the stiffness comes out {} the nominal one, beyond {SPREADS:.0} of its stated spreads{why}",
-        times(ratio)
+        "the stiffness comes out {} the nominal one, beyond {SPREADS:.0} of its stated spreads{}",
+        times(ratio),
+        why(ratio)
     );
     let weight = match ratio.max(1.0 / ratio) > UNIT {
         true => Weight::Fatal,
@@ -68,11 +68,15 @@ fn beside_robot(file: &LoadCycle, line: f64) -> Option<(Weight, String)> {
     let ratio = line / own.stiffness;
     let is_far = ratio.max(1.0 / ratio) > UNIT;
     is_far.then(|| {
-        let why = explanation(ratio).map_or(String::new(), |why| format!("; {why}"));
-        let times = times(ratio);
+        let [times, why] = [times(ratio), why(ratio)];
         let what = format!("the stiffness comes out {times} that of {site} of the robot{why}");
         (Weight::Fatal, what)
     })
+}
+
+/// A unit or a lever that would make such a ratio, as the end of a clause.
+fn why(ratio: f64) -> String {
+    explanation(ratio).map_or(String::new(), |why| format!("; {why}"))
 }
 
 /// Levers that no rig has.
