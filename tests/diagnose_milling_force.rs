@@ -155,6 +155,25 @@ fn a_cut_as_it_is_stated_is_sufficient() {
     }
 }
 
+/// A record that runs on while the tool leaves the stock, and in air: nothing is wrong with the last cut.
+#[test]
+fn a_record_that_ends_in_air_is_no_other_cut() {
+    let mut bench = Bench::new(2);
+    bench.turns = 50.0;
+    let end = bench.rows().last().unwrap()[1];
+    let found = bench.found(|row| {
+        // the radius of 8 mm at 40 mm/s, then 60 ms of air
+        let share = ((end - 0.06 - row[1]) / 0.2).clamp(0.0, 1.0);
+        (2..5).for_each(|k| row[k] *= if row[0] == 4.0 { share.max(0.01) } else { 1.0 });
+    });
+    assert_eq!(
+        found.answer.verdict,
+        Verdict::Sufficient,
+        "{:?}",
+        names(&found.answer)
+    );
+}
+
 /// A bandwidth is stated to a fifth, so that one that is off by less is no other depth of cut.
 #[test]
 #[ignore = "takes long: .ci/thorough runs it"]

@@ -523,6 +523,12 @@ fn material_that_no_tooth_meets_is_told() {
         plunge.contains("plunges") && !plunge.contains("begins"),
         "{plunge}"
     );
+    assert!(!plunge.contains("rapid"), "{plunge}");
+    let dropped = remarks("15,0,5,0,0,1,0\n15,0,-2,0,0,1,1\n15,0,5,0,0,1,0\n");
+    assert!(
+        dropped.contains("line 4") && dropped.contains("a rapid motion cuts"),
+        "{dropped}"
+    );
     let inside = remarks("15,0,-2,0,0,1,0\n45,0,-2,0,0,1,0\n");
     assert!(inside.contains("begins"), "{inside}");
     let beside = remarks("-12,0,-2,0,0,1,0\n45,0,-2,0,0,1,0\n");

@@ -13,12 +13,14 @@ pub(super) struct Rounding {
 }
 
 impl Rounding {
-    /// Of every component of a test. Cycles are looked at one by one: each has its own zero.
+    /// Of every component of a test. Cycles are looked at one by one, each has its own zero, unless all count from the unloaded robot:
+    /// the only distance in a cycle is the displacement then.
     pub fn of(test: &WorkspaceTest) -> [Self; 3] {
         [0, 1, 2].map(|component| {
-            let mut cycles: BTreeMap<(usize, usize, i64), Vec<f64>> = BTreeMap::new();
+            let mut cycles: BTreeMap<Option<(usize, usize, i64)>, Vec<f64>> = BTreeMap::new();
             for step in &test.steps {
-                let own = cycles.entry((step.point, step.direction, step.cycle));
+                let own = (step.point, step.direction, step.cycle);
+                let own = cycles.entry((!test.from_unloaded).then_some(own));
                 own.or_default().push(step.displacement[component]);
             }
             let mut all: Vec<f64> = cycles.values().flat_map(|values| gaps(values)).collect();
@@ -48,6 +50,22 @@ impl Rounding {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measurement::table::Table;
+
+    /// One force a cycle: the displacement itself is the only distance in a cycle, and no step of the gauge.
+    #[test]
+    fn one_force_a_cycle_shows_the_step_of_the_gauge() {
+        let mut text = "# kind = \"workspace\"\n# robot = \"kr210\"\n# joint_angles_deg = [[0.0, -85.0, 95.0, 0.0, 75.0, 0.0]]\npoint,direction,cycle,force_N,dx_mm,dy_mm,dz_mm\n".to_string();
+        for (i, read) in [0.56, -0.56, 0.57, -0.56, 0.55, -0.57].iter().enumerate() {
+            let force = if *read > 0.0 { 350.0 } else { -350.0 };
+            text += &format!("1,x,{},{force},{read},,\n", i + 1);
+        }
+        let table = Table::from_reader("w.csv".as_ref(), text.as_bytes(), text.len() as u64);
+        let test = WorkspaceTest::from_table(table.unwrap()).unwrap();
+        assert!(test.from_unloaded);
+        let step = Rounding::of(&test)[0].step;
+        assert!((step / 1e-5 - 1.0).abs() < 1e-6, "{step}");
+    }
 
     #[test]
     fn noise_larger_than_a_step_averages_rounding_out() {

@@ -4,6 +4,7 @@
 //! A [`structure::Structure`] is one file: [`rigid`], [`springs`] (deflection = compliance × force) or
 //! [`swinging`] (masses, dampers and springs in time); [`loose`] adds the gaps and contacts of joints to both. [`run`] leads any of them along a [`way::Way`].
 
+mod book;
 pub mod course;
 pub mod loose;
 pub mod measured_tip;

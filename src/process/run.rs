@@ -1,12 +1,12 @@
 //! The whole way, tick by tick: one tooth passing in the cut, longer steps beside the stock.
 
-use super::structure::{Bout, Energy, Structure, Tick};
+use super::book::Book;
+use super::structure::{Energy, Structure, Tick};
 use super::way::{Moment, Way, normal_part};
 use crate::cutting::cutter::Cutter;
 use crate::ground::problem;
 use crate::ground::spatial::{V3, add, norm, scale, sub};
 use crate::ground::stats::mean;
-use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
 /// A path that cuts nothing, and where to look then.
@@ -50,6 +50,15 @@ impl Cut {
     }
 }
 
+/// What the flat end took in the passing of a tooth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drilled {
+    /// Arc lengths of the path between which it did, m: what is taken is booked when the tool is looked at next.
+    pub between_m: [f64; 2],
+    /// How much, m³.
+    pub volume_m3: f64,
+}
+
 /// What came of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
@@ -59,6 +68,8 @@ pub struct Outcome {
     pub removed_m3: f64,
     /// The part of it that the flat end took where the tool plunged, m³: no law says with what force.
     pub drilled_m3: f64,
+    /// Where along the path it did.
+    pub drilled: Vec<Drilled>,
     /// Stock where the tool began, m³: gone, but not cut.
     pub stood_in_m3: f64,
     /// Length in time, s.
@@ -133,10 +144,6 @@ impl Outcome {
 
 /// A tool this near to the box around the stock may cut, m.
 const NEAR: f64 = 1e-3;
-/// Stations of the course in the cut, m; beside the stock ten times as far.
-const STATIONS: f64 = 0.1e-3;
-/// Stations at rest, s.
-const PAUSE_S: f64 = 0.1;
 
 /// Runs a way. `progress` hears the share that is done.
 ///
@@ -171,6 +178,7 @@ pub fn mill(
                 .and_then(|()| structure.cut(cutter, &tick));
             let bout = bout.map_err(|p| stationed(p, &tick.to))?;
             book.note(way, &tick, &bout, steps);
+            book.drill(&tick, cutter.drilled());
             from = tick.to;
         } else {
             beside = true;
@@ -195,113 +203,4 @@ fn stationed(mut problem: problem::Problem, at: &Moment) -> problem::Problem {
         problem.what
     );
     problem
-}
-
-/// What a run writes down.
-#[derive(Default)]
-struct Book {
-    course: Vec<Cut>,
-    /// Begin, end and result of the latest ticks of one revolution.
-    latest: VecDeque<([f64; 2], Bout)>,
-    teeth: usize,
-    cutting_s: f64,
-    impulse: V3,
-    /// The same of its size.
-    impulse_size: f64,
-    peak: f64,
-    steps: usize,
-    per_tick: usize,
-}
-
-impl Book {
-    fn new(teeth: usize) -> Self {
-        Self {
-            teeth,
-            per_tick: 1,
-            ..Self::default()
-        }
-    }
-
-    fn note(&mut self, way: &Way, tick: &Tick, bout: &Bout, steps: usize) {
-        (self.steps, self.per_tick) = (self.steps + steps, steps);
-        if bout.peak > 0.0 {
-            self.cutting_s += tick.duration_s();
-            self.impulse = add(self.impulse, scale(tick.duration_s(), bout.force));
-            self.impulse_size += tick.duration_s() * norm(bout.force);
-            self.peak = self.peak.max(bout.peak);
-        }
-        self.latest
-            .push_back(([tick.from.time_s, tick.to.time_s], *bout));
-        if self.latest.len() > self.teeth {
-            self.latest.pop_front();
-        }
-        self.station(way);
-    }
-
-    fn pass(&mut self, way: &Way, tick: &Tick, bout: &Bout) {
-        self.steps += 1;
-        self.latest.clear();
-        self.latest
-            .push_back(([tick.from.time_s, tick.to.time_s], *bout));
-        self.station(way);
-    }
-
-    /// A station in the middle of the latest revolution, unless the last one is near.
-    fn station(&mut self, way: &Way) {
-        let first = self.latest.front().map_or(0.0, |l| l.0[0]);
-        let last = self.latest.back().map_or(0.0, |l| l.0[1]);
-        let middle = 0.5 * (first + last);
-        let cutting = self.latest.iter().any(|l| l.1.peak > 0.0);
-        let at = way.at(middle);
-        if let Some(before) = self.course.last() {
-            let apart = if cutting { STATIONS } else { 10.0 * STATIONS };
-            let near = norm(sub(at.tip, before.tip)) < apart && middle - before.time_s < PAUSE_S;
-            if near && before.cutting == cutting || middle <= before.time_s {
-                return;
-            }
-        }
-        let share = 1.0 / self.latest.len() as f64;
-        let mean = |value: fn(&Bout) -> V3| {
-            let sum = |s: V3, l: &([f64; 2], Bout)| add(s, scale(share, value(&l.1)));
-            self.latest.iter().fold([0.0; 3], sum)
-        };
-        let station = Cut {
-            time_s: middle,
-            s_m: at.s_m,
-            tip: at.tip,
-            axis: at.axis,
-            feed: way.feed(middle),
-            force: mean(|b| b.force),
-            deviation: mean(|b| b.deviation),
-            cutting,
-        };
-        self.course.push(station);
-    }
-
-    fn close(
-        self,
-        cutter: &Cutter,
-        structure: &dyn Structure,
-        duration_s: f64,
-        pitch_s: f64,
-    ) -> Outcome {
-        let mean = |v: V3| match self.cutting_s > 0.0 {
-            true => scale(1.0 / self.cutting_s, v),
-            false => [0.0; 3],
-        };
-        Outcome {
-            mean_n: mean(self.impulse),
-            mean_size_n: mean([self.impulse_size, 0.0, 0.0])[0],
-            course: self.course,
-            removed_m3: cutter.removed(),
-            drilled_m3: cutter.drilled(),
-            stood_in_m3: cutter.stood_in(),
-            duration_s,
-            cutting_s: self.cutting_s,
-            peak_n: self.peak,
-            steps: self.steps,
-            step_s: pitch_s / self.per_tick as f64,
-            energy: structure.energy(),
-        }
-    }
 }

@@ -108,6 +108,9 @@ impl Measured for Case {
         if self.file().facts.nominal.is_none() {
             remarks.push("No `nominal` coefficients are stated: those of a fit stand in, and coefficients cannot be blamed.".into());
         }
+        if self.file().in_air > 0 {
+            remarks.push(format!("{} rows are left out in which the tool is in air, or on its way into the stock or out of it.", self.file().in_air));
+        }
         remarks
     }
 }

@@ -172,7 +172,8 @@ fn turn_runout(case: &Case, blamed: &[Blamed], turned: &mut [f64]) {
     let beside = combined(case, turned, blamed, runout::EFFECT.name);
     if let Some(direction) = Direction::seen(&beside) {
         let before = case.runout();
-        let now = direction.of_size(size);
+        let [x, y] = direction.at;
+        let now = direction.of_size(runout::as_stated(size, x.hypot(y)));
         (0..2).for_each(|k| turned[RUNOUT + k] = now[k] - before[k]);
     }
 }

@@ -22,8 +22,6 @@ const SPEED: f64 = 2e-4;
 pub(super) const WIDTH_SPREAD: f64 = 2e-5;
 /// Spread of a depth that is as stated, m: tools are set to the stock by paper or a probe. A choice.
 pub(super) const DEPTH_SPREAD: f64 = 2e-5;
-/// Share of a stated runout within which it is as stated.
-const RUNOUT_SHARE: f64 = 0.15;
 /// Share of it by which its tip may stand aside: nobody states where it points.
 const RUNOUT_TURN: f64 = 0.8;
 /// Orders of the spindle in which structure is looked for.
@@ -196,11 +194,14 @@ impl Case {
         let [x, y] = self.runout();
         let size = x.hypot(y).max(f64::MIN_POSITIVE);
         let [x, y] = [x / size, y / size];
-        let towards = |x: f64, y: f64, share: f64| Loose {
+        let towards = |x: f64, y: f64, spread: f64| Loose {
             along: vec![(RUNOUT, x), (RUNOUT + 1, y)],
-            spread: share * stated,
+            spread,
         };
-        [towards(x, y, RUNOUT_SHARE), towards(-y, x, RUNOUT_TURN)]
+        [
+            towards(x, y, runout::spread(stated)),
+            towards(-y, x, RUNOUT_TURN * stated),
+        ]
     }
 
     fn coefficient_spread(&self, j: usize) -> f64 {

@@ -107,7 +107,8 @@ fn left_out(files: &[MillingForce], cuts: &[&CutData]) -> Option<String> {
     let empty: usize = files.iter().map(|f| f.left_out).sum();
     let settling: usize = cuts.iter().map(|c| c.settling).sum();
     let beyond: usize = cuts.iter().map(|c| c.beyond).sum();
-    (empty + settling + beyond > 0).then(|| {
-        format!("Left out: {empty} rows for an empty cell, {settling} at the starts of cuts until the low pass has settled, {beyond} at the ends of cuts longer than need be.")
+    let air: usize = files.iter().map(|f| f.in_air).sum();
+    (empty + settling + beyond + air > 0).then(|| {
+        format!("Left out: {empty} rows for an empty cell, {air} where the tool is in air or on its way into the stock or out, {settling} at the starts of cuts until the low pass has settled, {beyond} at the ends of cuts longer than need be.")
     })
 }

@@ -1,5 +1,6 @@
 //! Kind `milling-force`: records of a dynamometer while straight cuts are milled.
 
+mod air;
 mod facts;
 
 pub(super) use facts::KEYS;
@@ -35,6 +36,8 @@ pub struct MillingForce {
     pub records: Vec<Record>,
     /// Rows left out because a cell was empty.
     pub left_out: usize,
+    /// Rows left out because the tool was not in the stock as far as it went later, or before.
+    pub in_air: usize,
 }
 
 /// Rows of a cut below which nothing can be told.
@@ -56,11 +59,13 @@ impl MillingForce {
     pub fn from_table(table: Table) -> Outcome<Self> {
         table.front.expect_kind("milling-force")?;
         let facts = Facts::of(&table.front)?;
-        let (records, left_out) = records(&table, &facts)?;
+        let (mut records, left_out) = records(&table, &facts)?;
+        let in_air = leave_air(&mut records, &facts);
         Ok(Self {
             facts,
             records,
             left_out,
+            in_air,
             path: table.path,
             sha256: table.sha256,
         })
@@ -121,6 +126,21 @@ fn records(table: &Table, facts: &Facts) -> Outcome<(Vec<Record>, usize)> {
     }
     long_enough(&records)?;
     Ok((records, left_out))
+}
+
+/// Rows in air, and on the way in and out, leave the records; how many.
+fn leave_air(records: &mut [Record], facts: &Facts) -> usize {
+    let mut left = 0;
+    for (record, cut) in records.iter_mut().zip(&facts.cuts) {
+        let kept = air::in_stock(record, cut, 0.5 * facts.diameter_m);
+        left += record.time.len() - kept.len();
+        *record = Record {
+            time: record.time[kept.clone()].to_vec(),
+            force: record.force[kept.clone()].to_vec(),
+            row: record.row[kept].to_vec(),
+        };
+    }
+    left
 }
 
 fn place(table: &Table, cut: f64, row: usize, cuts: usize) -> Outcome<usize> {

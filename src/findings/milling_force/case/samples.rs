@@ -6,6 +6,7 @@ use crate::cutting::LINEAR_EDGE;
 use crate::experiments::milling_force::{BANDWIDTH, BORDER, PHASE, RUNOUT, SPEED, WIDTH};
 use crate::findings::milling_force::direction::Direction;
 use crate::findings::milling_force::noise::Colour;
+use crate::findings::milling_force::runout::as_stated;
 use crate::findings::milling_force::setting::Present;
 use crate::fit::cut_force::{Account, BORDER_SHARE, CutFit};
 use crate::ground::stats::{median, rms};
@@ -53,7 +54,7 @@ pub(super) fn samples(
             at: fitted,
             covariance,
         }
-        .of_size(size),
+        .of_size(as_stated(size, fitted[0].hypot(fitted[1]))),
         _ => [0.0; 2],
     };
     let mut first = 0;
