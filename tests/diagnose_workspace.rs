@@ -310,6 +310,7 @@ fn what_gives_way_about_an_oblique_axis_is_one_cause() {
             axis,
             point,
             spring: Spring::new(stiffness, 0.0),
+            body: None,
         };
         let (folder, file) = campaign(|text| softened(&text, added.clone()));
         let typed = ["diagnose", file.to_str().unwrap(), "--json", "--dry-run"];

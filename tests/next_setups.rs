@@ -88,6 +88,7 @@ fn a6_drive_and_a5_tilt_about_the_same_line_are_one_until_the_wrist_bends() {
         axis: last.axis,
         point: last.point,
         spring: last.drive.clone().unwrap(),
+        body: None,
     });
     let mut desk = Desk::new(&robot, &[], None);
     let (a6, line) = pair(&desk.belief, "A6", "A5-line");
@@ -184,6 +185,7 @@ fn what_is_proposed_separates_when_it_is_measured() {
         axis: [0.0, 0.0, 1.0],
         point: [0.0; 3],
         spring: Spring::new(2.0 * stiffness, 0.0),
+        body: None,
     });
     let desk = Desk::new(&kr210(), &[], Some(&nine_points()));
     let plan = desk.plan(8, &open("A1", "base"));

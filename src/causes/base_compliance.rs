@@ -168,5 +168,6 @@ fn add_shift(robot: &mut Robot, name: &str, (along, amount): Axis) {
         axis,
         point: scale(FAR, across),
         spring,
+        body: None,
     });
 }

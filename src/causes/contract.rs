@@ -179,6 +179,18 @@ pub trait Cause: Sync {
         all.take_while(|k| !self.is_shared(*k)).count()
     }
 
+    /// The places next to one, along the same part: a cause may sit anywhere between them. By number, amounts of one place being
+    /// [`Cause::heard`] together.
+    fn next_to(&self, _place: usize) -> Vec<usize> {
+        Vec::new()
+    }
+
+    /// The amount that tells which share of the part's own body lies behind it, where one does: no size of the cause, but a thing of its
+    /// place.
+    fn behind(&self) -> Option<usize> {
+        None
+    }
+
     /// How the gaps that it opens are crossed.
     fn law(&self, _amounts: &[f64]) -> Law {
         Law::Free(STOP)

@@ -4,7 +4,7 @@ use super::contract::{Amount, Blame, Card, Cause, Sight};
 use super::places::{Said, add_axes, added, drive_compliance, ends, number_in};
 use super::turns::{SIX, TURNS, said_matrix, shared, sizes};
 use crate::effects::Family;
-use crate::ground::spatial::{norm, sub};
+use crate::ground::spatial::{V3, norm, sub, unit};
 use crate::robot::Robot;
 
 /// See the card.
@@ -57,7 +57,7 @@ macro_rules! turns_at {
     };
 }
 
-static AMOUNTS: [Amount; SIX * ALONG.len()] = flat([
+static AMOUNTS: [Amount; BEHIND + 1] = flat([
     turns_at!("1/2"),
     turns_at!("0"),
     turns_at!("1"),
@@ -70,15 +70,26 @@ static AMOUNTS: [Amount; SIX * ALONG.len()] = flat([
     turns!("_as_beam", " spread over the length"),
 ]);
 
-const fn flat(places: [[Amount; SIX]; ALONG.len()]) -> [Amount; SIX * ALONG.len()] {
-    let mut all = [places[0][0]; SIX * ALONG.len()];
+const fn flat(places: [[Amount; SIX]; ALONG.len()]) -> [Amount; BEHIND + 1] {
+    let mut all = [SHARE_BEHIND; BEHIND + 1];
     let mut i = 0;
-    while i < all.len() {
+    while i < BEHIND {
         all[i] = places[i / SIX][i % SIX];
         i += 1;
     }
     all
 }
+
+/// Place of the amount that tells how much of the link's body lies behind the bend.
+const BEHIND: usize = SIX * ALONG.len();
+
+const SHARE_BEHIND: Amount = Amount::new(
+    "behind",
+    "1",
+    "share of the link's body behind where it bends",
+    [0.0, 1.0],
+    &[0.5],
+);
 
 /// Where along the link the matrices act, as shares of its length: at one place, or at the two that integrate a uniform beam
 /// under end loads exactly.
@@ -108,6 +119,18 @@ fn length(robot: &Robot, i: usize) -> f64 {
     ends(robot, i).map_or(0.0, |[from, to]| norm(sub(to, from)))
 }
 
+/// Puts the share `behind` of the body of link `i` behind its last axis; `along`: the way of the link.
+fn cut(robot: &mut Robot, i: usize, along: V3, behind: f64) {
+    let (joint, axis) = (robot.joints.get_mut(i - 1), robot.elastic.last_mut());
+    let (Some(joint), Some(axis), Some(along)) = (joint, axis, unit(along)) else {
+        return;
+    };
+    let cut = joint.link.and_then(|body| body.cut(along, behind));
+    if let Some([near, far]) = cut {
+        (joint.link, axis.body) = (Some(near), Some(far));
+    }
+}
+
 impl Cause for LinkCompliance {
     fn card(&self) -> &'static Card {
         &CARD
@@ -129,11 +152,32 @@ impl Cause for LinkCompliance {
         let i = number_in(site, "link").unwrap_or(1);
         let near = drive_compliance(robot, i);
         let far = drive_compliance(robot, i + 1);
-        sizes((near * far).sqrt()).repeat(ALONG.len())
+        let turns = sizes((near * far).sqrt()).repeat(ALONG.len());
+        [&turns[..], &[1.0]].concat()
+    }
+
+    fn behind(&self) -> Option<usize> {
+        Some(BEHIND)
     }
 
     fn matrices(&self) -> Vec<usize> {
         (0..ALONG.len()).map(|at| SIX * at).collect()
+    }
+
+    fn next_to(&self, place: usize) -> Vec<usize> {
+        let along = |place: usize| match ALONG[place] {
+            [one] => Some(*one),
+            _ => None,
+        };
+        let Some(own) = along(place) else {
+            return Vec::new();
+        };
+        let next = |side: f64| {
+            let away = |other: usize| Some((other, side * (along(other)? - own)));
+            let beyond = (0..ALONG.len()).filter_map(away).filter(|o| o.1 > 0.0);
+            beyond.min_by(|a, b| a.1.total_cmp(&b.1)).map(|o| o.0)
+        };
+        [-1.0, 1.0].into_iter().filter_map(next).collect()
     }
 
     fn forms(&self) -> Vec<Vec<usize>> {
@@ -168,18 +212,27 @@ impl Cause for LinkCompliance {
         let Some((i, [from, to])) = number.and_then(|i| Some((i, ends(robot, i)?))) else {
             return;
         };
-        for (own, places) in amounts.chunks(SIX).zip(ALONG) {
+        let before = robot.elastic.len();
+        for (own, places) in amounts[..amounts.len().min(BEHIND)].chunks(SIX).zip(ALONG) {
             let each: Vec<f64> = own.iter().map(|a| a / places.len() as f64).collect();
             for along in places {
                 let at = [0, 1, 2].map(|k| from[k] + along * (to[k] - from[k]));
                 add_axes(robot, site, i, at, &each);
             }
         }
+        let behind = amounts.get(BEHIND).copied().unwrap_or(0.0);
+        if behind > 0.0 && robot.elastic.len() > before {
+            cut(robot, i, sub(to, from), behind);
+        }
     }
 
     fn said(&self, _robot: &Robot, _site: &str, amounts: &[f64]) -> Said {
-        let each = amounts.chunks(SIX);
-        each.flat_map(|own| said_matrix(own, &TURNS)).collect()
+        // what bends at two places next to each other bends between them
+        let mut whole = [0.0; SIX];
+        for own in amounts[..amounts.len().min(BEHIND)].chunks(SIX) {
+            whole.iter_mut().zip(own).for_each(|(sum, a)| *sum += a);
+        }
+        said_matrix(&whole, &TURNS)
     }
 }
 
@@ -188,13 +241,21 @@ mod tests {
     use super::*;
     use crate::robot::builtin;
 
+    #[test]
+    fn places_are_next_to_each_other_along_the_link() {
+        // of the middle: three and five eighths; of an end: the first eighth; of a beam: none
+        assert_eq!(LinkCompliance.next_to(0), [6, 7]);
+        assert_eq!(LinkCompliance.next_to(1), [5]);
+        assert!(LinkCompliance.next_to(ALONG.len() - 1).is_empty());
+    }
+
     /// A cantilever of compliance c = L/EI under a force at its end sinks by F c L²/3 and turns by F c L/2 (Euler and Bernoulli).
     #[test]
     fn a_beam_sinks_and_turns_as_a_beam() {
         let mut robot = builtin::named("kr210").unwrap().unwrap();
         let [from, to] = ends(&robot, 2).unwrap();
         let before = robot.elastic.len();
-        let mut amounts = [0.0; SIX * ALONG.len()];
+        let mut amounts = [0.0; BEHIND];
         amounts[SIX * (ALONG.len() - 1)] = 1.0;
         LinkCompliance.alter(&mut robot, "link2", &amounts);
         let length = norm(sub(to, from));

@@ -129,6 +129,7 @@ pub fn add_axes_along(
             axis: frame.map(|row| dot(row, own)),
             point,
             spring,
+            body: None,
         });
     }
 }

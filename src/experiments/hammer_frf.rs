@@ -3,7 +3,7 @@
 use super::hammer_force::{ForceNoise, ForceWindow, force_noise};
 use super::hammer_given::{self, ScatterFrom};
 use super::hammer_screen::{ScreenedHit, directions, screen};
-use super::hammer_window::window;
+use super::hammer_window::{treated, window};
 use crate::ground::problem::{Outcome, Problem};
 use crate::ground::stats::mean;
 use crate::measurement::hammer::HammerRecord;
@@ -11,7 +11,7 @@ use crate::signal::fault::Fault;
 use crate::signal::frf::{CrossSpectra, Estimator, HitSpectra};
 use crate::signal::pulse::{self, Pulse};
 use crate::signal::spectrum::{frequencies, lines_up_to};
-use crate::signal::window::{Exponential, Force};
+use crate::signal::window::Exponential;
 
 /// Share of the response that may be left at the end of the record without a remark.
 const ENOUGH_DECAY: f64 = 0.1;
@@ -117,7 +117,11 @@ pub fn estimate(record: &HammerRecord, settings: &Settings) -> Outcome<HammerFrf
     let window = window(settings, &used, length_s, recorded_rate);
     let lines = lines_up_to(samples, record.interval_s, settings.to_hz);
     let inputs = |window: Exponential, force: ForceWindow| {
-        let treat = |hit: &ScreenedHit| treated(hit, samples, record.interval_s, window, force);
+        let recorded = Exponential {
+            rate: recorded_rate,
+        };
+        let span = (samples, record.interval_s);
+        let treat = |hit: &ScreenedHit| treated(hit, span, [recorded, window], force);
         let rate = window.rate + recorded_rate;
         let power = Exponential { rate }.power(samples, record.interval_s);
         inputs(&screened, lines, power, force, treat)
@@ -209,31 +213,6 @@ fn no_hit(screened: &[ScreenedHit]) -> Problem {
         format!("no usable hit ({})", why.join("; "))
     };
     Problem::new(what, "repeat the hits with these faults in mind")
-}
-
-/// Offset removed (pre-trigger mean), force window, exponential window on both channels.
-fn treated(
-    hit: &ScreenedHit,
-    samples: usize,
-    interval_s: f64,
-    window: Exponential,
-    force_window: ForceWindow,
-) -> (Vec<f64>, Vec<Vec<f64>>) {
-    let found = Pulse::find(&hit.force);
-    let start = found.map_or(0, |pulse| pulse.start);
-    let clean = |record: &[f64], offset: f64| {
-        let mut record: Vec<f64> = record[..samples].iter().map(|v| v - offset).collect();
-        window.apply(&mut record, interval_s);
-        record
-    };
-    let mut force = clean(&hit.force, found.map_or(0.0, |pulse| pulse.baseline));
-    if let Some(pulse) = found.filter(|p| force_window.suits(&hit.force, p)) {
-        Force::around(&pulse).apply(&mut force);
-    }
-    let mean = |r: &[f64]| r.iter().sum::<f64>() / r.len() as f64;
-    let responses = hit.responses.iter();
-    let responses = responses.map(|r| clean(r, pulse::baseline(r, start, mean(r))));
-    (force, responses.collect())
 }
 
 fn impulse(hits: &[&ScreenedHit], interval_s: f64) -> f64 {

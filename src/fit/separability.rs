@@ -76,6 +76,7 @@ pub fn with_foundation(robot: &Robot) -> Robot {
                 axis,
                 point: [0.0; 3],
                 spring: Spring::new(stiffness, 0.0),
+                body: None,
             });
         }
     }

@@ -7,10 +7,12 @@ use crate::robot::{ElasticAxis, Joint, Robot};
 /// The driven joints only, everything rigid: n = number of joints.
 pub fn rigid(robot: &Robot) -> Chain {
     let mut chain = Chain::default();
-    robot
-        .joints
-        .iter()
-        .for_each(|joint| drive(&mut chain, joint, false));
+    for (i, joint) in robot.joints.iter().enumerate() {
+        drive(&mut chain, joint, false);
+        let here = robot.elastic.iter().filter(|axis| axis.after == i + 1);
+        let bodies = here.filter_map(|axis| axis.body);
+        bodies.for_each(|body| chain.load(&body));
+    }
     finish(chain, robot)
 }
 
@@ -57,9 +59,10 @@ fn axes(chain: &mut Chain, robot: &Robot, after: usize) {
              axis,
              point,
              spring,
+             body,
              ..
          }| {
-            chain.push(name, *axis, *point, None, Some(spring.clone()));
+            chain.push(name, *axis, *point, *body, Some(spring.clone()));
         },
     );
 }

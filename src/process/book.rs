@@ -59,7 +59,17 @@ impl Book {
 
     /// What the flat end took so far, after a tick.
     pub(super) fn drill(&mut self, tick: &Tick, so_far_m3: f64) {
-        let middle = 0.5 * (tick.from.s_m + tick.to.s_m);
+        self.drill_at(0.5 * (tick.from.s_m + tick.to.s_m), so_far_m3);
+    }
+
+    /// The same at the end, where what the last tick took is booked.
+    pub(super) fn settle(&mut self, so_far_m3: f64) {
+        if let Some(middle) = self.middle_m {
+            self.drill_at(middle, so_far_m3);
+        }
+    }
+
+    fn drill_at(&mut self, middle: f64, so_far_m3: f64) {
         let volume_m3 = so_far_m3 - self.drilled_m3;
         if volume_m3 > 0.0 {
             self.drilled.push(Drilled {

@@ -25,13 +25,13 @@ impl Outcome {
             .next()
     }
 
-    /// Where the flat end drills, which has no force.
+    /// Where the flat end drills, which has no force: in one motion more than a touch.
     fn end_in_rapid(&self, is_rapid: impl Fn(f64) -> bool) -> Option<f64> {
         let counts = |d: &&Drilled| d.between_m.iter().all(|s| is_rapid(*s));
         let own: Vec<&Drilled> = self.drilled.iter().filter(counts).collect();
-        let volume: f64 = own.iter().map(|d| d.volume_m3).sum();
-        own.first()
-            .filter(|_| volume > TOUCH_M3)
-            .map(|d| d.between_m[0])
+        let motions = own.chunk_by(|a, b| a.between_m[1] == b.between_m[0]);
+        let volume = |motion: &[&Drilled]| motion.iter().map(|d| d.volume_m3).sum::<f64>();
+        let mut cut = motions.filter(|motion| volume(motion) > TOUCH_M3);
+        cut.next().map(|motion| motion[0].between_m[0])
     }
 }

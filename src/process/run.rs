@@ -192,6 +192,7 @@ pub fn mill(
         progress((from.time_s - begin) / (end - begin));
     }
     cutter.settle();
+    book.settle(cutter.drilled());
     Ok(book.close(cutter, structure, end - begin, pitch_s))
 }
 

@@ -1,7 +1,7 @@
 //! A rigid body and whether it can exist.
 
 use crate::ground::spatial::{Pose, V3, add, rotate, rotate_tensor, scale, sub};
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 /// A rigid body in base-frame axes, placed where it is with every joint at zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,6 +47,41 @@ impl Body {
             com,
             inertia: std::array::from_fn(|i| a[i] + b[i]),
         }
+    }
+
+    /// The body in two, cut across the unit vector `along`, the share `far` (0 to 1, neither of them) of its mass ahead: together they have its
+    /// mass, centre and inertia. Their centres are as far apart as those of a uniform bar; what is left of the inertia they share as
+    /// their mass. None of an inertia that no mass has.
+    pub fn cut(&self, along: V3, far: f64) -> Option<[Self; 2]> {
+        let [xx, yy, zz, xy, xz, yz] = self.inertia;
+        let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+        let spread = |inertia: Matrix3<f64>| Matrix3::identity() * inertia.trace() - inertia;
+        // second moments of the mass
+        let whole = 0.5 * tensor.trace() * Matrix3::identity() - tensor;
+        let u = Vector3::from(along);
+        let stretch = 1.0 / u.dot(&(whole.try_inverse()? * u));
+        if !(stretch > 0.0 && self.mass > 0.0) {
+            return None;
+        }
+        // centres of the parts of a uniform bar are half of its length apart: length² = 12 stretch / mass
+        let apart = (3.0 * stretch / self.mass).sqrt();
+        let rest = whole - 3.0 * far * (1.0 - far) * stretch * u * u.transpose();
+        let part = |share: f64, away: f64| {
+            let i = spread(share * rest);
+            Self {
+                mass: share * self.mass,
+                com: add(self.com, scale(away * apart, along)),
+                inertia: [
+                    i[(0, 0)],
+                    i[(1, 1)],
+                    i[(2, 2)],
+                    i[(0, 1)],
+                    i[(0, 2)],
+                    i[(1, 2)],
+                ],
+            }
+        };
+        Some([part(1.0 - far, -far), part(far, 1.0 - far)])
     }
 
     /// Inertia about `point` instead of the centre of mass.
@@ -101,6 +136,26 @@ impl Body {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_cut_is_whole_together() {
+        let bar = Body {
+            mass: 120.0,
+            com: [0.1, 0.2, 0.9],
+            inertia: [12.0, 13.0, 4.0, 0.3, -0.6, 0.2],
+        };
+        for far in [0.2, 0.5, 0.95] {
+            let [near, far_part] = bar.cut([0.0, 0.6, 0.8], far).unwrap();
+            assert!(near.fault().is_none() && far_part.fault().is_none());
+            assert!((far_part.mass / bar.mass - far).abs() < 1e-12);
+            let apart = sub(far_part.com, near.com);
+            assert!(apart[1] > 0.0 && (apart[2] / apart[1] - 0.8 / 0.6).abs() < 1e-9);
+            let both = near.with(&far_part);
+            let numbers = |b: &Body| [&[b.mass][..], &b.com, &b.inertia].concat();
+            let each = numbers(&both).into_iter().zip(numbers(&bar));
+            each.for_each(|(a, b)| assert!((a - b).abs() < 1e-9, "{a} {b}"));
+        }
+    }
 
     #[test]
     fn two_points_make_a_dumbbell() {

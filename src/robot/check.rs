@@ -55,7 +55,9 @@ fn impossible(robot: &Robot) -> Vec<String> {
         .iter()
         .filter_map(|joint| Some((joint_label(joint), joint.link?)));
     let tool = robot.tool.body.map(|body| ("tool".to_string(), body));
-    let bodies = links.chain(tool);
+    let carried = robot.elastic.iter();
+    let carried = carried.filter_map(|axis| Some((axis.name.clone(), axis.body?)));
+    let bodies = links.chain(carried).chain(tool);
     let bodies = bodies.filter(|(_, body)| body.mass != 0.0);
     bodies
         .filter_map(|(name, body)| Some(format!("{name} {}", body.fault()?)))

@@ -110,12 +110,22 @@ pub struct ElasticAxis {
     pub point: V3,
     /// The spring about it.
     pub spring: Spring,
+    /// A body behind it, before whatever comes next: the far part of a link that bends. `None`: without mass.
+    pub body: Option<Body>,
 }
 
 impl Robot {
     /// Number of driven joints.
     pub fn dof(&self) -> usize {
         self.joints.len()
+    }
+
+    /// The whole body that joint `joint` (from 0) moves, what lies behind its virtual axes included.
+    pub fn link_body(&self, joint: usize) -> Option<Body> {
+        let far = self.elastic.iter().filter(|axis| axis.after == joint + 1);
+        let far = far.filter_map(|axis| axis.body);
+        let near = self.joints.get(joint)?.link;
+        near.map(|near| far.fold(near, |whole, part| whole.with(&part)))
     }
 
     /// Whether any drive, bearing or virtual axis is elastic.

@@ -103,6 +103,9 @@ fn elastic_table(out: &mut String, axis: &ElasticAxis) {
         list(&axis.axis),
         list(&axis.point)
     );
+    if let Some(body) = &axis.body {
+        let _ = writeln!(out, "body = {}", inline_body(body));
+    }
     entries(&axis.spring).iter().for_each(|entry| {
         let _ = writeln!(out, "{entry}");
     });

@@ -120,15 +120,16 @@ fn show_json(robot: &Robot) -> Value {
             "source": spring.source,
         })
     };
-    let joints = robot.joints.iter().map(|joint| {
+    let joints = robot.joints.iter().enumerate().map(|(i, joint)| {
+        let body = robot.link_body(i);
         json!({
             "name": joint.name,
             "axis": joint.axis,
             "point_m": joint.point,
             "limits_deg": joint.limits.map(|limit| limit / DEGREE),
-            "mass_kg": joint.link.map(|body| body.mass),
-            "com_m": joint.link.map(|body| body.com),
-            "inertia_kgm2": joint.link.map(|body| body.inertia),
+            "mass_kg": body.map(|body| body.mass),
+            "com_m": body.map(|body| body.com),
+            "inertia_kgm2": body.map(|body| body.inertia),
         })
     });
     json!({
@@ -163,11 +164,11 @@ fn show_text(robot: &Robot) -> String {
         "\n{:<8}{:>10} .. {:<8}{:>22}{:>12}",
         "joint", "lowest", "highest deg", "point m", "link kg"
     );
-    for joint in &robot.joints {
+    for (i, joint) in robot.joints.iter().enumerate() {
         let [low, high] = joint.limits.map(|limit| limit / DEGREE);
         let [x, y, z] = joint.point;
-        let mass = joint
-            .link
+        let mass = robot
+            .link_body(i)
             .map_or("unknown".into(), |body| format!("{:.2}", body.mass));
         let _ = writeln!(
             out,

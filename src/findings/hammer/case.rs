@@ -213,7 +213,8 @@ impl Case<'_> {
         })
     }
 
-    fn nats(&self, posterior: &Posterior<Set>, fit: &Fit) -> f64 {
+    /// What a fit explains of what nothing explains.
+    pub(super) fn nats(&self, posterior: &Posterior<Set>, fit: &Fit) -> f64 {
         let nothing = posterior.set(&[]);
         nothing.map_or(0.0, |nothing| nothing.fit.cost - fit.cost)
     }

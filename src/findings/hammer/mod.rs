@@ -13,6 +13,7 @@ pub mod discrepancy;
 pub mod doubled;
 mod doubt;
 pub mod extended;
+mod further;
 pub mod linearity;
 pub mod machine;
 pub mod map;

@@ -28,7 +28,12 @@ impl Case<'_> {
             let least = self.judgement.companion_needed;
             let needed = |at: usize| posterior.inclusion_of_place(&chosen, at) > least;
             let mut both = gains.iter().zip(&causes);
-            let Some(useless) = both.position(|(g, own)| !(g.is_real() && needed(own.0))) else {
+            let useless = both.position(|(g, own)| !(g.is_real() && needed(own.0)));
+            let useless = match useless {
+                None => self.small_beside_kin(posterior, &chosen, &causes)?,
+                useless => useless,
+            };
+            let Some(useless) = useless else {
                 let mut named = Named::default();
                 for (own, gain) in causes.into_iter().zip(gains) {
                     self.sort_in(posterior, &chosen, own, gain, &mut named);
@@ -38,6 +43,30 @@ impl Case<'_> {
             let dropped = causes[useless].clone();
             chosen = self.less(posterior, &chosen, dropped)?;
         }
+    }
+
+    /// The cause, by its place in the set, that explains little beside another of its name: a link bends all along, and its mass lies
+    /// before the bend and behind, of which one place tells the most, and another link the rest.
+    fn small_beside_kin(
+        &self,
+        posterior: &Posterior<Set>,
+        chosen: &Set,
+        causes: &[Own],
+    ) -> Outcome<Option<usize>> {
+        let whole = self.nats(posterior, &chosen.fit);
+        let bends = |(_, own): &(usize, &Own)| own.1.cause.behind().is_some();
+        for (at, own) in causes.iter().enumerate().filter(bends) {
+            let is_kin = |(i, other): (usize, &Own)| i != at && other.1.name() == own.1.name();
+            if !causes.iter().enumerate().any(is_kin) {
+                continue;
+            }
+            let rest = self.less(posterior, chosen, own.clone())?;
+            let own = whole - self.nats(posterior, &rest.fit);
+            if own < self.judgement.share_beside_kin.powi(2) * whole {
+                return Ok(Some(at));
+            }
+        }
+        Ok(None)
     }
 
     /// The causes of a set by their place among all suspects, with their amounts.

@@ -82,14 +82,24 @@ impl Point {
 
     /// The same with one cause at its other places.
     pub fn moved(&self) -> Vec<Self> {
+        self.with_one(|own| own.elsewhere().collect())
+    }
+
+    /// The same with one cause a little beside its place.
+    pub fn nearby(&self) -> Vec<Self> {
+        self.with_one(|own| own.nearby().collect())
+    }
+
+    /// The same with others in the place of one cause.
+    fn with_one(&self, others: impl Fn(&Suspect) -> Vec<Suspect>) -> Vec<Self> {
         let each = self.set.iter().enumerate();
-        let elsewhere = each.flat_map(|(i, s)| s.elsewhere().map(move |other| (i, other)));
+        let each = each.flat_map(|(i, own)| others(own).into_iter().map(move |o| (i, o)));
         let moved = |(i, other): (usize, Suspect)| {
             let mut point = self.clone();
             point.set[i] = other;
             point
         };
-        elsewhere.map(moved).collect()
+        each.map(moved).collect()
     }
 
     /// The same from where another point ended: what both share as it is there. None that shares nothing with it.

@@ -4,7 +4,7 @@ use super::data::Data;
 use super::nuisance::{Known, Nuisance};
 use super::point::Point;
 use super::structure::Structure;
-use super::suspect::Suspect;
+use super::suspect::{Seat, Suspect};
 use crate::causes::contract::Accelerance;
 use crate::ground::problem::Outcome;
 use crate::motion::Linear;
@@ -21,7 +21,7 @@ use std::sync::{Arc, Mutex};
 const STEP: f64 = 1e-4;
 
 /// Coordinates by their names, and which of its places each cause of the set has.
-pub type Coordinates = (Vec<String>, Vec<usize>);
+pub type Coordinates = (Vec<String>, Vec<Seat>);
 
 /// The robot as simulated now, at the pose of the test, with what is uncertain about it.
 pub struct Machine<'a> {
@@ -86,7 +86,7 @@ impl Machine<'_> {
             Ok(known) => known,
             Err(poisoned) => poisoned.into_inner(),
         };
-        let places = point.set.iter().map(|s| s.place).filter(|p| *p > 0);
+        let places = point.set.iter().filter_map(Suspect::seat);
         let names = (structure.linear.names.clone(), places.collect());
         if let Some(made) = known.get(&names) {
             return Ok(Arc::clone(made));

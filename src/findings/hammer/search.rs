@@ -2,11 +2,11 @@
 //! single one leaves something that another would explain, then the best sets on sharp peaks.
 
 use super::data::Data;
+use super::further::{followed, moved, nearby, parts, widened};
 use super::map::{self, Fit, Way, fit, measured, weights};
 use super::point::Point;
 use super::prediction::{Machine, stack};
 use super::suspect::{Suspect, same};
-use super::unseen::without;
 use crate::ground::problem::Outcome;
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -17,15 +17,13 @@ const STEPS: [usize; 3] = [2, 8, 20];
 /// tried for each.
 const TRIED: usize = 40;
 const KEPT: usize = 24;
-const BASES: usize = 4;
+pub(super) const BASES: usize = 4;
 const PARTNERS: usize = 6;
 /// A start this near shows the tangent.
 const NEAR: f64 = 0.05;
 /// Rounds in which the best set is continued on sharp peaks, and causes of a set at most.
 const ROUNDS: usize = 2;
 const LARGEST: usize = 2;
-/// Sets whose causes are tried at their other places.
-const MOVED: usize = 2;
 /// Nats that a partner must promise to be tried.
 const PROMISE: f64 = 3.0;
 /// How far a partner may be from its start for the straight line to count, in starts.
@@ -76,62 +74,33 @@ pub fn again(machine: &Machine, suspects: &[Suspect], sharp: &Data, found: &Foun
 
 /// Sets on sharp peaks, and what they lead to.
 fn sought(machine: &Machine, suspects: &[Suspect], sharp: &Data, points: Vec<Point>) -> Found {
-    let mut fits = sharpened(machine, sharp, points);
+    let mut fits = sharpened(machine, sharp, points, STEPS[2]);
     for _ in 0..ROUNDS {
         let more = continued(machine, suspects, sharp, &fits);
         if more.is_empty() {
             break;
         }
-        fits.extend(sharpened(machine, sharp, more));
+        fits.extend(sharpened(machine, sharp, more, STEPS[2]));
     }
-    for points in [moved, widened, followed, parts] {
+    for (points, steps) in [
+        (parts as fn(&[Fit]) -> Vec<Point>, STEPS[2]),
+        (moved, STEPS[2]),
+        (nearby, STEPS[1]),
+        (nearby, STEPS[1]),
+        (widened, STEPS[2]),
+        (followed, STEPS[2]),
+        (parts, STEPS[2]),
+    ] {
         let points = points(&fits);
-        fits.extend(sharpened(machine, sharp, points));
+        fits.extend(sharpened(machine, sharp, points, steps));
     }
     Found { fits }
 }
 
-/// The best sets with a cause at another place of its site.
-fn moved(fits: &[Fit]) -> Vec<Point> {
-    best(fits, MOVED).flat_map(|f| f.point.moved()).collect()
-}
-
-/// The best sets with a cause that gives way about any axis, from where it ended along those of the frame.
-fn widened(fits: &[Fit]) -> Vec<Point> {
-    best(fits, BASES).flat_map(|f| f.point.widened()).collect()
-}
-
-/// The other good sets from where the best ended.
-fn followed(fits: &[Fit]) -> Vec<Point> {
-    let Some(leader) = best(fits, 1).next() else {
-        return Vec::new();
-    };
-    let others = best(fits, 2 * BASES).skip(1);
-    others
-        .filter_map(|f| f.point.following(&leader.point))
-        .collect()
-}
-
-/// So many of the most probable.
-fn best(fits: &[Fit], count: usize) -> impl Iterator<Item = &Fit> {
-    let mut best: Vec<&Fit> = fits.iter().collect();
-    best.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
-    best.into_iter().take(count)
-}
-
-/// The best pairs with either cause left out, from where they ended: a pair is no better than its
-/// parts only because these did not arrive.
-fn parts(fits: &[Fit]) -> Vec<Point> {
-    best(fits, 2)
-        .filter(|f| f.point.set.len() > 1)
-        .flat_map(|f| f.point.set.iter().map(|s| without(&f.point, s)))
-        .collect()
-}
-
-fn sharpened(machine: &Machine, sharp: &Data, points: Vec<Point>) -> Vec<Fit> {
+fn sharpened(machine: &Machine, sharp: &Data, points: Vec<Point>, steps: usize) -> Vec<Fit> {
     let fits = points
         .into_par_iter()
-        .map(|point| fit(machine, sharp, point, STEPS[2]).ok())
+        .map(|point| fit(machine, sharp, point, steps).ok())
         .collect::<Vec<_>>();
     fits.into_iter().flatten().collect()
 }

@@ -70,7 +70,7 @@ impl Structure {
         let mut part = robot.clone();
         part.joints.truncate(joint);
         part.elastic.retain(|axis| axis.after < joint.max(1));
-        let body = part.joints.last().and_then(|joint| joint.link);
+        let body = joint.checked_sub(1).and_then(|own| robot.link_body(own));
         let at = body.map_or(FOOT, |body| body.com);
         part.tool = Tool {
             flange: at,

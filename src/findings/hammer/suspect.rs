@@ -13,6 +13,32 @@ const LEAST: f64 = 1e-3;
 /// Root of a compliance that nothing speaks for yet.
 const FAINT: f64 = 0.2;
 
+/// Shares of the body of a part behind the place where it bends: half of it first, as of a bar that bends in its middle. All of it
+/// would leave nothing before.
+const BEHIND: [f64; 5] = [0.5, 0.0, 0.25, 0.75, 0.95];
+
+/// How far from one place to the next a cause is tried, eighths of the way: as far as the middle.
+const STEPS: [u8; 2] = [2, 4];
+
+/// A place between two: what is shared by both in proportion acts there, but for a small spread.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Between {
+    /// The other place.
+    other: usize,
+    /// How far towards it, eighths of the way.
+    eighths: u8,
+}
+
+impl Between {
+    /// Share of the other place.
+    fn share(self) -> f64 {
+        f64::from(self.eighths) / 8.0
+    }
+}
+
+/// A site, a place of it, and how far from there towards the next.
+pub type Seat = (String, usize, Option<Between>);
+
 /// A cause at a place.
 #[derive(Clone)]
 pub struct Suspect {
@@ -22,6 +48,10 @@ pub struct Suspect {
     pub site: String,
     /// Which of the places that its amounts are for: those of one place are [`Cause::heard`] together.
     pub place: usize,
+    /// Whether it sits between that place and the next.
+    pub between: Option<Between>,
+    /// Which of [`BEHIND`] of the part's body lies behind it, where that is one of its amounts.
+    pub behind: usize,
     /// How many of the amounts of its place act.
     pub heard: usize,
 }
@@ -42,6 +72,15 @@ impl Suspect {
         self.place * self.cause.heard()
     }
 
+    /// First of the amounts of each place, and which share acts there.
+    fn acting(&self) -> Vec<(usize, f64)> {
+        let share = self.between.map_or(0.0, Between::share);
+        let other = self.between.map(|b| (b.other * self.cause.heard(), share));
+        std::iter::once((self.before(), 1.0 - share))
+            .chain(other)
+            .collect()
+    }
+
     /// Whether it gives way about any axis. Its unknowns are then the lower roots of its matrices, six each: whatever
     /// they are, the matrix is nowhere negative, and one soft axis is no corner of what is allowed.
     fn is_whole(&self) -> bool {
@@ -55,7 +94,19 @@ impl Suspect {
             false => own.to_vec(),
         };
         let own = own.iter().zip(self.spreads()).map(|(a, s)| a * s);
-        std::iter::repeat_n(0.0, self.before()).chain(own).collect()
+        let own: Vec<f64> = own.collect();
+        let acting = self.acting();
+        let last = acting.iter().map(|(first, _)| first + own.len()).max();
+        let mut all = vec![0.0; last.unwrap_or(0)];
+        for (first, share) in acting {
+            let place = all[first..].iter_mut().zip(&own);
+            place.for_each(|(amount, a)| *amount += share * a);
+        }
+        if let Some(at) = self.cause.behind() {
+            all.resize(at + 1, 0.0);
+            all[at] = BEHIND[self.behind];
+        }
+        all
     }
 
     /// Logarithm of how many forms and places it was chosen among.
@@ -63,7 +114,11 @@ impl Suspect {
         let count = self.cause.card().amounts.len();
         let places = count / self.cause.heard().max(1);
         let forms = forms(self.cause, &self.site).len();
-        ((places * forms) as f64).ln()
+        let nearby = match self.cause.behind() {
+            Some(_) => BEHIND.len() * (1 + STEPS.len() * self.cause.next_to(0).len()),
+            None => 1,
+        };
+        ((places * forms * nearby) as f64).ln()
     }
 
     /// The same cause at the other places that it may have at its site.
@@ -72,8 +127,25 @@ impl Suspect {
         let others = (0..places).filter(|place| *place != self.place);
         others.map(|place| Self {
             place,
+            between: None,
             ..self.clone()
         })
+    }
+
+    /// The same cause between its place and the next to it, on this side of the middle, and with more or less of the part behind it.
+    pub fn nearby(&self) -> impl Iterator<Item = Self> {
+        let next = self.cause.next_to(self.place).into_iter();
+        let ways = next.flat_map(|other| STEPS.map(|eighths| Between { other, eighths }));
+        let beside = ways.map(|between| Self {
+            between: Some(between),
+            ..self.clone()
+        });
+        let shares =
+            (0..BEHIND.len()).filter(|k| self.cause.behind().is_some() && *k != self.behind);
+        beside.chain(shares.map(|behind| Self {
+            behind,
+            ..self.clone()
+        }))
     }
 
     /// The same cause at the same place, free to give way about any axis, from where its unknowns are `own`; `None`
@@ -165,6 +237,12 @@ impl Suspect {
             .collect()
     }
 
+    /// Where it sits; none where that is the first of its places.
+    pub fn seat(&self) -> Option<Seat> {
+        let is_first = self.place == 0 && self.between.is_none();
+        (!is_first).then(|| (self.site.clone(), self.place, self.between))
+    }
+
     /// Cause and site.
     pub fn place(&self) -> Place {
         (self.name(), self.site.clone())
@@ -196,6 +274,8 @@ fn forms(cause: &'static dyn Cause, site: &str) -> Vec<Suspect> {
         cause,
         site: site.to_string(),
         place: 0,
+        between: None,
+        behind: 0,
         heard,
     };
     let mut heard = vec![cause.straight(), cause.heard()];

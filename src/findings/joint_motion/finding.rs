@@ -77,7 +77,7 @@ pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
         .causes
         .iter_mut()
         .for_each(|c| tell(c, told.ok(), delay));
-    let zero = joint.zero(spring.ok(), &others(""), sizes(&answer, &left));
+    let zero = joint.zero(told.ok(), &others(""), sizes(&answer, &left));
     zero.into_iter().for_each(|s| add(&mut answer, s));
     if let Some(c) = spring.ok().filter(|_| !is_loop) {
         let other = joint.other_stiffness(c, &others(""));

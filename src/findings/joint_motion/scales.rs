@@ -10,7 +10,7 @@ use crate::findings::engine::unseen::gains;
 use crate::findings::engine::{Aspects, Member, Nuisance, Statement};
 use crate::findings::gain::Gain;
 use crate::findings::table::{Effect, Parameters};
-use crate::ground::stats::{Z95, mean};
+use crate::ground::stats::{Z95, mean, rms};
 
 /// Told from the record as a whole, so that it has no place among the columns.
 pub(super) const STIFFNESS: Effect<Joint> = Effect {
@@ -92,7 +92,9 @@ impl Joint {
         let (compliance, known) = match (spring, self.nominal.stiffness) {
             (Some(c), _) => (c.value, c.std),
             (None, Some(stiffness)) => (1.0 / stiffness, SLACK / stiffness),
-            (None, None) => (0.0, 0.0),
+            (None, None) if torque.abs() < NIL * rms(&self.data.torque) => (0.0, 0.0),
+            // what the weight twists would be the encoders'
+            (None, None) => return None,
         };
         let made: f64 = parts.iter().map(|part| mean(part)).sum();
         let offset = self.data.zero + compliance * torque - made;
@@ -109,6 +111,8 @@ impl Joint {
     }
 }
 
+/// Share of the torque, rms, below which its mean twists no spring: nothing weighs on the joint. A choice.
+const NIL: f64 = 0.02;
 /// Share of its compliance to which a spring is known that the motion does not show.
 const SLACK: f64 = 0.3;
 /// Share to which the mean of a cause is known: its shape is nearly right, and what a friction held first nobody knows.

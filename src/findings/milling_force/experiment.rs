@@ -192,15 +192,18 @@ impl Case {
     /// A runout is stated by its size: its direction is what the fit of everything made of it.
     fn loose_runout(&self, stated: f64) -> [Loose; 2] {
         let [x, y] = self.runout();
-        let size = x.hypot(y).max(f64::MIN_POSITIVE);
-        let [x, y] = [x / size, y / size];
+        let size = x.hypot(y);
+        let [x, y] = match size > 0.0 {
+            true => [x / size, y / size],
+            false => [1.0, 0.0],
+        };
         let towards = |x: f64, y: f64, spread: f64| Loose {
             along: vec![(RUNOUT, x), (RUNOUT + 1, y)],
             spread,
         };
         [
             towards(x, y, runout::spread(stated)),
-            towards(-y, x, RUNOUT_TURN * stated),
+            towards(-y, x, (RUNOUT_TURN * stated).max(runout::spread(stated))),
         ]
     }
 

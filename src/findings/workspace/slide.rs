@@ -17,5 +17,6 @@ pub(super) fn slide(name: String, after: usize, line: V3, spring: Spring) -> Ela
         axis,
         point: scale(FAR, away),
         spring,
+        body: None,
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{CutFacts, FEWEST_ROWS, Record};
 use crate::ground::spatial::{V3, norm, sub};
-use crate::ground::stats::{quantile, rms};
+use crate::ground::stats::{median, quantile, rms};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -12,7 +12,9 @@ const ROWS: f64 = 16.0;
 const QUIET: f64 = 0.15;
 const STILL: f64 = 0.02;
 /// Share of the force that readings in air, which a zero may shift, stay below: what is as large is a steady cut. A choice.
-const SHIFTED: f64 = 0.5;
+const SHIFTED: f64 = 0.25;
+/// Share of the force by which the mean of whole turns leaves that of air: a cut that begins to chatter keeps its own. A choice.
+const PUSHED: f64 = 0.05;
 /// Turns that must be left in the stock.
 const TURNS: f64 = 2.0;
 
@@ -46,20 +48,20 @@ struct Stretch {
     size: f64,
 }
 
-/// One after the other, from either end.
-fn stretches(record: &Record, length: f64, from_end: bool) -> Vec<Stretch> {
+/// One after the other, from either end, with its number.
+fn stretches(record: &Record, length: f64, from_end: bool) -> Vec<(usize, Stretch)> {
     let (first, last) = (record.time[0], record.time[record.time.len() - 1]);
     let count = ((last - first) / length) as usize;
     let rows = |t: f64| record.time.partition_point(|own| *own < t);
     let one = |k: usize| {
         let [near, far] = [k, k + 1].map(|k| k as f64 * length);
-        match from_end {
+        let rows = match from_end {
             true => rows(last - far)..rows(last - near),
             false => rows(first + near)..rows(first + far),
-        }
+        };
+        (!rows.is_empty()).then(|| (k, Stretch::of(&record.force[rows])))
     };
-    let every = (0..count).map(one).filter(|rows| !rows.is_empty());
-    every.map(|rows| Stretch::of(&record.force[rows])).collect()
+    (0..count).filter_map(one).collect()
 }
 
 impl Stretch {
@@ -85,17 +87,31 @@ fn beside(force: &[V3], from: V3) -> f64 {
 }
 
 /// Stretches in air from the end that they begin at; none: the tool is in the stock there, or never.
-fn air(stretches: &[Stretch], record: &Record) -> Option<usize> {
-    let outermost = stretches.first()?;
+fn air(stretches: &[(usize, Stretch)], record: &Record) -> Option<usize> {
+    let outermost = &stretches.first()?.1;
     let force = beside(&record.force, outermost.mean);
-    let sizes: Vec<f64> = stretches.iter().map(|s| s.size).collect();
+    let sizes: Vec<f64> = stretches.iter().map(|s| s.1.size).collect();
     let is_quiet = |s: &Stretch| s.scatter < QUIET * force;
     if !is_quiet(outermost) || norm(outermost.mean) > SHIFTED * quantile(&sizes, 0.9) {
         return None;
     }
-    let is_air = |s: &&Stretch| is_quiet(s) && norm(sub(s.mean, outermost.mean)) < STILL * force;
-    let count = stretches.iter().take_while(is_air).count();
-    (0 < count && count < stretches.len()).then_some(count)
+    // a zero may drift
+    let mut before = &stretches[0];
+    let mut air = 0;
+    for own in stretches {
+        let still = STILL * force * (own.0 - before.0).max(1) as f64;
+        if !is_quiet(&own.1) || norm(sub(own.1.mean, before.1.mean)) > still {
+            break;
+        }
+        (before, air) = (own, air + 1);
+    }
+    let rest = stretches.get(air..).filter(|rest| !rest.is_empty())?;
+    let pushed: Vec<f64> = rest
+        .iter()
+        .map(|s| norm(sub(s.1.mean, before.1.mean)))
+        .collect();
+    let is_cut = median(&pushed) > (PUSHED * force).max(norm(outermost.mean));
+    (air > 0 && is_cut).then(|| before.0 + 1)
 }
 
 #[cfg(test)]
@@ -139,6 +155,23 @@ mod tests {
     }
 
     #[test]
+    fn air_may_drift_and_miss_rows() {
+        let mut drifts = record(|t| (20.0 * (t - 0.4)).clamp(0.0, 1.0));
+        for (t, f) in drifts.time.iter().zip(&mut drifts.force) {
+            f[0] += 30.0 * t;
+        }
+        let keep = |i: &usize| !(400..1000).contains(i);
+        let kept: Vec<usize> = (0..4000).filter(keep).collect();
+        let gapped = Record {
+            time: kept.iter().map(|i| drifts.time[*i]).collect(),
+            force: kept.iter().map(|i| drifts.force[*i]).collect(),
+            row: kept,
+        };
+        let first = gapped.time[in_stock(&gapped, &CUT, 5e-3).start];
+        assert!((0.45..0.5).contains(&first), "{first}");
+    }
+
+    #[test]
     fn a_cut_all_along_stays_whole() {
         let of = |share: fn(f64) -> f64| in_stock(&record(share), &CUT, 5e-3);
         assert_eq!(of(|_| 1.0), 0..4000);
@@ -146,5 +179,11 @@ mod tests {
         assert_eq!(of(|t| 1.0 - 0.7 * t), 0..4000);
         assert_eq!(of(|_| 0.0), 0..4000);
         assert_eq!(of(|t| f64::from(u8::from(t > 0.98))), 0..4000);
+        // a steady force that chatters from its middle
+        let mut chatters = record(|_| 0.0);
+        for (t, f) in chatters.time.iter().zip(&mut chatters.force) {
+            f[1] += 300.0 * f64::from(u8::from(*t > 0.5)) * (TAU * 333.0 * t).sin();
+        }
+        assert_eq!(in_stock(&chatters, &CUT, 5e-3), 0..4000);
     }
 }

@@ -130,7 +130,7 @@ fn joint_of(raw: JointText) -> Outcome<Joint> {
 }
 
 fn elastic_of(raw: ElasticText, joints: usize) -> Outcome<ElasticAxis> {
-    let (spring, effects, (name, after, axis, point_m)) = raw.parts();
+    let (spring, effects, (name, after, axis, point_m, body)) = raw.parts();
     if after > joints {
         return Err(refuse(
             &name,
@@ -144,6 +144,7 @@ fn elastic_of(raw: ElasticText, joints: usize) -> Outcome<ElasticAxis> {
         axis: unit_axis(&name, axis)?,
         point: finite(&name, "point_m", point_m)?,
         spring: sound(&name, spring, effects)?,
+        body: body.map(body_of),
         name,
     })
 }

@@ -87,7 +87,8 @@ with_spring!(ElasticText {
     name: String,
     after: usize,
     axis: V3,
-    point_m: V3
+    point_m: V3,
+    body: Option<BodyText>
 });
 
 /// One gap or a list of gaps in series.
