@@ -241,6 +241,25 @@ mod tests {
     use super::*;
     use crate::robot::builtin;
 
+    /// What lies behind the bend moves with what follows; the link is as heavy as before.
+    #[test]
+    fn the_body_is_cut_where_a_share_lies_behind() {
+        let whole = builtin::named("kr210").unwrap().unwrap();
+        let mut robot = whole.clone();
+        let mut amounts = [0.0; BEHIND + 1];
+        (amounts[0], amounts[BEHIND]) = (1.0, 0.25);
+        LinkCompliance.alter(&mut robot, "link2", &amounts);
+        let mass = |body: Option<crate::robot::Body>| body.map_or(0.0, |b| b.mass);
+        let before = mass(whole.joints[1].link);
+        assert!((mass(robot.joints[1].link) / before - 0.75).abs() < 1e-12);
+        assert!((mass(robot.link_body(1)) / before - 1.0).abs() < 1e-12);
+        // a share without a bend cuts nothing
+        let mut stiff = whole.clone();
+        amounts[0] = 0.0;
+        LinkCompliance.alter(&mut stiff, "link2", &amounts);
+        assert_eq!(stiff, whole);
+    }
+
     #[test]
     fn places_are_next_to_each_other_along_the_link() {
         // of the middle: three and five eighths; of an end: the first eighth; of a beam: none

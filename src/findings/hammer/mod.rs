@@ -23,6 +23,7 @@ pub mod nuisance;
 pub mod point;
 pub mod prediction;
 pub mod search;
+mod seat;
 pub mod set;
 pub mod strayed;
 pub mod structure;

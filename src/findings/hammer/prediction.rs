@@ -4,7 +4,7 @@ use super::data::Data;
 use super::nuisance::{Known, Nuisance};
 use super::point::Point;
 use super::structure::Structure;
-use super::suspect::{Seat, Suspect};
+use super::{seat::Seat, suspect::Suspect};
 use crate::causes::contract::Accelerance;
 use crate::ground::problem::Outcome;
 use crate::motion::Linear;

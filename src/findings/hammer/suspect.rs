@@ -1,5 +1,6 @@
 //! A cause at a place of one robot, its amounts counted in spreads.
 
+use super::seat::{BEHIND, Between, STEPS, Seat};
 use crate::causes::turns::{LOWER, SIX, squared};
 use crate::causes::{self, Amount, Cause, Sight};
 use crate::effects::Family;
@@ -12,32 +13,6 @@ const LEAST: f64 = 1e-3;
 
 /// Root of a compliance that nothing speaks for yet.
 const FAINT: f64 = 0.2;
-
-/// Shares of the body of a part behind the place where it bends: half of it first, as of a bar that bends in its middle. All of it
-/// would leave nothing before.
-const BEHIND: [f64; 5] = [0.5, 0.0, 0.25, 0.75, 0.95];
-
-/// How far from one place to the next a cause is tried, eighths of the way: as far as the middle.
-const STEPS: [u8; 2] = [2, 4];
-
-/// A place between two: what is shared by both in proportion acts there, but for a small spread.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Between {
-    /// The other place.
-    other: usize,
-    /// How far towards it, eighths of the way.
-    eighths: u8,
-}
-
-impl Between {
-    /// Share of the other place.
-    fn share(self) -> f64 {
-        f64::from(self.eighths) / 8.0
-    }
-}
-
-/// A site, a place of it, and how far from there towards the next.
-pub type Seat = (String, usize, Option<Between>);
 
 /// A cause at a place.
 #[derive(Clone)]
@@ -286,4 +261,35 @@ fn forms(cause: &'static dyn Cause, site: &str) -> Vec<Suspect> {
 /// Whether two suspects are one.
 pub fn same(a: &Suspect, b: &Suspect) -> bool {
     a.name() == b.name() && a.site == b.site
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::builtin;
+
+    /// A part of the way from the middle to the next place is shared in proportion, and the share of the body stands last.
+    #[test]
+    fn a_cause_between_two_places_is_shared_by_both() {
+        let robot = builtin::named("kr210").unwrap().unwrap();
+        let outputs = ["x".to_string()];
+        let all = suspects(&robot, &outputs);
+        let bend = all.iter().find(|s| s.name() == "link_compliance").unwrap();
+        let own = vec![1.0; bend.heard];
+        let whole = bend.whole(&own);
+        assert_eq!(*whole.last().unwrap(), BEHIND[0]);
+        let nearby: Vec<Suspect> = bend.nearby().collect();
+        // two steps to either side, and every other share
+        assert_eq!(nearby.len(), 2 * STEPS.len() + BEHIND.len() - 1);
+        let quarter = nearby[0].whole(&own);
+        let sum = |amounts: &[f64]| amounts[..amounts.len() - 1].iter().sum::<f64>();
+        assert!((sum(&quarter) / sum(&whole) - 1.0).abs() < 1e-12);
+        assert!((quarter[0] / whole[0] - 0.75).abs() < 1e-12);
+        assert_ne!(nearby[0].seat(), nearby[1].seat());
+        assert!(
+            all.iter()
+                .filter(|s| s.cause.behind().is_none())
+                .all(|s| s.nearby().count() == 0)
+        );
+    }
 }

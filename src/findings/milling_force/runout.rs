@@ -197,7 +197,14 @@ impl Way {
 
 #[cfg(test)]
 mod tests {
-    use super::is_felt;
+    use super::{as_stated, is_felt, spread};
+
+    #[test]
+    fn a_stated_runout_is_as_stated_within_what_a_gauge_tells() {
+        assert!((spread(0.0) - 1e-6).abs() < 1e-12 && spread(20e-6) > 3e-6);
+        assert_eq!(as_stated(6e-6, 5.2e-6), 5.2e-6);
+        assert_eq!(as_stated(6e-6, 9e-6), 6e-6);
+    }
 
     #[test]
     fn what_every_spindle_has_is_no_runout() {
