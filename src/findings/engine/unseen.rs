@@ -13,7 +13,7 @@ use std::ops::Range;
 /// The gain of every member of a set: on the first split that plainly shows it, coarse before fine; where none does, on the first that
 /// shows it, else that of the coarsest. Whole cycles held out show little of a delay beside a drift that nobody can continue into them.
 /// What happens once, in as many readings as it has amounts, shows in no other reading: its gain is that on the readings themselves, each
-/// amount paid for. `plainly`: percent ([`Design`]).
+/// amount paid for. `plainly`: percent (`Design`).
 pub fn gains(statement: &Statement, bank: &Bank, fit: &Fit, plainly: f64) -> Vec<Gain> {
     let design = Design::of(statement, bank, fit, plainly);
     let mut splits = Vec::new();

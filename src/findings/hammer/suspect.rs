@@ -25,7 +25,7 @@ pub struct Suspect {
     pub place: usize,
     /// Whether it sits between that place and the next.
     pub between: Option<Between>,
-    /// Which of [`BEHIND`] of the part's body lies behind it, where that is one of its amounts.
+    /// Which of `seat::BEHIND` of the part's body lies behind it, where that is one of its amounts.
     pub behind: usize,
     /// How many of the amounts of its place act.
     pub heard: usize,
