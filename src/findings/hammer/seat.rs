@@ -2,7 +2,7 @@
 
 /// Shares of the body of a part behind the place where it bends: half of it first, as of a bar that bends in its middle. All of it
 /// would leave nothing before.
-pub const BEHIND: [f64; 5] = [0.5, 0.0, 0.25, 0.75, 0.95];
+pub const SHARES_BEHIND: [f64; 5] = [0.5, 0.0, 0.25, 0.75, 0.95];
 
 /// How far from one place to the next a cause is tried, eighths of the way: as far as the middle.
 pub const STEPS: [u8; 2] = [2, 4];

@@ -1,6 +1,6 @@
 //! A cause at a place of one robot, its amounts counted in spreads.
 
-use super::seat::{BEHIND, Between, STEPS, Seat};
+use super::seat::{Between, SHARES_BEHIND, STEPS, Seat};
 use crate::causes::turns::{LOWER, SIX, squared};
 use crate::causes::{self, Amount, Cause, Sight};
 use crate::effects::Family;
@@ -25,7 +25,7 @@ pub struct Suspect {
     pub place: usize,
     /// Whether it sits between that place and the next.
     pub between: Option<Between>,
-    /// Which of `seat::BEHIND` of the part's body lies behind it, where that is one of its amounts.
+    /// Which of `seat::SHARES_BEHIND` of the part's body lies behind it, where that is one of its amounts.
     pub behind: usize,
     /// How many of the amounts of its place act.
     pub heard: usize,
@@ -79,7 +79,7 @@ impl Suspect {
         }
         if let Some(at) = self.cause.behind() {
             all.resize(at + 1, 0.0);
-            all[at] = BEHIND[self.behind];
+            all[at] = SHARES_BEHIND[self.behind];
         }
         all
     }
@@ -90,7 +90,7 @@ impl Suspect {
         let places = count / self.cause.heard().max(1);
         let forms = forms(self.cause, &self.site).len();
         let nearby = match self.cause.behind() {
-            Some(_) => BEHIND.len() * (1 + STEPS.len() * self.cause.next_to(0).len()),
+            Some(_) => SHARES_BEHIND.len() * (1 + STEPS.len() * self.cause.next_to(0).len()),
             None => 1,
         };
         ((places * forms * nearby) as f64).ln()
@@ -116,7 +116,7 @@ impl Suspect {
             ..self.clone()
         });
         let shares =
-            (0..BEHIND.len()).filter(|k| self.cause.behind().is_some() && *k != self.behind);
+            (0..SHARES_BEHIND.len()).filter(|k| self.cause.behind().is_some() && *k != self.behind);
         beside.chain(shares.map(|behind| Self {
             behind,
             ..self.clone()
@@ -277,10 +277,10 @@ mod tests {
         let bend = all.iter().find(|s| s.name() == "link_compliance").unwrap();
         let own = vec![1.0; bend.heard];
         let whole = bend.whole(&own);
-        assert_eq!(*whole.last().unwrap(), BEHIND[0]);
+        assert_eq!(*whole.last().unwrap(), SHARES_BEHIND[0]);
         let nearby: Vec<Suspect> = bend.nearby().collect();
         // two steps to either side, and every other share
-        assert_eq!(nearby.len(), 2 * STEPS.len() + BEHIND.len() - 1);
+        assert_eq!(nearby.len(), 2 * STEPS.len() + SHARES_BEHIND.len() - 1);
         let quarter = nearby[0].whole(&own);
         let sum = |amounts: &[f64]| amounts[..amounts.len() - 1].iter().sum::<f64>();
         assert!((sum(&quarter) / sum(&whole) - 1.0).abs() < 1e-12);

@@ -5,7 +5,7 @@ use crate::findings::engine::{Found, Judgement};
 use crate::findings::milling_force::{Case, CutSamples};
 use crate::fit::suitability::{self, Doubt};
 use crate::ground::problem::Outcome;
-use crate::measurement::milling_force::MillingForce;
+use crate::measurement::milling_force::{IN_AIR, MillingForce};
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -108,8 +108,9 @@ impl Measured for Case {
         if self.file().facts.nominal.is_none() {
             remarks.push("No `nominal` coefficients are stated: those of a fit stand in, and coefficients cannot be blamed.".into());
         }
-        if self.file().in_air > 0 {
-            remarks.push(format!("{} rows are left out in which the tool is in air, or on its way into the stock or out of it.", self.file().in_air));
+        let in_air = self.file().in_air;
+        if in_air > 0 {
+            remarks.push(format!("{in_air} rows are left out {IN_AIR}."));
         }
         remarks
     }
@@ -129,7 +130,7 @@ impl Case {
             let measured = |i: usize| cut.measured[i][k];
             let before = self.folded(cut, &|i| measured(i) - found.missed[row(i)]);
             let after = self.folded(cut, &|i| measured(i) - found.left[row(i)]);
-            let panel = Panel::new(Axis::new("Tooth 1 at", "°"), Axis::new(*name, "N"))
+            let panel = Panel::new(Axis::new("Angle of tooth 1", "°"), Axis::new(*name, "N"))
                 .with(Series::points("measured", self.folded(cut, &measured)))
                 .with(Series::line("as stated", before))
                 .with(Series::line("with the named causes", after));

@@ -22,7 +22,7 @@ const SPEED: f64 = 2e-4;
 pub(super) const WIDTH_SPREAD: f64 = 2e-5;
 /// Spread of a depth that is as stated, m: tools are set to the stock by paper or a probe. A choice.
 pub(super) const DEPTH_SPREAD: f64 = 2e-5;
-/// Share of it by which its tip may stand aside: nobody states where it points.
+/// Share of a stated runout by which its tip may stand aside: nobody states where it points. A choice.
 const RUNOUT_TURN: f64 = 0.8;
 /// Orders of the spindle in which structure is looked for.
 const ORDERS: usize = 8;

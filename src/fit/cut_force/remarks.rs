@@ -3,7 +3,7 @@
 use super::{Account, CutData};
 use crate::cutting::wave::Side;
 use crate::fit::parameter::Status;
-use crate::measurement::milling_force::MillingForce;
+use crate::measurement::milling_force::{IN_AIR, MillingForce};
 use std::f64::consts::TAU;
 
 /// Angle of lag below which the height does not show, rad.
@@ -109,6 +109,6 @@ fn left_out(files: &[MillingForce], cuts: &[&CutData]) -> Option<String> {
     let beyond: usize = cuts.iter().map(|c| c.beyond).sum();
     let air: usize = files.iter().map(|f| f.in_air).sum();
     (empty + settling + beyond + air > 0).then(|| {
-        format!("Left out: {empty} rows for an empty cell, {air} where the tool is in air or on its way into the stock or out, {settling} at the starts of cuts until the low pass has settled, {beyond} at the ends of cuts longer than need be.")
+        format!("Left out: {empty} rows for an empty cell, {air} {IN_AIR}, {settling} at the starts of cuts until the low pass has settled, {beyond} at the ends of cuts longer than need be.")
     })
 }

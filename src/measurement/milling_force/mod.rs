@@ -40,6 +40,9 @@ pub struct MillingForce {
     pub in_air: usize,
 }
 
+/// Where the rows are that [`MillingForce::in_air`] counts.
+pub const IN_AIR: &str = "in which the tool is in air, or on its way into the stock or out of it";
+
 /// Rows of a cut below which nothing can be told.
 pub const FEWEST_ROWS: usize = 32;
 
