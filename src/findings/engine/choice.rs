@@ -67,7 +67,7 @@ pub(super) fn nothing(posterior: &Posterior) -> Scored {
         .unwrap_or_else(|| unreachable!("the empty set is always compared"))
 }
 
-/// The best set, less companions that are not probable enough.
+/// The best set, less companions that are not probable enough; nothing, where that is nearly as probable.
 pub(super) fn choose(posterior: &Posterior, judgement: &Judgement) -> Scored {
     let mut set = posterior
         .sets
@@ -91,7 +91,11 @@ pub(super) fn choose(posterior: &Posterior, judgement: &Judgement) -> Scored {
         };
         set = less.clone();
     }
-    set
+    let none = nothing(posterior);
+    match posterior.odds(&set, &none) < judgement.over_none {
+        true => none,
+        false => set,
+    }
 }
 
 /// Most causes of a set that is named because it leaves only scatter.

@@ -43,6 +43,9 @@ pub struct Judgement {
     /// A group keeps its most probable members until they carry this share of what all of them have: the tail beyond
     /// is no help to who looks for the cause.
     pub group_carries: f64,
+    /// Odds of a set over no cause, below which none is named: evidence that is smaller than what a large cause's law misses ([`Judgement::law_error`])
+    /// tells nothing. 0 where laws are all but exact.
+    pub over_none: f64,
     /// Probability below which a companion is not named (F), nor any cause that unseen rows do not show.
     pub companion_needed: f64,
     /// A companion that lowers the error on unseen rows by less than this, percent, is not named: what laws
@@ -154,6 +157,7 @@ impl Default for Judgement {
             ambiguous: 0.12,
             ambiguous_if_better: 0.003,
             group_carries: 1.0,
+            over_none: 0.0,
             companion_needed: 0.7,
             companion_gain: 1.5,
             companion_gain_beside_kin: 10.0,

@@ -1,5 +1,6 @@
 //! The channels of one joint as they are compared: averaged down, with speed and acceleration.
 
+use super::torque_scatter::torque_scatter;
 use crate::fit::observation::reduce;
 use crate::ground::stats::{mean, quantile};
 use crate::measurement::joint_motion::JointRecord;
@@ -32,6 +33,8 @@ pub struct Channels {
     /// What smoothing again, as much and more, takes of it and of the acceleration, N·m and rad/s²: by nearly as much both
     /// miss the sharp turns of a motion already, and have too much noise elsewhere.
     pub bends: [Vec<f64>; 3],
+    /// What neither motion nor weight nor anything slow makes of it, N·m.
+    pub scatter: Vec<f64>,
     /// Its rate, N·m/s.
     pub torque_rate: Vec<f64>,
     /// Speed, smoothed, rad/s.
@@ -77,6 +80,7 @@ impl Channels {
                 again.iter().zip(c).map(|(a, c)| a - c).collect()
             }),
             quick: raw.iter().zip(&torque).map(|(r, t)| r - t).collect(),
+            scatter: Vec::new(),
             torque_rate: slope(&time, &torque),
             torque,
             width,
@@ -90,6 +94,7 @@ impl Channels {
             block,
         };
         channels.trim();
+        channels.scatter = torque_scatter(&channels);
         channels
     }
 

@@ -35,6 +35,9 @@ pub fn judgement() -> Judgement {
         // they show what is hardly larger than the noise of one; with 1.0 a real run has frictions that come and go
         peak: 1.5,
         left_peak: 1.0,
+        // a loop that is all but a spring explains thousands of nats, and is worth six more than none: of 120 files by a stranger five
+        // had such names, all of them untrue, with odds of 1.0 to 1.3, and one a true one, with 1.9
+        over_none: 1.5,
         ..Judgement::default()
     }
 }
@@ -180,7 +183,7 @@ impl Joint {
         all.push(known(data.speed.clone(), declared));
         let lag = LAG_S * partial(&self.beside_torque(), &data.torque, &data.twist).slope;
         all.push(known(data.torque_rate.clone(), lag.abs()));
-        all.extend(self.softer().map(free));
+        all.extend(self.beyond_motion().map(free));
         all.extend(self.missed(about));
         all.extend(self.begun(about));
         let gaps = about.iter().filter(|b| b.effect == backlash::EFFECT.name);

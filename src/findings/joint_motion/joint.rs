@@ -124,7 +124,7 @@ impl Joint {
     }
 
     /// Columns that every model has: zero, torque, the inertia of the rotor, the quick part of the torque, with its
-    /// noise, and what smoothing takes of sharp turns.
+    /// noise, its scatter, and what smoothing takes of sharp turns.
     pub fn base(&self) -> Vec<Vec<f64>> {
         base(&self.data)
     }
@@ -161,6 +161,7 @@ pub(super) fn base(data: &Channels) -> Vec<Vec<f64>> {
         data.torque.clone(),
         data.acceleration.clone(),
         data.quick.clone(),
+        data.scatter.clone(),
     ];
     columns.extend(data.bends.clone());
     columns

@@ -33,6 +33,7 @@ mod scales;
 mod sensor_offset;
 mod stiffness;
 mod time_skew;
+mod torque_scatter;
 mod viscous_friction;
 
 pub use channels::Channels;

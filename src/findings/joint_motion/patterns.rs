@@ -16,7 +16,7 @@ pub(super) const MESHING: &str = "a ripple in step with the joint that is no enc
 pub(super) const BENT: &str = "a twist that bends with the torque";
 
 /// What is seen of a joint that works loose.
-const CHANGED: &str = "a spring that is softer or stiffer from one instant on";
+const CHANGED: &str = "a twist per torque that changes with time, from one instant on or steadily, as a spring that works loose or a torque constant that warms makes it";
 
 /// All of them; the first of a set is told.
 pub(super) const PATTERNS: &[Pattern<Joint>] = &[
@@ -61,16 +61,18 @@ pub(super) const PATTERNS: &[Pattern<Joint>] = &[
 /// choice, no measurement.
 const PARTS: usize = 24;
 
-/// The torque from an instant on: a jump of an encoder leaves the slope of the twist over it as it was, a spring that
+/// The torque from an instant on, and ever more of it: a jump of an encoder leaves the slope of the twist over it as it was, a spring that
 /// changes does not.
 fn changed(joint: &Joint) -> Vec<Member> {
     let n = joint.data.rows();
+    let progress = unit_range(&joint.data.time);
+    let ever_more = joint.column(|i| progress[i] * joint.geared[i]);
     let from = |row: usize| {
         let after = |i: usize| if i < row { 0.0 } else { joint.geared[i] };
         Member::free(joint.column(after))
     };
     let even = (1..PARTS).map(|part| n * part / PARTS);
-    even.map(from).collect()
+    even.map(from).chain([Member::free(ever_more)]).collect()
 }
 
 /// Time constants of what creeps, s.

@@ -17,8 +17,12 @@ const OWN: f64 = 0.1;
 /// larger than they say; and the share of a compliance to which dry friction must tell it. Choices.
 const SEEN: f64 = 10.0;
 const KNOWN: f64 = 0.1;
+/// Standard deviations of a stated compliance beyond which twist denies it. A choice.
+const DENIED: f64 = 3.0;
 /// Relative standard deviation of a spring that is the stiffest there can be: of the slopes that it is told from. A choice.
 const STIFFEST: f64 = 0.05;
+/// The same where no friction of the link tells one: rotors of two fifths of what they move make it softer by two deviations. A choice.
+const UNTOLD: f64 = 0.2;
 /// The same where a gap or a loop was among them. A choice.
 const MIXED: f64 = 0.5;
 
@@ -42,12 +46,20 @@ pub(super) fn presumed(data: &Channels, ratio: Option<f64>, nominal: Nominal) ->
     }
     let stated = nominal.stiffness.filter(|_| ratio.is_some());
     match stated {
-        Some(stiffness) => Some(Presumed {
-            compliance: 1.0 / stiffness,
-            rel_std: nominal.rel_std,
-            is_stated: true,
-        }),
+        Some(stiffness) => Some(stated_one(data, 1.0 / stiffness, nominal.rel_std)),
         None => stiffest(data),
+    }
+}
+
+/// The stated compliance; where the twist is more than it makes even of a rotor without inertia, the one that makes that: anything down
+/// to the stated one lies within two deviations, since a gap makes such twist as well.
+fn stated_one(data: &Channels, stated: f64, rel_std: f64) -> Presumed {
+    let least = rigid(data).filter(|least| *least > stated * (1.0 + DENIED * rel_std));
+    let compliance = least.unwrap_or(stated);
+    Presumed {
+        compliance,
+        rel_std: rel_std.max(0.5 * (1.0 - stated / compliance)),
+        is_stated: true,
     }
 }
 
@@ -72,21 +84,27 @@ fn without_inertia(data: &Channels) -> Vec<Vec<f64>> {
 /// acceleration, since the rotor's share of that torque makes the spring softer, never stiffer; or a softer one, where friction of the
 /// link makes twist beyond that. A spring without compliance would leave a twist that nothing makes.
 fn stiffest(data: &Channels) -> Option<Presumed> {
-    let beside = without_inertia(data);
-    let twist = told(&beside, &data.acceleration, &data.twist);
-    let torque = told(&beside, &data.acceleration, &data.torque);
-    if !twist.is_seen() || !torque.is_seen() || twist.slope * torque.slope >= 0.0 {
-        return None;
-    }
-    let rigid = -twist.slope / torque.slope;
+    let rigid = rigid(data)?;
     let softer = by_friction(data, KNOWN * rigid);
-    let compliance = softer.map_or(rigid, |softer| softer.max(rigid));
+    let told = softer.filter(|softer| *softer > rigid);
+    let compliance = told.unwrap_or(rigid);
+    let least = told.map_or(UNTOLD, |_| STIFFEST);
     Some(Presumed {
         compliance,
         // a gap makes such twist as well: anything down to the rigid rotor's lies within two deviations
-        rel_std: STIFFEST.max(0.5 * (1.0 - rigid / compliance)),
+        rel_std: least.max(0.5 * (1.0 - rigid / compliance)),
         is_stated: false,
     })
+}
+
+/// Compliance of a rotor without inertia, by the twist over the torque of the acceleration.
+fn rigid(data: &Channels) -> Option<f64> {
+    let beside = without_inertia(data);
+    let twist = told(&beside, &data.acceleration, &data.twist);
+    let torque = told(&beside, &data.acceleration, &data.torque);
+    let is_seen = twist.is_seen() && torque.is_seen();
+    let rigid = -twist.slope / torque.slope;
+    (is_seen && rigid > 0.0).then_some(rigid)
 }
 
 /// Compliance by the twist over friction that the torque shows: by dry friction alone, where it tells one to within an error, so that a
@@ -156,11 +174,11 @@ impl Joint {
         self.presumed.map_or(f64::INFINITY, known)
     }
 
-    /// What a spring makes of torque that is neither inertia nor friction: any, where the stiffest is presumed, since the true
-    /// one is softer by what nobody knows.
-    pub(super) fn softer(&self) -> Option<Vec<f64>> {
-        let is_stiffest = self.presumed.is_some_and(|p| !p.is_stated);
-        is_stiffest.then(|| beyond(&self.data))
+    /// What a spring makes of torque that is neither inertia nor friction: any, since where the stiffest is presumed the true one is
+    /// softer by what nobody knows, and since noise of the torque would else pay for what follows speed and acceleration, which
+    /// have none: a late encoder, a loop.
+    pub(super) fn beyond_motion(&self) -> Option<Vec<f64>> {
+        self.presumed.map(|_| beyond(&self.data))
     }
 
     /// Columns beside which a spring is told: where one is presumed, of a rotor without inertia, which makes it as stiff as

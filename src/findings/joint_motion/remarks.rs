@@ -38,6 +38,7 @@ pub fn remarks(joints: &[JointFinding]) -> Vec<String> {
     let mut said = Vec::new();
     said.extend(common_delay(joints));
     said.extend(stiffnesses(joints));
+    said.extend(joints.iter().filter_map(rotor));
     said.extend(joints.iter().filter_map(leftover));
     let wild: usize = joints.iter().map(|j| j.data.wild).sum();
     if wild > 0 {
@@ -103,6 +104,14 @@ fn stiffnesses(joints: &[JointFinding]) -> Vec<String> {
         said.push(format!("To identify a stiffness: {FOR_STIFFNESS}."));
     }
     said
+}
+
+fn rotor(joint: &JointFinding) -> Option<String> {
+    let share = 100.0 * joint.rotor?;
+    Some(format!(
+        "{} twists less than its stated spring does under the torque of its motor: a rotor with {share:.0} % of the inertia that the joint moves would make that, and so would a stiffer spring. Nothing is named for it.",
+        joint.site
+    ))
 }
 
 fn leftover(joint: &JointFinding) -> Option<String> {

@@ -21,6 +21,8 @@ pub struct Compliance {
 const TIGHT: f64 = 0.1;
 /// The torque's own part of the twist must stand so far above what is left, as smooth as the torque.
 const STANDS_OUT: f64 = 1.5;
+/// Share of the torque, rms, that an account must leave of it. A choice.
+const OWN: f64 = 0.1;
 /// Pieces of time: which of how many.
 const PIECES: [(usize, usize); 6] = [(0, 1), (0, 2), (1, 2), (0, 3), (1, 3), (2, 3)];
 
@@ -34,7 +36,7 @@ pub fn compliance(joint: &Joint, parts: &[Vec<f64>]) -> Result<Compliance, &'sta
     }
     let data = &joint.data;
     let accounts = accounts(joint, parts);
-    let fullest = accounts.last().cloned().unwrap_or_default();
+    let fullest = fullest(&accounts, &data.torque);
     let white = |c: &Vec<f64>| joint.noise.whiten(c);
     let beside: Vec<Vec<f64>> = fullest.iter().map(white).collect();
     let found = partial(&beside, &white(&data.torque), &white(&data.twist));
@@ -52,9 +54,9 @@ pub fn compliance(joint: &Joint, parts: &[Vec<f64>]) -> Result<Compliance, &'sta
             "pieces of the record and the terms for friction and angle do not agree on one",
         );
     }
-    let own = value * rms(&left(&fullest, &data.torque));
+    let own = value * rms(&left(fullest, &data.torque));
     // what is left scatters from reading to reading, the torque's part does not
-    let beside = data.smoothed(&left(&with(&fullest, &data.torque), &data.twist));
+    let beside = data.smoothed(&left(&with(fullest, &data.torque), &data.twist));
     if own < STANDS_OUT * rms(&beside) {
         return Err("the torque's own part of the twist does not stand out from what is left");
     }
@@ -76,6 +78,15 @@ fn accounts(joint: &Joint, parts: &[Vec<f64>]) -> Vec<Vec<Vec<f64>>> {
     .concat();
     let fullest = [rubbed.clone(), slower].concat();
     vec![few, rubbed, full, fullest]
+}
+
+/// The account with most beside the torque that leaves a part of it; the last where none does: hardly anything of it is left there, and
+/// what laws miss of the twist would tell the spring.
+fn fullest<'a>(accounts: &'a [Vec<Vec<f64>>], torque: &[f64]) -> &'a [Vec<f64>] {
+    let whole = rms(torque);
+    let leaves = |account: &&Vec<Vec<f64>>| rms(&left(account, torque)) > OWN * whole;
+    let found = accounts.iter().rev().find(leaves);
+    found.or(accounts.last()).map_or(&[], Vec::as_slice)
 }
 
 fn with(columns: &[Vec<f64>], one: &[f64]) -> Vec<Vec<f64>> {
