@@ -623,6 +623,34 @@ fn a_loose_cube_that_swings_with_its_neighbour_is_named() {
     only(&named(&|_| 1.0, &share), "loose_cube", "fore-high");
 }
 
+/// What all cubes of a test do alike is the frame's where it is known to move: their own noise is what is left.
+#[test]
+fn a_frame_that_is_known_to_move_is_no_noise_of_the_cubes() {
+    let robot = kr300();
+    let bench = Bench {
+        seed: 5,
+        degrees: POSE,
+        noise: [1e-6, 5e-6],
+        frame_mm: 0.01,
+        times: 1.0,
+        cubes: cubes(),
+        change: &|_| 1.0,
+    };
+    let noise = |unstated: &str| {
+        let text = bench.text(&robot);
+        let kept = |line: &&str| !line.starts_with("# sensor_noise") && !line.contains(unstated);
+        let text: Vec<&str> = text.lines().filter(kept).collect();
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("cubes.csv");
+        std::fs::write(&path, text.join("\n") + "\n").unwrap();
+        let test = CubeTest::read(&path).unwrap();
+        Case::new(test, robot.clone()).unwrap().noise
+    };
+    let known = noise("nothing of the kind");
+    assert!((0.8e-6..1.25e-6).contains(&known), "{known:e}");
+    assert!(noise("frame_std_mm") > 5e-6);
+}
+
 #[test]
 fn a_frame_that_moved_is_named() {
     let moved = Hidden {

@@ -3,6 +3,7 @@
 use super::channels::Channels;
 use super::delay::{Delay, delay};
 use super::experiment::judgement;
+use super::hysteresis;
 use super::joint::{Joint, Nominal};
 use super::patterns::{BENT, MESHING};
 use super::projection;
@@ -84,7 +85,9 @@ pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
         .iter_mut()
         .for_each(|c| tell(c, told.ok(), delay));
     let mut rotor = None;
-    let zero = joint.zero(told.ok(), &others(""), sizes(&answer, &left));
+    let loops = beside().filter(|b| b.effect == hysteresis::EFFECT.name);
+    let held: f64 = loops.map(|b| b.amounts[0].abs()).sum();
+    let zero = joint.zero(told.ok(), &others(""), held, sizes(&answer, &left));
     zero.into_iter().for_each(|s| add(&mut answer, s));
     if let Some(c) = spring.ok().filter(|_| !is_loop) {
         let times = joint.nominal.stiffness.map_or(1.0, |k| 1.0 / (c.value * k));

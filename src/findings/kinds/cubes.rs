@@ -39,6 +39,8 @@ impl Measured for Case {
     fn judgement(&self) -> Judgement {
         Judgement {
             share: 0.01,
+            // an arm that hardens was a loose cube, one and a half times as probable as nothing
+            over_none: 3.0,
             ..Judgement::default()
         }
     }
