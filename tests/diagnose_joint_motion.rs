@@ -572,7 +572,7 @@ fn a_joint_without_gravity_is_told() {
     for arm in [of(-0.35, 0.0, 0.0, 0.0), of(0.0, 0.0, 0.0, 160.0)] {
         let found = diagnose(&read(&arm.text(7)), None);
         assert_eq!(found.answer.verdict.name(), "sufficient");
-        let told = |r: &String| r.contains("a rotor with 5") && r.contains("a stiffer spring");
+        let told = |r: &String| r.contains("a spring 5") && r.contains("% stiffer");
         assert!(found.remarks.iter().any(told), "{:?}", found.remarks);
     }
     // of more inertia than all that it moves few are
@@ -594,6 +594,18 @@ fn a_softer_spring_is_no_delay() {
         let (said, verdict) = arm.found();
         assert_eq!((said, verdict), (vec!["stiffness".into()], "explained"));
     }
+}
+
+/// Without a ratio the torque is the motor's, and a spring on the side of the link says nothing of the zero that it leaves.
+#[test]
+fn without_a_ratio_no_zero_is_told_by_a_stated_spring() {
+    let arm = Arm {
+        weight: 1500.0,
+        ..Arm::default()
+    };
+    let text = arm.text(7).replace("# gear_ratio = [120]\n", "");
+    let found = diagnose(&read(&text), None);
+    assert!(said(&found).is_empty(), "{:?}", said(&found));
 }
 
 /// Noise of the torque is none of the twist: speed and acceleration, which have none, must not take the torque's place.

@@ -20,8 +20,8 @@ pub(super) fn told(
     missed: &[f64],
     arm: f64,
 ) -> [Option<(f64, f64)>; 2] {
-    let (missed, own_share) = match test.facts.frame_std {
-        Some(std) if std > 0.0 => without_shifts(test, rows, missed),
+    let (missed, free) = match test.facts.frame_std {
+        Some(std) if std > 0.0 => without_shifts(rows, missed),
         _ => (missed.to_vec(), 1.0),
     };
     let mut left: [(Vec<f64>, f64); 2] = Default::default();
@@ -38,34 +38,36 @@ pub(super) fn told(
     let noise = |(kind, (left, freedom)): (usize, (Vec<f64>, f64))| {
         let sizes: Vec<f64> = left.iter().map(|l| l.abs()).collect();
         let share = (left.len() as f64 / freedom.max(1.0)).sqrt();
-        let unit = if kind == 0 { own_share.sqrt() } else { arm };
+        let (unit, free) = if kind == 0 { (1.0, free) } else { (arm, 1.0) };
         let found = median(&sizes) / 0.6745 * share / unit;
-        (freedom >= TELLING as f64 && found > 0.0).then_some((found, EFFICIENCY * freedom))
+        let worth = free * freedom;
+        (worth >= TELLING as f64 && found > 0.0).then_some((found, EFFICIENCY * worth))
     };
     let mut each = left.into_iter().enumerate().map(noise);
     std::array::from_fn(|_| each.next().flatten())
 }
 
-/// Without what all cubes of a test do alike, which a frame that moves makes, and the share of the variance of a cube's own noise that is left of
-/// displacements then.
-fn without_shifts(test: &CubeTest, rows: &[Row], missed: &[f64]) -> (Vec<f64>, f64) {
+/// Without what all cubes of a test do alike, which a frame that moves makes, so large that each keeps the variance of its own noise, and the share
+/// of their numbers that is left of displacements then. One cube alone keeps what it does.
+fn without_shifts(rows: &[Row], missed: &[f64]) -> (Vec<f64>, f64) {
     let mut alike: BTreeMap<(i64, usize), Vec<f64>> = BTreeMap::new();
-    for (row, missed) in rows.iter().zip(missed) {
+    let shifts = |row: &&(&Row, &f64)| row.0.component < 3;
+    let all: Vec<(&Row, &f64)> = rows.iter().zip(missed).collect();
+    for (row, missed) in all.iter().filter(shifts) {
         let own = alike.entry((row.test, row.component)).or_default();
-        own.push(*missed);
+        own.push(**missed);
     }
-    let shifts: BTreeMap<_, f64> = alike.iter().map(|(at, own)| (*at, mean(own))).collect();
-    let less = |(row, missed): (&Row, &f64)| match row.component < 3 {
-        true => missed - shifts[&(row.test, row.component)],
-        false => *missed,
-    };
-    match test.facts.cubes.len() {
-        0 | 1 => (missed.to_vec(), 1.0),
-        cubes => {
-            let own = rows.iter().zip(missed).map(less).collect();
-            (own, 1.0 - 1.0 / cubes as f64)
+    let less = |(row, missed): &(&Row, &f64)| match alike.get(&(row.test, row.component)) {
+        Some(own) if own.len() > 1 => {
+            let kept = 1.0 - 1.0 / own.len() as f64;
+            (*missed - mean(own)) / kept.sqrt()
         }
-    }
+        _ => **missed,
+    };
+    let count: usize = alike.values().map(Vec::len).sum();
+    let free = count - alike.values().filter(|own| own.len() > 1).count();
+    let share = free as f64 / count.max(1) as f64;
+    (all.iter().map(less).collect(), share)
 }
 
 /// What one component of one cube does that is in no proportion to forces and moments, and how many of its

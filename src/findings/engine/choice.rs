@@ -67,7 +67,8 @@ pub(super) fn nothing(posterior: &Posterior) -> Scored {
         .unwrap_or_else(|| unreachable!("the empty set is always compared"))
 }
 
-/// The best set, less companions that are not probable enough; nothing, where that is nearly as probable.
+/// The best set, less companions that are not probable enough; nothing, where the set and all that can take the place of one of its causes are no
+/// more probable than a kind asks (`Judgement::over_none`). Sets that become smaller later are not asked again.
 pub(super) fn choose(posterior: &Posterior, judgement: &Judgement) -> Scored {
     let mut set = posterior
         .sets
@@ -92,7 +93,16 @@ pub(super) fn choose(posterior: &Posterior, judgement: &Judgement) -> Scored {
         set = less.clone();
     }
     let none = nothing(posterior);
-    match posterior.odds(&set, &none) < judgement.over_none {
+    let stand_ins = set
+        .suspects
+        .iter()
+        .flat_map(|s| posterior.stand_ins(&set, *s));
+    let own = 1.0
+        + stand_ins
+            .filter(|s| !set.suspects.contains(&s.0))
+            .map(|s| s.1)
+            .sum::<f64>();
+    match own * posterior.odds(&set, &none) < judgement.over_none {
         true => none,
         false => set,
     }

@@ -43,8 +43,9 @@ pub struct Judgement {
     /// A group keeps its most probable members until they carry this share of what all of them have: the tail beyond
     /// is no help to who looks for the cause.
     pub group_carries: f64,
-    /// Odds of a set over no cause, below which none is named, where a kind asks: evidence that is smaller than what a large cause's law misses
-    /// ([`Judgement::law_error`]) tells nothing, nor what stands for structure that nobody knows while no noise is stated.
+    /// Odds of a set, with what can take its place, over no cause, below which none is named, where a kind asks: evidence that is smaller than what a
+    /// large cause's law misses ([`Judgement::law_error`]) tells nothing, nor what stands for structure that nobody knows. Asked of the set that is
+    /// chosen first.
     pub over_none: f64,
     /// Probability below which a companion is not named (F), nor any cause that unseen rows do not show.
     pub companion_needed: f64,

@@ -36,8 +36,8 @@ pub fn judgement() -> Judgement {
         peak: 1.5,
         left_peak: 1.0,
         // a loop that is all but a spring explains thousands of nats, and is worth six more than none: of 120 files by a stranger five
-        // had such names, all of them untrue, with odds of 1.0 to 1.3, and one a true one, with 1.9
-        over_none: 1.5,
+        // had such names, all of them untrue, with odds of 2.0 to 3.0, and one a true one, with 5.4
+        over_none: 4.0,
         ..Judgement::default()
     }
 }

@@ -76,26 +76,32 @@ pub fn diagnose_joint(record: &JointRecord, nominal: Nominal) -> JointFinding {
     let stated = joint.presumed.filter(|p| p.is_stated);
     let told = match stated {
         Some(_) => Err(ROTOR),
-        None => spring,
+        None => spring.map_err(|why| joint.presumed.map_or(why, |_| ROTOR)),
     };
     let delay = has("time_skew").then(|| delay(&joint, &others("time_skew")));
-    let is_loop = beside().any(|b| b.effect == "hysteresis"); // it has no one stiffness
+    let loops: Vec<f64> = beside()
+        .filter(|b| b.effect == hysteresis::EFFECT.name)
+        .map(|b| b.amounts[0].abs())
+        .collect();
     answer
         .causes
         .iter_mut()
         .for_each(|c| tell(c, told.ok(), delay));
     let mut rotor = None;
-    let loops = beside().filter(|b| b.effect == hysteresis::EFFECT.name);
-    let held: f64 = loops.map(|b| b.amounts[0].abs()).sum();
+    let held = loops.iter().sum();
     let zero = joint.zero(told.ok(), &others(""), held, sizes(&answer, &left));
     zero.into_iter().for_each(|s| add(&mut answer, s));
-    if let Some(c) = spring.ok().filter(|_| !is_loop) {
+    // a loop has no one stiffness
+    if let Some(c) = spring.ok().filter(|_| loops.is_empty()) {
         let times = joint.nominal.stiffness.map_or(1.0, |k| 1.0 / (c.value * k));
-        match (joint.other_stiffness(c, &others("")), stated) {
-            (Some(_), Some(_)) if times > 1.0 && times < HEAVIEST => rotor = Some(times - 1.0),
-            (Some(s), Some(_)) if times > 1.0 => ask(&mut answer, s),
-            (Some(s), _) => add(&mut answer, s),
-            (None, _) => {}
+        let other = joint.other_stiffness(c, &others(""));
+        let is_stiffer = stated.is_some() && times > 1.0;
+        rotor = other.as_ref().filter(|_| is_stiffer).map(|_| times - 1.0);
+        match other {
+            Some(_) if is_stiffer && times < HEAVIEST => {}
+            Some(s) if is_stiffer => ask(&mut answer, s),
+            Some(s) => add(&mut answer, s),
+            None => {}
         }
     }
     let simulated = joint.simulated();

@@ -60,7 +60,12 @@ const SLOW: usize = 10;
 
 impl Joint {
     /// From a record.
-    pub fn new(record: &JointRecord, nominal: Nominal) -> Self {
+    pub fn new(record: &JointRecord, stated: Nominal) -> Self {
+        // a spring on the side of the link says nothing of torque on the side of the motor
+        let nominal = Nominal {
+            stiffness: stated.stiffness.filter(|_| record.ratio.is_some()),
+            ..stated
+        };
         let data = Channels::of(record);
         let rough = rough(&data, &data.twist);
         let presumed = presumed(&data, record.ratio, nominal);

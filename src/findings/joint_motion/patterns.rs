@@ -15,8 +15,8 @@ pub(super) const MESHING: &str = "a ripple in step with the joint that is no enc
 /// What is seen of a spring that is not straight.
 pub(super) const BENT: &str = "a twist that bends with the torque";
 
-/// What is seen of a joint that works loose.
-const CHANGED: &str = "a twist per torque that changes with time, from one instant on or steadily, as a spring that works loose or a torque constant that warms makes it";
+/// What is seen of a joint that works loose, or of a torque whose scale drifts.
+const CHANGED: &str = "a twist per torque that changes with time, at once or steadily, as a spring that works loose or a torque constant that warms makes it";
 
 /// All of them; the first of a set is told.
 pub(super) const PATTERNS: &[Pattern<Joint>] = &[
@@ -61,7 +61,7 @@ pub(super) const PATTERNS: &[Pattern<Joint>] = &[
 /// choice, no measurement.
 const PARTS: usize = 24;
 
-/// The torque from an instant on, and ever more of it: a jump of an encoder leaves the slope of the twist over it as it was, a spring that
+/// The torque from an instant on, or ever more of it: a jump of an encoder leaves the slope of the twist over it as it was, a spring that
 /// changes does not.
 fn changed(joint: &Joint) -> Vec<Member> {
     let n = joint.data.rows();

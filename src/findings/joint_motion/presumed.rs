@@ -1,6 +1,7 @@
 //! A spring that a motion does not show: torque that pays for inertia and friction alone, as where gravity loads no joint. The
 //! inertia of the rotor, which nobody states, would make any twist of it, so that the spring of the simulation, as well as it
-//! is known, takes the place of one that is fitted; where nobody states any, the stiffest that there can be.
+//! is known, takes the place of one that is fitted; where nobody states any, or the twist is more than the stated one makes, the stiffest that
+//! there can be.
 
 use super::channels::Channels;
 use super::coulomb_friction::dry;
@@ -33,7 +34,8 @@ pub struct Presumed {
     pub compliance: f64,
     /// Its relative standard deviation.
     pub rel_std: f64,
-    /// Whether it is the simulation's, and not the stiffest with which the torque makes such a twist.
+    /// Whether the simulation states one, which is presumed where the twist is no more than it makes; else it is the stiffest with which the torque
+    /// makes such a twist.
     pub is_stated: bool,
 }
 

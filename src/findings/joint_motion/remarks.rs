@@ -39,6 +39,7 @@ pub fn remarks(joints: &[JointFinding]) -> Vec<String> {
     said.extend(common_delay(joints));
     said.extend(stiffnesses(joints));
     said.extend(joints.iter().filter_map(rotor));
+    said.extend(joints.iter().filter_map(softer_still));
     said.extend(joints.iter().filter_map(leftover));
     let wild: usize = joints.iter().map(|j| j.data.wild).sum();
     if wild > 0 {
@@ -109,9 +110,21 @@ fn stiffnesses(joints: &[JointFinding]) -> Vec<String> {
 fn rotor(joint: &JointFinding) -> Option<String> {
     let share = 100.0 * joint.rotor?;
     Some(format!(
-        "{} twists less than its stated spring does under the torque of its motor: a rotor with {share:.0} % of the inertia that the joint moves would make that, and so would a stiffer spring. Nothing is named for it.",
+        "{} twists less than its stated spring does under the torque of its motor: a rotor whose inertia, seen through the gear, is {share:.0} % of what the joint moves would make that, and so would a spring {share:.0} % stiffer.",
         joint.site
     ))
+}
+
+/// A spring that is told beside a rotor of which nothing is known.
+fn softer_still(joint: &JointFinding) -> Option<String> {
+    let is_named = joint.answer.causes.iter().any(|c| c.effect == "stiffness");
+    let is_bound = is_named && joint.compliance.is_err();
+    is_bound.then(|| {
+        format!(
+            "The stiffness named at {} is the most that the motion allows: behind a rotor with inertia the spring is softer still.",
+            joint.site
+        )
+    })
 }
 
 fn leftover(joint: &JointFinding) -> Option<String> {

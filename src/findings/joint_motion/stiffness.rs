@@ -6,7 +6,7 @@ use super::joint::Joint;
 use super::projection::{left, partial};
 use crate::findings::engine::Noise;
 use crate::findings::table::{unit_range, waves};
-use crate::ground::stats::rms;
+use crate::ground::stats::{mean, rms};
 
 /// A compliance with the interval that all pieces and all accounts support.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,9 +36,9 @@ pub fn compliance(joint: &Joint, parts: &[Vec<f64>]) -> Result<Compliance, &'sta
     }
     let data = &joint.data;
     let accounts = accounts(joint, parts);
-    let fullest = fullest(&accounts, &data.torque);
+    let telling = telling(&accounts, &data.torque);
     let white = |c: &Vec<f64>| joint.noise.whiten(c);
-    let beside: Vec<Vec<f64>> = fullest.iter().map(white).collect();
+    let beside: Vec<Vec<f64>> = telling.iter().map(white).collect();
     let found = partial(&beside, &white(&data.torque), &white(&data.twist));
     let value = -found.slope;
     if value <= 0.0 {
@@ -54,9 +54,9 @@ pub fn compliance(joint: &Joint, parts: &[Vec<f64>]) -> Result<Compliance, &'sta
             "pieces of the record and the terms for friction and angle do not agree on one",
         );
     }
-    let own = value * rms(&left(fullest, &data.torque));
+    let own = value * rms(&left(telling, &data.torque));
     // what is left scatters from reading to reading, the torque's part does not
-    let beside = data.smoothed(&left(&with(fullest, &data.torque), &data.twist));
+    let beside = data.smoothed(&left(&with(telling, &data.torque), &data.twist));
     if own < STANDS_OUT * rms(&beside) {
         return Err("the torque's own part of the twist does not stand out from what is left");
     }
@@ -80,12 +80,15 @@ fn accounts(joint: &Joint, parts: &[Vec<f64>]) -> Vec<Vec<Vec<f64>>> {
     vec![few, rubbed, full, fullest]
 }
 
-/// The account with most beside the torque that leaves a part of it; the last where none does: hardly anything of it is left there, and
-/// what laws miss of the twist would tell the spring.
-fn fullest<'a>(accounts: &'a [Vec<Vec<f64>>], torque: &[f64]) -> &'a [Vec<f64>] {
-    let whole = rms(torque);
+/// The account with most beside the torque that leaves a part of it, speed and direction beside it in any case, which a late encoder follows; the
+/// last where none does. Where hardly anything of the torque is left, what laws miss of the twist would tell the spring: all accounts must agree, so
+/// that the last one mostly tells none.
+fn telling<'a>(accounts: &'a [Vec<Vec<f64>>], torque: &[f64]) -> &'a [Vec<f64>] {
+    let middle = mean(torque);
+    let moving: Vec<f64> = torque.iter().map(|t| t - middle).collect();
+    let whole = rms(&moving);
     let leaves = |account: &&Vec<Vec<f64>>| rms(&left(account, torque)) > OWN * whole;
-    let found = accounts.iter().rev().find(leaves);
+    let found = accounts.iter().skip(1).rev().find(leaves);
     found.or(accounts.last()).map_or(&[], Vec::as_slice)
 }
 

@@ -10,7 +10,7 @@ use crate::findings::table::{unit_range, waves};
 /// Half waves over time for every second, up to three quarters of a hertz, and at most so many. A choice: on 120 files by a stranger 0.5 to 3 answered
 /// all but the same; on the real run of a KR 300 less than 1.5 took a drift for friction.
 const PER_SECOND: f64 = 1.5;
-const MOST: usize = 80;
+const MOST: usize = 150;
 
 /// Of a joint's channels, N·m.
 pub(super) fn torque_scatter(data: &Channels) -> Vec<f64> {

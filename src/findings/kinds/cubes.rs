@@ -39,7 +39,8 @@ impl Measured for Case {
     fn judgement(&self) -> Judgement {
         Judgement {
             share: 0.01,
-            // an arm that hardens was a loose cube, one and a half times as probable as nothing
+            // an arm that hardens was a loose cube, with all that could take its place two and a half times as probable as nothing; no other value
+            // was tried
             over_none: 3.0,
             ..Judgement::default()
         }
