@@ -217,6 +217,19 @@ const NOTHING: Hidden = Hidden {
     spoil: |_, _, _, _| {},
 };
 
+/// At one pose, with every cube and a frame that rests.
+fn usual() -> Bench<'static> {
+    Bench {
+        seed: 3,
+        degrees: POSE,
+        noise: [1e-6, 5e-6],
+        frame_mm: 0.0,
+        times: 1.0,
+        cubes: cubes(),
+        change: &|_| 1.0,
+    }
+}
+
 impl Bench<'_> {
     fn text(&self, robot: &Robot) -> String {
         self.text_with(robot, &NOTHING)
@@ -356,11 +369,9 @@ fn table_1_of_the_source_comes_back_within_a_percent() {
     let bench = |(i, degrees): (usize, &[f64; 6])| Bench {
         seed: 1 + i as u64,
         degrees: *degrees,
-        noise: [1e-6, 5e-6],
-        frame_mm: 0.0,
         times: 3.0,
-        cubes: cubes(),
         change: &change,
+        ..usual()
     };
     let tests: Vec<CubeTest> = poses
         .iter()
@@ -397,12 +408,9 @@ fn intervals_hold_the_truth_as_often_as_they_claim() {
     for seed in 0..count {
         let bench = Bench {
             seed: 500 + seed,
-            degrees: POSE,
             noise: [2e-6, 1e-5],
             frame_mm: 0.01,
-            times: 1.0,
-            cubes: cubes(),
-            change: &|_| 1.0,
+            ..usual()
         };
         let account = found(&[bench.read(&robot)]);
         for parameter in &account.parameters {
@@ -423,15 +431,7 @@ fn what_single_cubes_see_together_is_said_to_be_together() {
     let robot = kr300();
     // one cube behind A6 and the sensor, none between
     let cubes: Vec<Cube> = cubes().into_iter().filter(|c| c.0 != "flange").collect();
-    let bench = Bench {
-        seed: 3,
-        degrees: POSE,
-        noise: [1e-6, 5e-6],
-        frame_mm: 0.0,
-        times: 1.0,
-        cubes,
-        change: &|_| 1.0,
-    };
+    let bench = Bench { cubes, ..usual() };
     let account = found(&[bench.read(&robot)]);
     let open = |site: &str| {
         account
@@ -457,13 +457,8 @@ fn what_single_cubes_see_together_is_said_to_be_together() {
 fn subsequent_cubes_carry_the_moment_between_them() {
     let robot = kr300();
     let bench = Bench {
-        seed: 3,
-        degrees: POSE,
         noise: [1e-9, 1e-9],
-        frame_mm: 0.0,
-        times: 1.0,
-        cubes: cubes(),
-        change: &|_| 1.0,
+        ..usual()
     };
     let account = found(&[bench.read(&robot)]);
     let pair = account
@@ -481,15 +476,7 @@ fn subsequent_cubes_carry_the_moment_between_them() {
 #[test]
 fn what_cannot_be_read_is_refused_with_line_and_remedy() {
     let robot = kr300();
-    let bench = Bench {
-        seed: 3,
-        degrees: POSE,
-        noise: [1e-6, 5e-6],
-        frame_mm: 0.0,
-        times: 1.0,
-        cubes: cubes(),
-        change: &|_| 1.0,
-    };
+    let bench = usual();
     let good = bench.text(&robot);
     let refused = |text: String| {
         let folder = tempfile::tempdir().unwrap();
@@ -629,12 +616,8 @@ fn a_frame_that_is_known_to_move_is_no_noise_of_the_cubes() {
     let robot = kr300();
     let bench = Bench {
         seed: 5,
-        degrees: POSE,
-        noise: [1e-6, 5e-6],
         frame_mm: 0.01,
-        times: 1.0,
-        cubes: cubes(),
-        change: &|_| 1.0,
+        ..usual()
     };
     let noise = |left_out: &[&str]| {
         let text = bench.text(&robot);

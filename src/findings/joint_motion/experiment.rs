@@ -35,8 +35,8 @@ pub fn judgement() -> Judgement {
         // they show what is hardly larger than the noise of one; with 1.0 a real run has frictions that come and go
         peak: 1.5,
         left_peak: 1.0,
-        // a loop that is all but a spring explains thousands of nats, and is worth six more than none: of 120 files by a stranger five
-        // had such names, all of them untrue, with odds of 2.0 to 3.0, and one a true one, with 5.4
+        // a loop that is all but a spring explains thousands of nats, and is worth six more than none: in 120 files by a stranger the
+        // leading sets with odds below four (seven files, 1.1 to 3.8) held no true cause, the next one (5.4) did. Set on these files
         over_none: 4.0,
         ..Judgement::default()
     }

@@ -49,7 +49,7 @@ impl JointFinding {
 const ROTOR: &str = "the torque pays for inertia and friction alone, so that the inertia of the rotor would make the same twist";
 
 /// Times the stated stiffness up to which a motion that shows no spring may have one: behind a rotor with as much inertia as what it moves, as
-/// gears of 100 and more make it. Of 200 files by a stranger 16 had such a stiffness as what cannot be told, all of them rotors.
+/// gears of 100 and more make it. Of 200 files by a stranger 17 had such a stiffness as what cannot be told, all of them rotors.
 const HEAVIEST: f64 = 2.0;
 
 /// Diagnoses one joint.

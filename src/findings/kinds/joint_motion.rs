@@ -120,7 +120,7 @@ impl Motion {
         let left = joint.residual();
         let (fine, fine_unit) = prefix(largest(&left), "rad");
         let time = || Axis::new("Time", "s");
-        let twist = || Axis::new("Link − motor angle", unit.clone());
+        let twist = || Axis::new("Link − motor", unit.clone());
         let over = |x: &[f64], y: &[f64], scale: f64| -> Vec<[f64; 2]> {
             x.iter().zip(y).map(|(x, y)| [*x, scale * y]).collect()
         };
