@@ -2,7 +2,7 @@
 
 use super::torque_scatter::torque_scatter;
 use crate::fit::observation::reduce;
-use crate::ground::stats::{mean, quantile};
+use crate::ground::stats::{mean, quantile, rms};
 use crate::measurement::joint_motion::JointRecord;
 use crate::signal::outliers;
 
@@ -162,6 +162,13 @@ impl Channels {
             mean.powi(3)
         };
         (0..n).map(|line| one * passes(line).abs()).collect()
+    }
+
+    /// How much the torque moves: rms about its mean, N·m.
+    pub fn torque_moves(&self) -> f64 {
+        let middle = mean(&self.torque);
+        let moves: Vec<f64> = self.torque.iter().map(|t| t - middle).collect();
+        rms(&moves)
     }
 
     /// Number of rows.

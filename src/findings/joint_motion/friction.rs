@@ -26,18 +26,23 @@ pub fn sign(data: &Channels) -> Vec<f64> {
     data.speed.iter().map(|v| (v / width).tanh()).collect()
 }
 
+/// What inertia and the weight of the link make of a torque, the zero of its reading with them: one column each.
+pub(super) fn inertia_and_weight(data: &Channels) -> Vec<Vec<f64>> {
+    let wave = |f: fn(f64) -> f64| data.motor.iter().map(|q| f(*q)).collect();
+    vec![
+        vec![1.0; data.rows()],
+        data.acceleration.clone(),
+        wave(f64::sin),
+        wave(f64::cos),
+    ]
+}
+
 impl Friction {
     /// Beside inertia and what depends on the angle.
     pub fn of(data: &Channels) -> Self {
-        let wave = |f: fn(f64) -> f64| data.motor.iter().map(|q| f(*q)).collect();
-        let beside = [
-            vec![1.0; data.rows()],
-            data.acceleration.clone(),
-            wave(f64::sin),
-            wave(f64::cos),
-        ];
+        let beside = inertia_and_weight(data);
         let with = |more: &[f64]| {
-            let mut all = beside.to_vec();
+            let mut all = beside.clone();
             all.push(more.to_vec());
             all
         };

@@ -68,7 +68,7 @@ impl Joint {
         };
         let data = Channels::of(record);
         let rough = rough(&data, &data.twist);
-        let presumed = presumed(&data, record.ratio, nominal);
+        let presumed = presumed(&data, nominal);
         let mut joint = Self {
             site: record.site(),
             ratio: record.ratio,

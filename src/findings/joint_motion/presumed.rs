@@ -9,10 +9,11 @@ use super::joint::{Joint, Nominal, TORQUE, base};
 use super::projection::{left, partial};
 use super::{backlash, hysteresis};
 use crate::findings::engine::Blamed;
-use crate::ground::stats::{mean, rms};
+use crate::ground::stats::rms;
 
-/// Share of the torque, rms, that inertia and friction must leave of it: laws of friction miss less.
-const OWN: f64 = 0.1;
+/// Share of the torque, rms about its mean, that must be left of it beside inertia and friction, or beside whatever a spring is told beside:
+/// laws of friction miss less. A choice.
+pub(super) const OWN: f64 = 0.1;
 
 /// Standard errors that a slope over the acceleration must be away from none, as errors of rows that depend on one another are
 /// larger than they say; and the share of a compliance to which dry friction must tell it. Choices.
@@ -40,14 +41,11 @@ pub struct Presumed {
 }
 
 /// What is presumed; nothing where the motion shows a spring, or the twist none.
-pub(super) fn presumed(data: &Channels, ratio: Option<f64>, nominal: Nominal) -> Option<Presumed> {
-    let middle = mean(&data.torque);
-    let whole: Vec<f64> = data.torque.iter().map(|t| t - middle).collect();
-    if rms(&beyond(data)) > OWN * rms(&whole) {
+pub(super) fn presumed(data: &Channels, nominal: Nominal) -> Option<Presumed> {
+    if rms(&beyond(data)) > OWN * data.torque_moves() {
         return None;
     }
-    let stated = nominal.stiffness.filter(|_| ratio.is_some());
-    match stated {
+    match nominal.stiffness {
         Some(stiffness) => Some(stated_one(data, 1.0 / stiffness, nominal.rel_std)),
         None => stiffest(data),
     }

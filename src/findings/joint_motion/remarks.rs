@@ -1,6 +1,7 @@
 //! What a motion says of the parameters of each joint, and the sentences about them.
 
 use super::finding::JointFinding;
+use super::scales::STIFFNESS;
 use crate::fit::parameter::{Identified, Status};
 use crate::sheet::number::{engineering, with_interval};
 
@@ -117,7 +118,11 @@ fn rotor(joint: &JointFinding) -> Option<String> {
 
 /// A spring that is told beside a rotor of which nothing is known.
 fn softer_still(joint: &JointFinding) -> Option<String> {
-    let is_named = joint.answer.causes.iter().any(|c| c.effect == "stiffness");
+    let is_named = joint
+        .answer
+        .causes
+        .iter()
+        .any(|c| c.effect == STIFFNESS.name);
     let is_bound = is_named && joint.compliance.is_err();
     is_bound.then(|| {
         format!(

@@ -80,8 +80,8 @@ impl Joint {
     }
 
     /// A constant difference of the encoders, where the file says how well their zeros agree: beyond what the spring, as the
-    /// motion shows it, makes of the mean torque, and what causes have for a mean. What is `left` has a mean as well, and so has what contacts have `held` since before the
-    /// record.
+    /// motion shows it, makes of the mean torque, and what causes have for a mean. What is `left` has a mean as well, and so has what contacts held before the
+    /// record: anything up to what they are seen to hold, of either sign, and loops are seen too narrow, so that `held` is its standard deviation.
     pub(super) fn zero(
         &self,
         spring: Option<Compliance>,
@@ -100,7 +100,7 @@ impl Joint {
         };
         let made: f64 = parts.iter().map(|part| mean(part)).sum();
         let offset = self.data.zero + compliance * torque - made;
-        let others = [known * torque, MADE * made, HELD * held, left];
+        let others = [known * torque, MADE * made, held, left];
         if offset.abs() < 3.0 * others.into_iter().fold(std, f64::hypot) {
             return None;
         }
@@ -117,8 +117,5 @@ impl Joint {
 const NIL: f64 = 0.02;
 /// Share of its compliance to which a spring is known that the motion does not show.
 const SLACK: f64 = 0.3;
-/// Standard deviation of what contacts held, as a share of all that they are seen to hold: anything of either sign, and loops are seen too narrow.
-/// A choice.
-const HELD: f64 = 1.0;
 /// Share to which the mean of a cause is known: its shape is nearly right, and what a friction held first nobody knows.
 const MADE: f64 = 0.3;

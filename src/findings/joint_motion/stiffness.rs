@@ -1,12 +1,14 @@
 //! Whether a motion fixes the stiffness of a joint at all: twist that follows the torque must not be
 //! twist that follows speed, direction, acceleration or angle, and every piece of time must say the same.
 
+use super::channels::Channels;
 use super::friction::sign;
 use super::joint::Joint;
+use super::presumed::OWN;
 use super::projection::{left, partial};
 use crate::findings::engine::Noise;
 use crate::findings::table::{unit_range, waves};
-use crate::ground::stats::{mean, rms};
+use crate::ground::stats::rms;
 
 /// A compliance with the interval that all pieces and all accounts support.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,8 +23,6 @@ pub struct Compliance {
 const TIGHT: f64 = 0.1;
 /// The torque's own part of the twist must stand so far above what is left, as smooth as the torque.
 const STANDS_OUT: f64 = 1.5;
-/// Share of the torque, rms, that an account must leave of it. A choice.
-const OWN: f64 = 0.1;
 /// Pieces of time: which of how many.
 const PIECES: [(usize, usize); 6] = [(0, 1), (0, 2), (1, 2), (0, 3), (1, 3), (2, 3)];
 
@@ -36,7 +36,7 @@ pub fn compliance(joint: &Joint, parts: &[Vec<f64>]) -> Result<Compliance, &'sta
     }
     let data = &joint.data;
     let accounts = accounts(joint, parts);
-    let telling = telling(&accounts, &data.torque);
+    let telling = telling(&accounts, data);
     let white = |c: &Vec<f64>| joint.noise.whiten(c);
     let beside: Vec<Vec<f64>> = telling.iter().map(white).collect();
     let found = partial(&beside, &white(&data.torque), &white(&data.twist));
@@ -83,11 +83,9 @@ fn accounts(joint: &Joint, parts: &[Vec<f64>]) -> Vec<Vec<Vec<f64>>> {
 /// The account with most beside the torque that leaves a part of it, speed and direction beside it in any case, which a late encoder follows; the
 /// last where none does. Where hardly anything of the torque is left, what laws miss of the twist would tell the spring: all accounts must agree, so
 /// that the last one mostly tells none.
-fn telling<'a>(accounts: &'a [Vec<Vec<f64>>], torque: &[f64]) -> &'a [Vec<f64>] {
-    let middle = mean(torque);
-    let moving: Vec<f64> = torque.iter().map(|t| t - middle).collect();
-    let whole = rms(&moving);
-    let leaves = |account: &&Vec<Vec<f64>>| rms(&left(account, torque)) > OWN * whole;
+fn telling<'a>(accounts: &'a [Vec<Vec<f64>>], data: &Channels) -> &'a [Vec<f64>] {
+    let whole = data.torque_moves();
+    let leaves = |account: &&Vec<Vec<f64>>| rms(&left(account, &data.torque)) > OWN * whole;
     let found = accounts.iter().skip(1).rev().find(leaves);
     found.or(accounts.last()).map_or(&[], Vec::as_slice)
 }

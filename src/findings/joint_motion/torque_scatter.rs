@@ -4,6 +4,7 @@
 
 use super::channels::Channels;
 use super::coulomb_friction::dry;
+use super::friction::inertia_and_weight;
 use super::projection::left;
 use crate::findings::table::{unit_range, waves};
 
@@ -16,14 +17,8 @@ const MOST: usize = 150;
 pub(super) fn torque_scatter(data: &Channels) -> Vec<f64> {
     let lasts = data.time[data.rows() - 1] - data.time[0];
     let slow = ((PER_SECOND * lasts) as usize).min(MOST);
-    let angle = |f: fn(f64) -> f64| data.motor.iter().map(|q| f(*q)).collect();
-    let mut columns = vec![
-        vec![1.0; data.rows()],
-        data.acceleration.clone(),
-        data.speed.clone(),
-        angle(f64::sin),
-        angle(f64::cos),
-    ];
+    let mut columns = inertia_and_weight(data);
+    columns.push(data.speed.clone());
     columns.extend(dry(data));
     columns.extend(waves(&unit_range(&data.time), slow));
     left(&columns, &data.torque)
