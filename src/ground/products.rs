@@ -60,6 +60,32 @@ pub fn gram<'a>(a: impl Into<DMatrixView<'a, f64>>) -> DMatrix<f64> {
     product
 }
 
+/// The root L of a symmetric matrix LLᵀ, of which the lower half is read; block by block where it is wide, as most of the work is a
+/// product then. `None` where it is not positive definite.
+pub fn root(mut of: DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
+    let n = of.nrows();
+    if n <= 2 * BLOCK {
+        return Cholesky::new(of);
+    }
+    for first in (0..n).step_by(BLOCK) {
+        let own = BLOCK.min(n - first);
+        let (next, below) = (first + own, n - first - own);
+        let corner = Cholesky::new(of.view((first, first), (own, own)).into_owned())?;
+        let side = of.view((next, first), (below, own)) * inverse_root(&corner).transpose();
+        for from in (next..n).step_by(BLOCK) {
+            let (count, rest) = (BLOCK.min(n - from), n - from);
+            let rows = side.rows(from - next, rest);
+            let taken = rows * side.rows(from - next, count).transpose();
+            let mut left = of.view_mut((from, from), (rest, count));
+            left -= taken;
+        }
+        of.view_mut((first, first), (own, own))
+            .copy_from(corner.l_dirty());
+        of.view_mut((next, first), (below, own)).copy_from(&side);
+    }
+    Some(Cholesky::pack_dirty(of))
+}
+
 /// L⁻¹ of the root L of a matrix LLᵀ, column by column: the inverse of the matrix is its product with its own transpose, of
 /// which an entry of the diagonal is the square of a column.
 pub fn inverse_root(root: &Cholesky<f64, Dyn>) -> DMatrix<f64> {
@@ -90,6 +116,20 @@ mod tests {
         let root = inverse_root(&of.clone().cholesky().unwrap());
         let off = root.tr_mul(&root) * of - DMatrix::identity(4, 4);
         assert!(off.abs().max() < 1e-12);
+    }
+
+    #[test]
+    fn a_root_by_blocks_is_that_of_the_whole() {
+        for n in [96, 97, 144, 150] {
+            let a = DMatrix::from_fn(n + 3, n, |i, j| ((i * 7 + j * j * 13) % 11) as f64 - 5.0);
+            let of = gram(&a) + DMatrix::identity(n, n) * 3.0;
+            let found = root(of.clone()).unwrap().l();
+            let off = (&found - of.clone().cholesky().unwrap().l()).abs().max();
+            assert!(off < 1e-9 * found.abs().max(), "{n}: {off}");
+            let mut none = of;
+            none[(n - 1, n - 1)] = -1.0;
+            assert!(root(none).is_none());
+        }
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //! expectation and maximisation: MacKay 1992; Tipping 2001). With σ² integrated out the evidence is
 //! Student's: ln E = −(n+ν)/2 · ln((ν+Q)/(ν+n)) − ½ ln det(I + A GA), Q what the blocks leave of |y|².
 
-use crate::ground::products::inverse_root;
+use crate::ground::products::{gram, inverse_root, root};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// Products of the columns of all blocks with one another and with the reading.
@@ -165,7 +165,7 @@ impl Solved {
         let entry = |i: usize, j: usize| {
             scale[i] * scale[j] * products.gram[(i, j)] + f64::from(u8::from(i == j))
         };
-        let root = Cholesky::<f64, Dyn>::new(DMatrix::from_fn(n, n, entry))?;
+        let root = root(DMatrix::from_fn(n, n, entry))?;
         let right = DVector::from_fn(n, |i, _| scale[i] * products.right[i]);
         let amounts = root.solve(&right);
         Some(Self {
@@ -194,8 +194,7 @@ fn with_sizes(
     sizes: &[f64],
 ) -> Option<Posterior> {
     let solved = Solved::of(products, reading, each_of(blocks, sizes))?;
-    let inverse = inverse_root(&solved.root);
-    let inverse = inverse.tr_mul(&inverse);
+    let inverse = gram(&inverse_root(&solved.root));
     let (n, scale) = (solved.scale.len(), &solved.scale);
     Some(Posterior {
         mean: solved.mean(),
@@ -218,7 +217,7 @@ pub fn limited(hessian: &DMatrix<f64>, right: &DVector<f64>, most: &[f64]) -> DV
         let pull = |i: &usize| right[*i] - (0..n).map(|j| hessian[(*i, j)] * fixed(j)).sum::<f64>();
         let own = hessian.select_rows(&free).select_columns(&free);
         let own_right = DVector::from_iterator(free.len(), free.iter().map(pull));
-        let Some(root) = own.cholesky() else {
+        let Some(root) = root(own) else {
             return DVector::zeros(n);
         };
         let solved = root.solve(&own_right);

@@ -141,7 +141,8 @@ impl<'a> Weighing<'a> {
     fn unnamed(&self, story: &Scored, rest: Rest) -> Rest {
         let judgement = self.judgement;
         let explained = explained_rms(self.statement, self.bank, &story.fit, judgement);
-        let share = self.share(explained);
+        let left = rms(&in_noise(self.statement, &self.beside(&story.fit).0));
+        let share = told([explained, left].map(|size| self.share(size)));
         match story.score > judgement.left_nats && share > judgement.left_share {
             true => Rest {
                 nats: rest.nats.max(story.score),
@@ -151,5 +152,26 @@ impl<'a> Weighing<'a> {
             },
             false => rest,
         }
+    }
+}
+
+/// What a story explains, as a share of the misfit (rms): what is larger than all that is missed is mostly taken back by what is uncertain, and
+/// then it explains no more than what it leaves less.
+fn told([explained, left]: [f64; 2]) -> f64 {
+    match explained > 1.0 {
+        true => (1.0 - left * left).max(0.0).sqrt(),
+        false => explained,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::told;
+
+    #[test]
+    fn a_story_that_what_is_uncertain_takes_back_explains_what_it_leaves_less() {
+        assert_eq!(told([0.5, 0.9]), 0.5);
+        assert!((told([17.0, 0.6]) - 0.8).abs() < 1e-12);
+        assert_eq!(told([17.0, 1.1]), 0.0);
     }
 }

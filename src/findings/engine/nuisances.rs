@@ -93,7 +93,8 @@ impl Nuisances {
             let spread = nuisance.spread * lengths[k];
             flat += usize::from(spread.is_infinite());
             most.push(allowed * spread);
-            inner[(k, k)] += (spread * spread).recip().max(1e-12);
+            // a column of zeros is of no length, and says nothing
+            inner[(k, k)] += (spread * spread).recip().clamp(1e-12, 1e12);
         }
         Self {
             root: inner.clone().cholesky(),
@@ -154,24 +155,45 @@ mod tests {
     use super::unblamed;
     use crate::findings::engine::{Aspects, Nuisance, Statement, White};
 
-    /// A number that is known to 1 and must be 3 is at 2.7 where nine equal readings say so to 1 each, and leaves the rest.
+    /// A column of zeros is uncertain to no effect, however little is known of it.
     #[test]
-    fn what_is_uncertain_goes_as_far_as_it_is_believed() {
-        let statement = Statement {
+    fn what_adds_nothing_takes_nothing() {
+        let column = |value: f64| Nuisance {
+            column: vec![value; 9],
+            spread: 1.0,
+        };
+        let left = |nuisances: Vec<Nuisance>| unblamed(&nine(nuisances)).0;
+        let (with, without) = (
+            left(vec![column(1.0), column(0.0)]),
+            left(vec![column(1.0)]),
+        );
+        let mut pairs = with.iter().zip(&without);
+        assert!(pairs.all(|(a, b)| (a - b).abs() < 1e-9), "{with:?}");
+    }
+
+    /// Nine equal readings of 3.
+    fn nine(nuisances: Vec<Nuisance>) -> Statement {
+        Statement {
             reading: vec![3.0; 9],
             noise: Box::new(White {
                 spread: vec![1.0; 9],
                 rows: 9.0,
             }),
-            nuisances: vec![Nuisance {
-                column: vec![1.0; 9],
-                spread: 1.0,
-            }],
+            nuisances,
             suspects: Vec::new(),
             span: Vec::new(),
             splits: Vec::new(),
             aspects: Aspects::default(),
-        };
+        }
+    }
+
+    /// A number that is known to 1 and must be 3 is at 2.7 where nine equal readings say so to 1 each, and leaves the rest.
+    #[test]
+    fn what_is_uncertain_goes_as_far_as_it_is_believed() {
+        let statement = nine(vec![Nuisance {
+            column: vec![1.0; 9],
+            spread: 1.0,
+        }]);
         let (left, farthest) = unblamed(&statement);
         assert!((farthest - 2.7).abs() < 1e-9, "{farthest}");
         assert!(left.iter().all(|l| (l - 0.3).abs() < 1e-9));

@@ -70,7 +70,8 @@ impl Channels {
         twist.iter_mut().for_each(|y| *y -= zero);
         let width = smoothing_rows(&time);
         let speed = smoothed(&slope(&time, &motor), width);
-        let acceleration = smoothed(&slope(&time, &speed), width);
+        // smoothed as often as the torque, which pays for it
+        let acceleration = smoothed(&bend(&time, &motor), width);
         let raw = reduce(&joint.torque, block);
         let torque = smoothed(&raw, width);
         let mut channels = Self {
@@ -210,6 +211,18 @@ fn slope(time: &[f64], values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
+/// Second derivative by three neighbours; of the ends that of theirs.
+fn bend(time: &[f64], values: &[f64]) -> Vec<f64> {
+    let n = time.len();
+    (0..n)
+        .map(|i| {
+            let i = i.clamp(1, n - 2);
+            let rate = |i: usize| (values[i + 1] - values[i]) / (time[i + 1] - time[i]);
+            2.0 * (rate(i) - rate(i - 1)) / (time[i + 1] - time[i - 1])
+        })
+        .collect()
+}
+
 /// Three passes of a mean over `half` neighbours on either side: nearly a Gaussian.
 fn smoothed(values: &[f64], half: usize) -> Vec<f64> {
     let n = values.len();
@@ -227,4 +240,41 @@ fn smoothed(values: &[f64], half: usize) -> Vec<f64> {
             .collect();
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Channels;
+    use crate::measurement::joint_motion::JointRecord;
+
+    /// A rotor of 30 kg·m² that swings at 9.6 Hz: its torque pays for its acceleration, and both are smoothed alike.
+    #[test]
+    fn the_acceleration_is_as_smooth_as_the_torque_that_pays_for_it() {
+        let time: Vec<f64> = (0..2000).map(|i| f64::from(i) * 0.004).collect();
+        let swing = std::f64::consts::TAU * 9.6;
+        let angle = |t: f64| 0.3 * (1.3 * t).sin() + 1e-3 * (swing * t).sin();
+        let pull = |t: f64| {
+            let slow = 0.3 * 1.69 * (1.3 * t).sin();
+            -30.0 * (slow + 1e-3 * swing * swing * (swing * t).sin())
+        };
+        let motor: Vec<f64> = time.iter().map(|t| angle(*t)).collect();
+        let record = JointRecord {
+            number: 2,
+            link: motor.clone(),
+            torque: time.iter().map(|t| pull(*t)).collect(),
+            ratio: None,
+            delay: None,
+            nominal_stiffness: None,
+            nominal_rel_std: 0.1,
+            zero_std: None,
+            left_out: 0,
+            motor,
+            time,
+        };
+        let data = Channels::of(&record);
+        let each = data.torque.iter().zip(&data.acceleration);
+        let most = data.torque.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
+        let off = each.fold(0.0_f64, |off, (t, a)| off.max((t - 30.0 * a).abs()));
+        assert!(off < 0.01 * most, "{off} of {most}");
+    }
 }
