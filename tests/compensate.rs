@@ -33,13 +33,12 @@ fn judged(
         way_of: &|found| shifted(&planned.plan, found),
     };
     let found = search(method, &task).unwrap();
-    let (before, after) = sizes(planned, setup, truth, &found.correction, support);
+    let (before, after) = sizes(planned, truth, &found.correction, support);
     (found, before, after)
 }
 
 fn sizes(
     planned: &Planned,
-    setup: &Setup,
     truth: &Setup,
     correction: &Correction,
     support: Support,
@@ -48,7 +47,7 @@ fn sizes(
     let size = |correction: &Correction| {
         let job = ident::compensation::method::with(truth, &planned.plan, correction).unwrap();
         let (milled, _) = job.run(support, |_| {}).unwrap();
-        Size::of(&remaining(&milled, correction, &setup.way)).max_m
+        Size::of(&remaining(&milled, &planned.plan.path)).max_m
     };
     (size(&none), size(correction))
 }
@@ -65,13 +64,7 @@ fn the_mirror_takes_four_fifths_of_a_coupled_cut_away_and_most_of_it_on_plants_t
     assert!(found.converged && after < 0.2 * before);
     for seed in 0..3 {
         let truth = plant(&setup, seed, 0.1, true);
-        let (before, after) = sizes(
-            &planned,
-            &setup,
-            &truth,
-            &found.correction,
-            Support::Coupled,
-        );
+        let (before, after) = sizes(&planned, &truth, &found.correction, Support::Coupled);
         println!("plant {seed}: {before:.2e} -> {after:.2e}");
         assert!(after < 0.3 * before);
     }
@@ -171,6 +164,37 @@ fn the_written_path_runs_as_corrected(blend_radius_mm: &str) {
     assert!((0.98..1.02).contains(&stays), "{stays}");
 }
 
+/// Fast and soft: the controller comes by twice in a blend, and the tool is late by a third of a millimetre.
+#[test]
+fn in_a_rounded_corner_what_is_left_is_how_far_the_milled_path_is_from_the_drawn_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = job(folder.path(), CORNER, 6000.0, "");
+    let (planned, setup) = ready(&path);
+    let (_, json) = ident(
+        folder.path(),
+        &["compensate", "job.toml", "--static", "--json"],
+    );
+    let written = folder.path().join(json["path"].as_str().unwrap());
+    let text = std::fs::read_to_string(&written).unwrap();
+    let way = executed(&planned, &written, &text).unwrap().way;
+    let (milled, _) = Setup { way, ..setup }.run(Support::Static, |_| {}).unwrap();
+    let drawn = &planned.plan.path;
+    let count = (drawn.length / 2e-5) as usize;
+    let drawn: Vec<_> = (0..=count)
+        .map(|i| drawn.point(drawn.length * i as f64 / count as f64))
+        .collect();
+    let off = milled.course.iter().filter(|cut| cut.cutting).map(|cut| {
+        let tip = ident::ground::spatial::add(cut.tip, cut.deviation);
+        let away = drawn.iter().map(|p| norm(sub(tip, *p)));
+        away.fold(f64::INFINITY, f64::min)
+    });
+    let off = 1e3 * off.fold(0.0, f64::max);
+    let [before, after] = ["before", "after"].map(|k| json[k]["max_mm"].as_f64().unwrap());
+    println!("{before:.3} -> {after:.4} mm, milled {off:.4} mm");
+    assert!((after - off).abs() < 2e-3 + 0.02 * off);
+    assert!(after < 0.3 * before);
+}
+
 fn ident(folder: &Path, words: &[&str]) -> (i32, Value) {
     let out = Command::new(env!("CARGO_BIN_EXE_ident"))
         .current_dir(folder)
@@ -217,6 +241,48 @@ fn the_verb_writes_path_and_program_and_says_what_was_checked() {
         ident(folder.path(), &["plan", "job.toml", "--json"]).1["exceeded"],
         Value::Array(vec![])
     );
+}
+
+/// What is left of a corrected path would be measured from its commands.
+#[test]
+fn a_corrected_path_is_not_corrected_again() {
+    let folder = tempfile::tempdir().unwrap();
+    job(folder.path(), SLOT, 1500.0, "");
+    let (_, json) = ident(
+        folder.path(),
+        &["compensate", "job.toml", "--static", "--json"],
+    );
+    let corrected = folder.path().join(json["path"].as_str().unwrap());
+    std::fs::copy(corrected, folder.path().join("path.csv")).unwrap();
+    let (status, said) = said(folder.path(), &["compensate", "job.toml", "--static"]);
+    assert_eq!(status, Some(2));
+    assert!(said.contains("path.csv: is a corrected path"), "{said}");
+    assert!(said.contains("as it was drawn"), "{said}");
+}
+
+#[test]
+fn of_a_plant_that_mills_something_else_only_robot_and_material_are_taken_and_that_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let other = folder.path().join("other");
+    std::fs::create_dir(&other).unwrap();
+    job(folder.path(), SLOT, 1500.0, "");
+    job(&other, DEEP, 1500.0, "");
+    let words = ["compensate", "job.toml", "--static", "--dry-run", "--plant"];
+    let of = |plant: &str| said(folder.path(), &[&words[..], &[plant]].concat()).1;
+    let remark = "only its robot and its material are taken";
+    assert!(of("other/job.toml").contains(remark));
+    assert!(!of("job.toml").contains(remark));
+}
+
+/// Exit status and standard error.
+fn said(folder: &Path, words: &[&str]) -> (Option<i32>, String) {
+    let out = Command::new(env!("CARGO_BIN_EXE_ident"))
+        .current_dir(folder)
+        .args(words)
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&out.stderr).to_string();
+    (out.status.code(), said)
 }
 
 #[test]

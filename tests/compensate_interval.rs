@@ -53,12 +53,12 @@ fn the_interval_of_what_is_left_holds_the_truth_and_yes_is_never_wrong() {
     let found = search(&METHODS[0], &task).unwrap();
     let corrected = with(&setup, &planned.plan, &found.correction).unwrap();
     let milled = |setup: &Setup| setup.run(support, |_| {}).unwrap().0;
-    let rest = |milled: &Milled| remaining(milled, &found.correction, &task.setup.way);
+    let rest = |milled: &Milled| remaining(milled, &task.plan.path);
     let left = |setup: &Setup| rest(&milled(setup));
     let all = doubts(&setup.robot, &setup, &planned.coefficient_stds());
     let model = milled(&corrected);
     let moved = Moved::of(&corrected, support, &all).unwrap();
-    let said = certainty(&corrected, &setup, &moved, &rest(&model)).unwrap();
+    let said = certainty(&corrected, &planned.plan.path, &moved, &rest(&model)).unwrap();
     let [low, high] = said.ci95.unwrap();
     let mut largest = Vec::new();
     for seed in 0..plants {

@@ -113,6 +113,13 @@ pub fn correct(planned: Planned, request: Request) -> Outcome<Corrected> {
         support,
     } = request;
     let in_job = |problem: Problem| problem.in_file(&planned.job.path);
+    if planned.toolpath.corrected {
+        return Err(Problem::new(
+            "is a corrected path: what is left of it would be measured from its commands, not from the part that was drawn",
+            "name the path as it was drawn in the job",
+        )
+        .in_file(&planned.toolpath.path));
+    }
     let calmed = match support {
         Support::Coupled => calm(&planned)?,
         _ => None,
@@ -160,7 +167,6 @@ pub fn correct(planned: Planned, request: Request) -> Outcome<Corrected> {
     };
     let runner = executed.as_ref().map_or(base, |e| &e.planned);
     let programs = runner.programs(exporter, &inputs)?;
-    let none = Correction::none(base.plan.path.length);
     let corrected = |setup: &Setup| Setup {
         way: way.clone(),
         ..setup.clone()
@@ -177,12 +183,12 @@ pub fn correct(planned: Planned, request: Request) -> Outcome<Corrected> {
         || Moved::of(&model, support, &doubts).map_err(in_job),
     );
     let ((second, of_model), moved) = (runs?, moved?);
-    let before = remaining(&first, &none, &drawn.way);
-    let after = remaining(&second, &found.correction, &setup.way);
+    let before = remaining(&first, &planned.plan.path);
+    let after = remaining(&second, &planned.plan.path);
     let expected = of_model.as_ref().unwrap_or(&second);
-    let left = remaining(expected, &found.correction, &setup.way);
+    let left = remaining(expected, &planned.plan.path);
     let beside = beside(method, &task).map_err(in_job)?;
-    let certainty = certainty(&model, &setup, &moved, &left).map_err(in_job)?;
+    let certainty = certainty(&model, &planned.plan.path, &moved, &left).map_err(in_job)?;
     let size = Size::of(&after);
     let checked = proof(&planned.plan, &way, &found.correction, &second);
     Ok(Corrected {
@@ -220,7 +226,7 @@ fn beside(method: &Method, task: &Task) -> Outcome<Option<(&'static str, Vec<Sta
         ..task.truth.clone()
     };
     let (milled, _) = corrected.run(task.support, |_| {})?;
-    let left = remaining(&milled, &found.correction, &task.setup.way);
+    let left = remaining(&milled, &task.plan.path);
     Ok(Some((other.name, left)))
 }
 
@@ -254,6 +260,14 @@ impl Corrected {
     /// Whether the part will be within its tolerance and everything that was checked is within its limits.
     pub fn is_proven(&self) -> bool {
         self.met == Met::Yes && self.checked.iter().all(|c| c.ok)
+    }
+
+    /// Whether the plant's job mills something else, of which nothing is taken.
+    pub fn plant_mills_else(&self) -> bool {
+        let (own, plant) = (&self.planned, self.plant.as_ref());
+        plant.is_some_and(|p| {
+            p.toolpath.moves != own.toolpath.moves || p.job.cutter != own.job.cutter
+        })
     }
 
     /// By how much the largest deviation fell, percent.

@@ -1,12 +1,13 @@
 //! How sure it is what will be left, which number limits that, and what would lower it most.
 
+use super::drawn::Drawn;
 use super::draws::Draws;
-use super::remaining::{Station, Times};
+use super::remaining::Station;
 use crate::ground::problem::Outcome;
-use crate::ground::spatial::{V3, norm};
+use crate::ground::spatial::{V3, add, norm, sub};
+use crate::path::Path;
 use crate::process::setup::Setup;
 use crate::process::uncertainty::{Doubt, Moved};
-use crate::process::way::normal_part;
 use std::collections::BTreeMap;
 
 /// What an uncertain number does to what is left.
@@ -47,13 +48,13 @@ const STATIONS: usize = 1500;
 const RANKED: usize = 200;
 
 /// How sure the model is of what its corrected job leaves. `corrected`: the model on the corrected path;
-/// `drawn`: on the programmed one; `moved`: the former with every doubt moved; `left`: what it leaves.
+/// `path`: the programmed one; `moved`: the former with every doubt moved; `left`: what it leaves.
 ///
 /// # Errors
 /// A pose that the robot cannot have.
 pub fn certainty(
     corrected: &Setup,
-    drawn: &Setup,
+    path: &Path,
     moved: &Moved,
     left: &[Station],
 ) -> Outcome<Certainty> {
@@ -65,11 +66,11 @@ pub fn certainty(
     let chosen = thinned(cutting);
     let times: Vec<f64> = chosen.iter().map(|s| s.time_s).collect();
     let mut changes = moved.changes(corrected, &times)?;
-    let mut drawn_at = Times::of(&drawn.way);
+    let drawn = Drawn::of(path);
     for (i, station) in chosen.iter().enumerate() {
-        let feed = drawn.way.feed(drawn_at.at(station.s_m));
         for list in &mut changes {
-            list[i] = normal_part(list[i], feed);
+            let left = drawn.left(station.s_m, add(station.at, list[i]));
+            list[i] = sub(left, station.left);
         }
     }
     let left: Vec<V3> = chosen.iter().map(|s| s.left).collect();

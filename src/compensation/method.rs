@@ -7,7 +7,7 @@ use super::online::{self, Sensor};
 use super::remaining::Station;
 use super::shifted::shifted;
 use crate::ground::problem::Outcome;
-use crate::ground::spatial::V3;
+use crate::ground::spatial::{V3, add};
 use crate::planning::Plan;
 use crate::process::run::Outcome as Milled;
 use crate::process::setup::{Setup, Support};
@@ -111,7 +111,7 @@ fn ideal_force(task: &Task, mut correction: Correction) -> Outcome<Search> {
             Some(Station {
                 time_s: cut.time_s,
                 s_m: cut.s_m,
-                tip: cut.tip,
+                at: add(cut.tip, bent),
                 left: normal_part(bent, Some(feed)),
                 cutting: cut.cutting,
             })

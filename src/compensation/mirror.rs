@@ -134,7 +134,7 @@ impl<'a> Milling<'a> {
             ..self.quick.clone()
         };
         let (milled, _) = job.run(self.task.support, |_| {})?;
-        let stations = remaining(&milled, tried, &self.task.setup.way);
+        let stations = remaining(&milled, &self.task.plan.path);
         Ok(Trial {
             update: self.update(&stations, &way),
             stations,

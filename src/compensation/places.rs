@@ -155,7 +155,7 @@ mod tests {
         Station {
             time_s: 100.0 * s,
             s_m: s,
-            tip: [s, 0.0, 0.0],
+            at: [s, 0.0, 0.0],
             left: [0.0, left, 0.0],
             cutting: true,
         }

@@ -1,41 +1,41 @@
 //! What is left of the deviation from the path that was programmed.
 
-use super::correction::Correction;
+use super::drawn::Drawn;
 use crate::ground::spatial::{V3, add, norm};
+use crate::path::Path;
 use crate::process::run::{Cut, Outcome as Milled};
-use crate::process::way::{Way, normal_part};
+use crate::process::way::Way;
 
-/// One station: where the tool is less where the programmed path is, normal to the feed.
+/// One station: where the tool is less the nearest place of the programmed path, normal to the feed there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Station {
     /// Time, s.
     pub time_s: f64,
     /// Arc length of the programmed path, m.
     pub s_m: f64,
-    /// Where the tool was told to be, m, workpiece frame.
-    pub tip: V3,
-    /// Normal to the feed, m, workpiece frame.
+    /// Where the tool is, m, workpiece frame.
+    pub at: V3,
+    /// What is left, m, workpiece frame.
     pub left: V3,
     /// Whether the tool cuts.
     pub cutting: bool,
 }
 
-/// What is left at every station that moves, the correction being that of the run; `drawn` is the
-/// motion without correction, whose feed counts at the same arc length.
-pub fn remaining(milled: &Milled, correction: &Correction, drawn: &Way) -> Vec<Station> {
-    let mut times = Times::of(drawn);
+/// What is left of the programmed path at every station that moves.
+pub fn remaining(milled: &Milled, path: &Path) -> Vec<Station> {
+    let drawn = Drawn::of(path);
     let station = |cut: &Cut| {
-        let feed = drawn.feed(times.at(cut.s_m))?;
-        let left = add(cut.deviation, correction.at(cut.s_m));
-        Some(Station {
+        let at = add(cut.tip, cut.deviation);
+        Station {
             time_s: cut.time_s,
             s_m: cut.s_m,
-            tip: cut.tip,
-            left: normal_part(left, Some(feed)),
+            left: drawn.left(cut.s_m, at),
+            at,
             cutting: cut.cutting,
-        })
+        }
     };
-    milled.course.iter().filter_map(station).collect()
+    let moving = milled.course.iter().filter(|cut| cut.feed.is_some());
+    moving.map(station).collect()
 }
 
 /// When a motion is at ascending arc lengths.

@@ -86,7 +86,7 @@ fn not_reciprocal(frf: &HammerFrf, a: &InputFrf, b: &InputFrf, lines: &[usize]) 
     let noise = (2.0 * noise / size).sqrt();
     (apart > RECIPROCITY && apart > CLEAR * noise).then(|| {
         format!(
-            "H_{0}{1} and H_{1}{0} differ by {2:.0} %: hit the same point along the sensor's axes, or expect play or friction",
+            "H_{0}{1} and H_{1}{0} differ by {2:.0} %: a hit or a sensor beside its axis makes that, soon where these are small, and so do play and friction; hit the same point along the sensor's axes",
             a.input,
             b.input,
             100.0 * apart

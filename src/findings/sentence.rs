@@ -139,7 +139,8 @@ fn of_cause(cause: &Cause, numbered: &str, unit: &str) -> String {
 /// Share of the largest amount of a unit below which an amount is zero but for rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// How large it is: its first amount that is not zero, for zero says nothing where another amount acts.
+/// How large it is: its first amount that is not zero, for zero says nothing where another amount acts; of one along or about all axes the
+/// largest.
 fn size_of(cause: &Cause) -> Option<String> {
     let first = cause.parameters.first()?;
     if let ((name, 0.0, unit), Some(limit)) = (first, cause.limit()) {
@@ -152,13 +153,32 @@ fn size_of(cause: &Cause) -> Option<String> {
     };
     let mut amounts = cause.parameters.iter();
     let acting = amounts.find(|p| p.1 != 0.0 && p.1.abs() > ROUNDING * most(p.2));
-    let (name, value, unit) = acting.unwrap_or(first);
+    let (name, value, unit) = acting.map_or(first, |acting| largest(cause, acting));
     let within = cause.interval(name).map(|[low, high]| {
         let ends = [low, high].map(|end| amount(end, unit));
         format!(" (95 % interval {} to {})", ends[0], ends[1])
     });
     let (name, value) = (spoken(name), amount(*value, unit));
     Some(format!(", {name} {value}{}", within.unwrap_or_default()))
+}
+
+/// Amount with its name and unit.
+type Amount = (&'static str, f64, &'static str);
+
+/// The largest of the amounts whose names differ by their axis alone.
+fn largest<'a>(cause: &'a Cause, acting: &'a Amount) -> &'a Amount {
+    let stem = |name: &'static str| {
+        name.strip_suffix(['x', 'y', 'z'])
+            .filter(|s| s.ends_with('_'))
+    };
+    let Some(own) = stem(acting.0) else {
+        return acting;
+    };
+    let kin = cause.parameters.iter().filter(|p| stem(p.0) == Some(own));
+    kin.fold(
+        acting,
+        |most, p| if p.1.abs() > most.1.abs() { p } else { most },
+    )
 }
 
 fn of_group(group: &Group, unit: &str) -> String {
@@ -221,4 +241,37 @@ pub fn place(site: &str) -> String {
 /// A name of the table as words.
 pub fn spoken(name: &str) -> String {
     name.replace('_', " ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Cause, Gain, size_of};
+
+    fn said(parameters: &[(&'static str, f64, &'static str)]) -> String {
+        let cause = Cause {
+            effect: "accelerometer_misalignment",
+            site: "sensor".into(),
+            probability: 0.9,
+            summary: "",
+            alternatives: Vec::new(),
+            parameters: parameters.to_vec(),
+            ci95: Vec::new(),
+            gain: Gain::of(1.0, 0.1, 0.1),
+        };
+        size_of(&cause).unwrap()
+    }
+
+    #[test]
+    fn of_amounts_about_all_axes_the_largest_is_said() {
+        let turned = [
+            ("about_x", -0.003, "rad"),
+            ("about_y", -0.17, "rad"),
+            ("about_z", 0.09, "rad"),
+        ];
+        assert_eq!(said(&turned), ", about y -170 mrad");
+        assert_eq!(
+            said(&[("gap", 1e-4, "rad"), ("play", 1.0, "rad")]),
+            ", gap 100 µrad"
+        );
+    }
 }

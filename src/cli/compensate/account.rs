@@ -122,6 +122,12 @@ pub fn remarks(result: &Corrected) -> Vec<String> {
                 .to_string(),
         );
     }
+    if result.plant_mills_else() {
+        said.push(
+            "the job of --plant mills another path or with another tool: only its robot and its material are taken"
+                .into(),
+        );
+    }
     if result.after.max_m > result.before.max_m {
         said.push(
             "the corrected path leaves more than the programmed one: do not run it; try another --method, or plunge more gently".into(),

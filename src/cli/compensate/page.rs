@@ -78,7 +78,7 @@ fn map(result: &Corrected) -> Chart {
     let top = 1e3 * result.before.max_m;
     let panel = |stations: &[Station], note: &str| {
         let cutting: Vec<Station> = stations.iter().filter(|s| s.cutting).copied().collect();
-        let place = |s: &Station| [1e3 * s.tip[0], 1e3 * s.tip[1]];
+        let place = |s: &Station| [1e3 * s.at[0], 1e3 * s.at[1]];
         let size = |s: &Station| 1e3 * norm(s.left);
         classes(&thinned(&cutting, PLACES, size), place, size, top, "mm off").noted(note)
     };
