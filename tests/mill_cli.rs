@@ -52,6 +52,29 @@ fn json(folder: &Path, arguments: &[&str]) -> Value {
     serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{said}"))
 }
 
+/// At 10 000 and at 800 revolutions per minute, where robot and cut drive one another, until a tool with short flutes dives beyond them.
+#[test]
+fn chatter_is_said() {
+    let folder = job();
+    let at = |speed: &str, flute: &str| {
+        let job = JOB.replace("= 10000.0", speed).replace("= 32.0", flute);
+        std::fs::write(folder.path().join("job.toml"), job).unwrap();
+        let out = ident(folder.path(), &["mill", "job.toml", "--dry-run"]);
+        let said = String::from_utf8_lossy(&out.stderr).to_string();
+        (out.status.code(), said)
+    };
+    let (status, said) = at("= 10000.0", "= 32.0");
+    assert!(status == Some(0) && !said.contains("chatter"), "{said}");
+    let (status, said) = at("= 800.0", "= 32.0");
+    assert!(status == Some(1) && said.contains("(chatter)"), "{said}");
+    assert!(!said.contains("without a force"), "{said}");
+    let (status, said) = at("= 10000.0", "= 4.0");
+    assert_eq!(status, Some(0), "{said}");
+    let (status, said) = at("= 800.0", "= 4.0");
+    assert!(status == Some(2) && said.contains("(chatter)"), "{said}");
+    assert!(said.contains("deeper than its flutes"), "{said}");
+}
+
 fn job() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("job.toml"), JOB).unwrap();

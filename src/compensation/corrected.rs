@@ -14,6 +14,7 @@ use crate::ground::problem::{Outcome, Problem};
 use crate::measurement::workspace::job_results;
 use crate::path::programs::{Exporter, ProgramFile};
 use crate::process::Planned;
+use crate::process::chatter::chatter;
 use crate::process::run::NOTHING_CUT;
 use crate::process::setup::{Setup, Support};
 use crate::process::uncertainty::{self, Doubt, Moved};
@@ -96,6 +97,8 @@ pub struct Corrected {
     pub met: Met,
     /// What was checked along the corrected path.
     pub checked: Vec<Checked>,
+    /// Times the force of a rigid cut, where the corrected one chatters.
+    pub chatter: Option<f64>,
     /// What of the stock is gone without a force, in sentences.
     pub not_cut: Vec<String>,
 }
@@ -190,6 +193,7 @@ pub fn correct(planned: Planned, request: Request) -> Outcome<Corrected> {
     let beside = beside(method, &task).map_err(in_job)?;
     let certainty = certainty(&model, &planned.plan.path, &moved, &left).map_err(in_job)?;
     let size = Size::of(&after);
+    let chatter = chatter(&corrected(&truth), support, &second).map_err(in_job)?;
     let checked = proof(&planned.plan, &way, &found.correction, &second);
     Ok(Corrected {
         met: Met::of(
@@ -211,6 +215,7 @@ pub fn correct(planned: Planned, request: Request) -> Outcome<Corrected> {
         certainty,
         doubts,
         checked,
+        chatter,
         not_cut: second.not_cut(),
     })
 }

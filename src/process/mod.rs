@@ -5,6 +5,7 @@
 //! [`swinging`] (masses, dampers and springs in time); [`loose`] adds the gaps and contacts of joints to both. [`run`] leads any of them along a [`way::Way`].
 
 mod book;
+pub mod chatter;
 pub mod course;
 pub mod loose;
 pub mod measured_tip;

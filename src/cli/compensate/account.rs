@@ -3,6 +3,7 @@
 use super::Written;
 use crate::compensation::corrected::{Corrected, Met};
 use crate::compensation::proof::Checked;
+use crate::process::chatter;
 use crate::sheet::number::significant;
 
 /// The account on standard output.
@@ -149,6 +150,9 @@ pub fn remarks(result: &Corrected) -> Vec<String> {
             "the simulated force is used nowhere, since it differs too little from the measured one: this is `{name}`"
         ));
     }
-    said.extend(result.not_cut.iter().cloned());
+    match result.chatter {
+        Some(times) => said.push(chatter::sentence(times)),
+        None => said.extend(result.not_cut.iter().cloned()),
+    }
     said
 }

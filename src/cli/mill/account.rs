@@ -3,6 +3,7 @@
 use super::{Driven, Result, Written};
 use crate::compensation::corrected::Met;
 use crate::ground::spatial::norm;
+use crate::process::chatter;
 use crate::process::run::NOTHING_CUT;
 use crate::process::setup::Support;
 use crate::sheet::number::{significant, with_interval};
@@ -121,7 +122,11 @@ pub fn remarks(result: &Result) -> Vec<String> {
             significant(1e3 * s, 4)
         ));
     }
-    said.extend(result.milled.not_cut());
+    // what chatters leaves the part, and comes back where nothing should be left
+    match result.chatter {
+        Some(times) => said.push(chatter::sentence(times)),
+        None => said.extend(result.milled.not_cut()),
+    }
     if result.support != Support::Coupled && result.step_asked {
         said.push(
             "--step-us has no effect: without masses a step is the passing of a tooth".into(),

@@ -18,6 +18,7 @@ use crate::measurement::recorded_joints::RecordedJoints;
 use crate::measurement::workspace::job_results;
 use crate::planning::Plan;
 use crate::process::Planned;
+use crate::process::chatter::chatter;
 use crate::process::course;
 use crate::process::recorded::Recorded;
 use crate::process::run::{Cut, Outcome as Milled};
@@ -97,6 +98,8 @@ struct Result {
     worst: Option<Worst>,
     doubts: Vec<Doubt>,
     driven: Option<Driven>,
+    /// Times the force of a rigid cut, where it chatters.
+    chatter: Option<f64>,
     /// Whether an interval was asked for.
     asked: bool,
     /// Whether a step of time was.
@@ -180,6 +183,8 @@ fn act(arguments: &Arguments) -> Outcome<Result> {
             }
         })
         .map_err(|problem| problem.in_file(&planned.job.path))?;
+    let chatter =
+        chatter(&setup, support, &milled).map_err(|problem| problem.in_file(&planned.job.path))?;
     progress.finish();
     if let Some(driven) = &mut driven {
         driven.recorded.add_to(&mut milled);
@@ -199,6 +204,7 @@ fn act(arguments: &Arguments) -> Outcome<Result> {
         worst,
         doubts,
         driven,
+        chatter,
         asked: !arguments.no_interval,
         step_asked: step_s.is_some(),
     })
@@ -265,7 +271,7 @@ impl Result {
         let holds = self.met().is_none_or(|met| met == Met::Yes);
         let is_whole = self.milled.removed_m3 > 0.0 && self.ends_at().is_none();
         let is_allowed = self.planned.plan.exceeded.is_empty() && self.cut_in_rapid().is_none();
-        !(holds && is_whole && is_allowed)
+        !(holds && is_whole && is_allowed && self.chatter.is_none())
     }
 
     /// Where a rapid motion cuts first, m of the path.
