@@ -1,6 +1,7 @@
 //! A path corrected before or during the cut: how much of the deviation goes, what is said about the rest.
 
 use crate::part_bench::{CORNER, DEEP, SLOT, job, plant, ready};
+use ident::compensation::drawn::Drawn;
 use ident::compensation::executed::executed;
 use ident::compensation::method::METHODS;
 use ident::compensation::online::Sensor;
@@ -164,6 +165,26 @@ fn the_written_path_runs_as_corrected(blend_radius_mm: &str) {
     assert!((0.98..1.02).contains(&stays), "{stays}");
 }
 
+/// Before a corner at which it stops, a tool that is ahead and beside is off by what it is beside the line that it came along.
+#[test]
+fn before_a_stop_what_is_ahead_is_not_off() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = job(folder.path(), CORNER, 1500.0, "");
+    let stated = std::fs::read_to_string(&path).unwrap();
+    let sharp = stated.replace("blend_radius_mm = 2.0", "blend_radius_mm = 0.0");
+    std::fs::write(&path, sharp).unwrap();
+    let path = ready(&path).0.plan.path;
+    let stop = path.halts[1].at;
+    assert!(0.0 < stop && stop < path.length);
+    let ahead = path.direction(stop - 1e-6);
+    assert!(dot(ahead, path.direction(stop + 1e-6)).abs() < 1e-9);
+    let beside = [-ahead[1], ahead[0], 0.0];
+    let at = [0, 1, 2].map(|k| path.point(stop)[k] + 1e-4 * ahead[k] + 2e-4 * beside[k]);
+    let left = Drawn::of(&path).left(stop - 5e-5, at);
+    let wanted = beside.map(|x| 2e-4 * x);
+    assert!(norm(sub(left, wanted)) < 1e-9, "{left:?}");
+}
+
 /// Fast and soft: the controller comes by twice in a blend, and the tool is late by a third of a millimetre.
 #[test]
 fn in_a_rounded_corner_what_is_left_is_how_far_the_milled_path_is_from_the_drawn_one() {
@@ -271,7 +292,15 @@ fn of_a_plant_that_mills_something_else_only_robot_and_material_are_taken_and_th
     let of = |plant: &str| said(folder.path(), &[&words[..], &[plant]].concat()).1;
     let remark = "only its robot and its material are taken";
     assert!(of("other/job.toml").contains(remark));
-    assert!(!of("job.toml").contains(remark));
+    // the same points, a line further down
+    job(&other, SLOT, 1500.0, "");
+    let path = std::fs::read_to_string(other.join("path.csv")).unwrap();
+    std::fs::write(
+        other.join("path.csv"),
+        format!("# source = \"again\"\n{path}"),
+    )
+    .unwrap();
+    assert!(!of("other/job.toml").contains(remark));
 }
 
 /// Exit status and standard error.
@@ -373,7 +402,7 @@ fn a_campaign_ends_with_its_part_corrected() {
     let last = steps.last().unwrap();
     assert_eq!(last["verb"], "compensate");
     let said = last["sentences"][0].as_str().unwrap();
-    assert!(said.contains("normal to the feed falls from"), "{said}");
+    assert!(said.contains("from the drawn path falls from"), "{said}");
     let results = folder.path().join("reports/c");
     let corrected = std::fs::read_to_string(results.join("part/compensated.csv")).unwrap();
     assert!(corrected.contains("fits/c/robot.toml"), "{corrected}");

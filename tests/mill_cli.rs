@@ -52,27 +52,45 @@ fn json(folder: &Path, arguments: &[&str]) -> Value {
     serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{said}"))
 }
 
+/// What `mill` says of the slot so deep (mm), at a speed of the spindle, with flutes so long (mm), and its status.
+fn milled(depth: &str, speed: &str, flute: &str) -> (Option<i32>, String) {
+    let folder = job();
+    let job = JOB
+        .replace("= 10000.0", &format!("= {speed}"))
+        .replace("= 32.0", &format!("= {flute}"));
+    let path = PATH.replace(",-2,", &format!(",-{depth},"));
+    std::fs::write(folder.path().join("job.toml"), job).unwrap();
+    std::fs::write(folder.path().join("slot.csv"), path).unwrap();
+    let out = ident(folder.path(), &["mill", "job.toml", "--dry-run"]);
+    let said = String::from_utf8_lossy(&out.stderr).to_string();
+    (out.status.code(), said)
+}
+
 /// At 10 000 and at 800 revolutions per minute, where robot and cut drive one another, until a tool with short flutes dives beyond them.
 #[test]
 fn chatter_is_said() {
-    let folder = job();
-    let at = |speed: &str, flute: &str| {
-        let job = JOB.replace("= 10000.0", speed).replace("= 32.0", flute);
-        std::fs::write(folder.path().join("job.toml"), job).unwrap();
-        let out = ident(folder.path(), &["mill", "job.toml", "--dry-run"]);
-        let said = String::from_utf8_lossy(&out.stderr).to_string();
-        (out.status.code(), said)
-    };
-    let (status, said) = at("= 10000.0", "= 32.0");
-    assert!(status == Some(0) && !said.contains("chatter"), "{said}");
-    let (status, said) = at("= 800.0", "= 32.0");
+    for flute in ["32.0", "4.0"] {
+        let (status, said) = milled("2", "10000.0", flute);
+        assert!(status == Some(0) && !said.contains("chatter"), "{said}");
+    }
+    let (status, said) = milled("2", "800.0", "32.0");
     assert!(status == Some(1) && said.contains("(chatter)"), "{said}");
-    assert!(!said.contains("without a force"), "{said}");
-    let (status, said) = at("= 10000.0", "= 4.0");
-    assert_eq!(status, Some(0), "{said}");
-    let (status, said) = at("= 800.0", "= 4.0");
+    let (status, said) = milled("2", "800.0", "4.0");
     assert!(status == Some(2) && said.contains("(chatter)"), "{said}");
     assert!(said.contains("deeper than its flutes"), "{said}");
+    assert!(said.contains("longer `flute_mm`"), "{said}");
+}
+
+/// A robot that bends and swings by more than the tool should cut.
+#[test]
+fn what_bends_or_swings_into_the_part_is_no_chatter() {
+    let (status, said) = milled("0.9", "10000.0", "1.0");
+    assert!(status == Some(2) && said.contains("flutes"), "{said}");
+    assert!(!said.contains("chatter"), "{said}");
+    for depth in ["0.005", "0.2"] {
+        let (status, said) = milled(depth, "10000.0", "32.0");
+        assert!(status == Some(0) && !said.contains("chatter"), "{said}");
+    }
 }
 
 fn job() -> tempfile::TempDir {

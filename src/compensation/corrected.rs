@@ -11,10 +11,11 @@ use super::shifted::shifted;
 use super::text::text;
 use super::{Correction, Method, Search, Task, search};
 use crate::ground::problem::{Outcome, Problem};
+use crate::ground::spatial::V3;
 use crate::measurement::workspace::job_results;
 use crate::path::programs::{Exporter, ProgramFile};
 use crate::process::Planned;
-use crate::process::chatter::chatter;
+use crate::process::chatter::{Chatter, chatter, or_chatter};
 use crate::process::run::NOTHING_CUT;
 use crate::process::setup::{Setup, Support};
 use crate::process::uncertainty::{self, Doubt, Moved};
@@ -97,8 +98,8 @@ pub struct Corrected {
     pub met: Met,
     /// What was checked along the corrected path.
     pub checked: Vec<Checked>,
-    /// Times the force of a rigid cut, where the corrected one chatters.
-    pub chatter: Option<f64>,
+    /// Whether the corrected part chatters.
+    pub chatter: Option<Chatter>,
     /// What of the stock is gone without a force, in sentences.
     pub not_cut: Vec<String>,
 }
@@ -156,6 +157,7 @@ pub fn correct(planned: Planned, request: Request) -> Outcome<Corrected> {
         || search(method, &task),
         || uncorrected.run(support, |_| {}),
     );
+    let first = first.map_err(|problem| or_chatter(&uncorrected, support, problem));
     let (first, _) = first.map_err(in_job)?;
     if first.removed_m3 == 0.0 {
         let [what, remedy] = NOTHING_CUT;
@@ -179,13 +181,15 @@ pub fn correct(planned: Planned, request: Request) -> Outcome<Corrected> {
     let run = |setup: &Setup| Ok(setup.run(support, |_| {}).map_err(in_job)?.0);
     let (runs, moved) = rayon::join(
         || {
-            let second = run(&corrected(&truth))?;
+            let of_truth = corrected(&truth);
+            let second = run(&of_truth)?;
+            let chatter = chatter(&of_truth, support, &second).map_err(in_job)?;
             let of_model = plant.as_ref().map(|_| run(&model)).transpose()?;
-            Ok((second, of_model))
+            Ok((second, chatter, of_model))
         },
         || Moved::of(&model, support, &doubts).map_err(in_job),
     );
-    let ((second, of_model), moved) = (runs?, moved?);
+    let ((second, chatter, of_model), moved) = (runs?, moved?);
     let before = remaining(&first, &planned.plan.path);
     let after = remaining(&second, &planned.plan.path);
     let expected = of_model.as_ref().unwrap_or(&second);
@@ -193,12 +197,12 @@ pub fn correct(planned: Planned, request: Request) -> Outcome<Corrected> {
     let beside = beside(method, &task).map_err(in_job)?;
     let certainty = certainty(&model, &planned.plan.path, &moved, &left).map_err(in_job)?;
     let size = Size::of(&after);
-    let chatter = chatter(&corrected(&truth), support, &second).map_err(in_job)?;
     let checked = proof(&planned.plan, &way, &found.correction, &second);
     Ok(Corrected {
         met: Met::of(
             size.max_m,
-            certainty.at_most_m,
+            // of what chatters nothing is certain
+            certainty.at_most_m.filter(|_| chatter.is_none()),
             planned.job.limits.tolerance,
         ),
         before: Size::of(&before),
@@ -269,10 +273,14 @@ impl Corrected {
 
     /// Whether the plant's job mills something else, of which nothing is taken.
     pub fn plant_mills_else(&self) -> bool {
-        let (own, plant) = (&self.planned, self.plant.as_ref());
-        plant.is_some_and(|p| {
-            p.toolpath.moves != own.toolpath.moves || p.job.cutter != own.job.cutter
-        })
+        let way = |p: &Planned| -> Vec<(V3, bool)> {
+            let moves = p.toolpath.moves.iter();
+            moves.map(|one| (one.to, one.rapid)).collect()
+        };
+        let part = |p: &Planned| (p.job.workpiece.clone(), p.job.cutter, p.job.feed);
+        let own = &self.planned;
+        let differs = |p: &Planned| way(p) != way(own) || part(p) != part(own);
+        self.plant.as_ref().is_some_and(differs)
     }
 
     /// By how much the largest deviation fell, percent.

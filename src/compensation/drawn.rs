@@ -27,19 +27,19 @@ impl<'a> Drawn<'a> {
     /// What is left where the tool is at `at` and should be at the arc length `s`: the way to it from the nearest place of the stretch,
     /// normal to the feed there. A tool that is late is not off the part; where the path bends it is, by what it cuts off the bend.
     pub fn left(&self, s: f64, at: V3) -> V3 {
-        let place = self.nearest(s, at);
+        let stretch = self.stretch(s);
+        let place = self.nearest(stretch, s, at);
         let off = sub(at, self.path.point(place));
-        normal_part(off, Some(self.path.direction(place)))
+        normal_part(off, Some(self.feed(stretch, place)))
     }
 
     /// Arc length of the nearest place: by the feed there, again and again; half as far where that leads away.
-    fn nearest(&self, s: f64, at: V3) -> f64 {
-        let [first, last] = self.stretch(s);
+    fn nearest(&self, [first, last]: [f64; 2], s: f64, at: V3) -> f64 {
         let off = |s: f64| sub(at, self.path.point(s));
         let (mut place, mut share) = (s.clamp(first, last), 1.0);
         let mut here = off(place);
         for _ in 0..STEPS {
-            let step = share * dot(here, self.path.direction(place));
+            let step = share * dot(here, self.feed([first, last], place));
             let next = (place + step).clamp(first, last);
             if (next - place).abs() < ARRIVED {
                 break;
@@ -52,6 +52,11 @@ impl<'a> Drawn<'a> {
             }
         }
         place
+    }
+
+    /// Direction of the feed at a place of a stretch: at its end that in which it arrives.
+    fn feed(&self, [first, last]: [f64; 2], place: f64) -> V3 {
+        self.path.direction(place.min(last - ARRIVED).max(first))
     }
 
     /// From stop to stop about an arc length.

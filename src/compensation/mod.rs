@@ -1,14 +1,14 @@
 //! Floor 7: the programmed path moved so that the soft robot cuts the part that was drawn; what will be
 //! left, and the proof that the corrected path stays within its limits.
 //!
-//! Corrections are normal to the feed: along it they would change the time, not the part (source 002,
+//! Corrections are normal to the feed where the tool is: along it they would change the time, not the part (source 002,
 //! eqs. 10 and 11, with |v|² where the print has |v|).
 
 pub mod answering;
 pub mod calm;
 pub mod corrected;
 pub mod correction;
-mod drawn;
+pub mod drawn;
 pub mod draws;
 pub mod executed;
 pub mod limits;

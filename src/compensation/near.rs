@@ -17,7 +17,7 @@ pub(super) struct Left {
     pub(super) time_s: f64,
     /// Arc length, m.
     pub(super) s_m: f64,
-    /// Normal to the feed, m, workpiece frame.
+    /// From the nearest place of the drawn path, m, workpiece frame.
     pub(super) left: V3,
 }
 

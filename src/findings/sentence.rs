@@ -165,11 +165,14 @@ fn size_of(cause: &Cause) -> Option<String> {
 /// Amount with its name and unit.
 type Amount = (&'static str, f64, &'static str);
 
+/// Names of amounts that are deviations, but for their axis: of a stiffness the largest is where least gives way.
+const DEVIATIONS: [&str; 3] = ["about_", "rotation_", "base_tilt_"];
+
 /// The largest of the amounts whose names differ by their axis alone.
 fn largest<'a>(cause: &'a Cause, acting: &'a Amount) -> &'a Amount {
     let stem = |name: &'static str| {
-        name.strip_suffix(['x', 'y', 'z'])
-            .filter(|s| s.ends_with('_'))
+        let stem = name.strip_suffix(['x', 'y', 'z']);
+        stem.filter(|stem| DEVIATIONS.contains(stem))
     };
     let Some(own) = stem(acting.0) else {
         return acting;
@@ -269,6 +272,11 @@ mod tests {
             ("about_z", 0.09, "rad"),
         ];
         assert_eq!(said(&turned), ", about y -170 mrad");
+        let springs = [
+            ("stiffness_x", 1e6, "N·m/rad"),
+            ("stiffness_y", 1e8, "N·m/rad"),
+        ];
+        assert_eq!(said(&springs), ", stiffness x 1.00 MN·m/rad");
         assert_eq!(
             said(&[("gap", 1e-4, "rad"), ("play", 1.0, "rad")]),
             ", gap 100 µrad"

@@ -86,16 +86,41 @@ pub fn root(mut of: DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
     Some(Cholesky::pack_dirty(of))
 }
 
-/// L⁻¹ of the root L of a matrix LLᵀ, column by column: the inverse of the matrix is its product with its own transpose, of
+/// L⁻¹ of the root L of a matrix LLᵀ: the inverse of the matrix is its product with its own transpose, of
 /// which an entry of the diagonal is the square of a column.
 pub fn inverse_root(root: &Cholesky<f64, Dyn>) -> DMatrix<f64> {
-    let l = root.l_dirty();
-    let n = l.nrows();
+    inverse_lower(root.l_dirty().as_view())
+}
+
+/// Inverse of a lower triangle, half by half where it is wide, as most of the work is a product then.
+fn inverse_lower(lower: DMatrixView<f64>) -> DMatrix<f64> {
+    let n = lower.nrows();
+    if n <= 2 * BLOCK {
+        return inverse_narrow(lower);
+    }
+    let (first, rest) = (n / 2, n - n / 2);
+    let own = inverse_lower(lower.view((0, 0), (first, first)));
+    let last = inverse_lower(lower.view((first, first), (rest, rest)));
+    let between = -(&last * (lower.view((first, 0), (rest, first)) * &own));
+    let mut inverse = DMatrix::zeros(n, n);
+    inverse.view_mut((0, 0), (first, first)).copy_from(&own);
+    inverse
+        .view_mut((first, 0), (rest, first))
+        .copy_from(&between);
+    inverse
+        .view_mut((first, first), (rest, rest))
+        .copy_from(&last);
+    inverse
+}
+
+/// The same, column by column.
+fn inverse_narrow(lower: DMatrixView<f64>) -> DMatrix<f64> {
+    let n = lower.nrows();
     let mut inverse = DMatrix::identity(n, n);
     for (j, mut column) in inverse.column_iter_mut().enumerate() {
         let x = column.as_mut_slice();
         for k in j..n {
-            let factor = l.column(k);
+            let factor = lower.column(k);
             let factor = factor.as_slice();
             x[k] /= factor[k];
             let (own, below) = x[k..].split_at_mut(1);
@@ -112,10 +137,15 @@ mod tests {
 
     #[test]
     fn the_inverse_of_a_root_makes_the_inverse() {
-        let of = DMatrix::from_fn(4, 4, |i, j| if i == j { 5.0 } else { 0.3 * (i + j) as f64 });
-        let root = inverse_root(&of.clone().cholesky().unwrap());
-        let off = root.tr_mul(&root) * of - DMatrix::identity(4, 4);
-        assert!(off.abs().max() < 1e-12);
+        for n in [4, 97, 200] {
+            let of = DMatrix::from_fn(n, n, |i, j| match i == j {
+                true => 5.0 * n as f64,
+                false => 0.3 * ((i + j) % 5) as f64,
+            });
+            let root = inverse_root(&of.clone().cholesky().unwrap());
+            let off = root.tr_mul(&root) * of - DMatrix::identity(n, n);
+            assert!(off.abs().max() < 1e-12, "{n}");
+        }
     }
 
     #[test]

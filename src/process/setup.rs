@@ -1,6 +1,5 @@
 //! A job made ready to be milled: the planned motion, the tool in its stock, the robot.
 
-use super::chatter;
 use super::pose::Carrier;
 use super::rigid::Rigid;
 use super::run::{Outcome as Milled, Settings, mill};
@@ -195,7 +194,7 @@ impl Setup {
     /// Mills the part; the cutter keeps what is left of the stock.
     ///
     /// # Errors
-    /// As [`mill`]; chatter, where the same cut would be none without it.
+    /// As [`mill`].
     pub fn run(&self, support: Support, progress: impl FnMut(f64)) -> Outcome<(Milled, Cutter)> {
         let mut cutter = self.cutter();
         let mut structure = self.structure(support)?;
@@ -208,14 +207,8 @@ impl Setup {
             structure.as_mut(),
             &settings,
             progress,
-        );
-        match out {
-            Ok(out) => Ok((out, cutter)),
-            Err(problem) => Err(match support {
-                Support::Coupled => chatter::or_chatter(self, problem),
-                _ => problem,
-            }),
-        }
+        )?;
+        Ok((out, cutter))
     }
 }
 

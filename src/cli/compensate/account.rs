@@ -3,7 +3,7 @@
 use super::Written;
 use crate::compensation::corrected::{Corrected, Met};
 use crate::compensation::proof::Checked;
-use crate::process::chatter;
+use crate::compensation::remaining::Size;
 use crate::sheet::number::significant;
 
 /// The account on standard output.
@@ -42,7 +42,7 @@ pub fn sentences(result: &Corrected) -> Vec<String> {
         None => String::new(),
     };
     let mut said = vec![format!(
-        "The largest deviation normal to the feed {moves} from {} to {} mm{left}{fell}.",
+        "The largest deviation from the drawn path {moves} from {} to {} mm{left}{fell}.",
         mm(result.before.max_m),
         mm(result.after.max_m)
     )];
@@ -114,6 +114,9 @@ fn failed(c: &Checked) -> String {
     )
 }
 
+/// More than rounding.
+const ROUNDING: f64 = 1.0 + 1e-6;
+
 /// What the reader should know.
 pub fn remarks(result: &Corrected) -> Vec<String> {
     let mut said = Vec::new();
@@ -125,11 +128,11 @@ pub fn remarks(result: &Corrected) -> Vec<String> {
     }
     if result.plant_mills_else() {
         said.push(
-            "the job of --plant mills another path or with another tool: only its robot and its material are taken"
+            "the job of --plant mills something else (path, feed, tool or stock): only its robot and its material are taken"
                 .into(),
         );
     }
-    if result.after.max_m > result.before.max_m {
+    if result.after.max_m > ROUNDING * result.before.max_m {
         said.push(
             "the corrected path leaves more than the programmed one: do not run it; try another --method, or plunge more gently".into(),
         );
@@ -145,13 +148,21 @@ pub fn remarks(result: &Corrected) -> Vec<String> {
     }
     let is_beside =
         |(name, left): &(&str, Vec<_>)| (*left == result.stations[1]).then(|| name.to_string());
+    let others = result
+        .beside
+        .iter()
+        .map(|(name, left)| (name, Size::of(left).max_m));
+    for (name, left) in others.filter(|other| ROUNDING * other.1 < result.after.max_m) {
+        let left = significant(1e3 * left, 3);
+        said.push(format!("`{name}` leaves less here, {left} mm: use it"));
+    }
     if let Some(name) = result.beside.as_ref().and_then(is_beside) {
         said.push(format!(
             "the simulated force is used nowhere, since it differs too little from the measured one: this is `{name}`"
         ));
     }
-    match result.chatter {
-        Some(times) => said.push(chatter::sentence(times)),
+    match &result.chatter {
+        Some(chatter) => said.extend(chatter.remarks()),
         None => said.extend(result.not_cut.iter().cloned()),
     }
     said

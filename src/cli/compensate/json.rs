@@ -25,6 +25,7 @@ pub fn body(result: &Corrected, written: &Written) -> Value {
         "reduction_percent": result.reduction_percent().map(number),
         "tolerance_mm": result.planned.job.limits.tolerance.map(|t| number(1e3 * t)),
         "tolerance_met": result.met.word(),
+        "force_over_springs_alone": result.chatter.as_ref().map(|c| number(c.times)),
         "rapid_motions_slowed": result.slowed,
         "largest_correction_mm": number(1e3 * found.correction.largest().0),
         "interval_from": result.doubts.iter().map(|d| json!({

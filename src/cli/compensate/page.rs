@@ -67,7 +67,7 @@ fn deviations(result: &Corrected) -> Chart {
     Chart::new(
         "compensate-deviation",
         "What is left",
-        "Distance of the tool from the drawn path normal to the feed, in the cut, before and after.",
+        "Distance of the tool from the drawn path, in the cut, before and after.",
     )
     .with(panel)
     .synthetic(result.planned.job.synthetic)
@@ -86,7 +86,7 @@ fn map(result: &Corrected) -> Chart {
     let chart = Chart::new(
         "compensate-map",
         "The part before and after",
-        "Distance of the tool from the drawn path normal to the feed, seen along z of the workpiece.",
+        "Distance of the tool from the drawn path, seen along z of the workpiece.",
     )
     .with(panel(before, "before"));
     let chart = result

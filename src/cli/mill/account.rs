@@ -3,7 +3,6 @@
 use super::{Driven, Result, Written};
 use crate::compensation::corrected::Met;
 use crate::ground::spatial::norm;
-use crate::process::chatter;
 use crate::process::run::NOTHING_CUT;
 use crate::process::setup::Support;
 use crate::sheet::number::{significant, with_interval};
@@ -122,9 +121,8 @@ pub fn remarks(result: &Result) -> Vec<String> {
             significant(1e3 * s, 4)
         ));
     }
-    // what chatters leaves the part, and comes back where nothing should be left
-    match result.chatter {
-        Some(times) => said.push(chatter::sentence(times)),
+    match &result.chatter {
+        Some(chatter) => said.extend(chatter.remarks()),
         None => said.extend(result.milled.not_cut()),
     }
     if result.support != Support::Coupled && result.step_asked {

@@ -18,7 +18,7 @@ use crate::measurement::recorded_joints::RecordedJoints;
 use crate::measurement::workspace::job_results;
 use crate::planning::Plan;
 use crate::process::Planned;
-use crate::process::chatter::chatter;
+use crate::process::chatter::{Chatter, chatter, or_chatter};
 use crate::process::course;
 use crate::process::recorded::Recorded;
 use crate::process::run::{Cut, Outcome as Milled};
@@ -98,8 +98,8 @@ struct Result {
     worst: Option<Worst>,
     doubts: Vec<Doubt>,
     driven: Option<Driven>,
-    /// Times the force of a rigid cut, where it chatters.
-    chatter: Option<f64>,
+    /// Whether it chatters.
+    chatter: Option<Chatter>,
     /// Whether an interval was asked for.
     asked: bool,
     /// Whether a step of time was.
@@ -182,7 +182,7 @@ fn act(arguments: &Arguments) -> Outcome<Result> {
                 progress.done(&format!("{} %", 100 * told.get() / PARTS));
             }
         })
-        .map_err(|problem| problem.in_file(&planned.job.path))?;
+        .map_err(|problem| or_chatter(&setup, support, problem).in_file(&planned.job.path))?;
     let chatter =
         chatter(&setup, support, &milled).map_err(|problem| problem.in_file(&planned.job.path))?;
     progress.finish();
@@ -258,7 +258,9 @@ impl Result {
         let tolerance = tolerance.filter(|_| self.judges_the_part())?;
         let worst = self.worst.as_ref()?;
         let high = worst.ci95.map_or(worst.size, |[_, high]| high);
-        Some(Met::of(worst.size, Some(high), Some(tolerance)))
+        // of what chatters nothing is certain
+        let high = self.chatter.is_none().then_some(high);
+        Some(Met::of(worst.size, high, Some(tolerance)))
     }
 
     /// How far along the path recorded joint angles lead, m, where it would cut beyond that.
