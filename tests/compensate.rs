@@ -14,7 +14,7 @@ use ident::process::Planned;
 use ident::process::setup::{Setup, Support};
 use serde_json::Value;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Output};
 
 /// The correction of a method, and the largest deviation before and after on `truth`, m.
 fn judged(
@@ -216,12 +216,13 @@ fn in_a_rounded_corner_what_is_left_is_how_far_the_milled_path_is_from_the_drawn
     assert!(after < 0.3 * before);
 }
 
+fn run(folder: &Path, words: &[&str]) -> Output {
+    let mut ident = Command::new(env!("CARGO_BIN_EXE_ident"));
+    ident.current_dir(folder).args(words).output().unwrap()
+}
+
 fn ident(folder: &Path, words: &[&str]) -> (i32, Value) {
-    let out = Command::new(env!("CARGO_BIN_EXE_ident"))
-        .current_dir(folder)
-        .args(words)
-        .output()
-        .unwrap();
+    let out = run(folder, words);
     let said = String::from_utf8_lossy(&out.stderr).to_string();
     let json = serde_json::from_slice(&out.stdout).unwrap_or_else(|_| panic!("{said}"));
     (out.status.code().unwrap(), json)
@@ -305,11 +306,7 @@ fn of_a_plant_that_mills_something_else_only_robot_and_material_are_taken_and_th
 
 /// Exit status and standard error.
 fn said(folder: &Path, words: &[&str]) -> (Option<i32>, String) {
-    let out = Command::new(env!("CARGO_BIN_EXE_ident"))
-        .current_dir(folder)
-        .args(words)
-        .output()
-        .unwrap();
+    let out = run(folder, words);
     let said = String::from_utf8_lossy(&out.stderr).to_string();
     (out.status.code(), said)
 }

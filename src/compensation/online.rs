@@ -31,7 +31,8 @@ const INTERPOLATED_S: f64 = 12e-3;
 const NOISE_N: f64 = 1.0;
 /// Difference of estimated and measured force above which the estimate is trusted, N: adjustable, and 150 in the cuts of source 002; where
 /// the whole force of a cut is hardly more, this share of it: two standard deviations of coefficients that are known to a tenth. Of nine jobs
-/// by a stranger five keep 0.16 to 0.27 of the deviation and four 0.48 to 0.88, with 150 N alone six of them 0.62 to 0.83; 0.3 did the same.
+/// by a stranger five keep 0.16 to 0.27 of the deviation and four 0.48 to 0.88, with 150 N alone six of them 0.62 to 0.83; with 0.3 these six were the
+/// same.
 const THRESHOLD_N: f64 = 150.0;
 const THRESHOLD_SHARE: f64 = 0.2;
 /// Time of the fade from one to the other, s.

@@ -1,7 +1,7 @@
 //! The points of a corrected path: so dense that chords between them follow it.
 
 use super::correction::Correction;
-use crate::ground::spatial::{V3, add, cross, dot, norm, scale, sub};
+use crate::ground::spatial::{V3, add, angle, cross, norm, scale, sub};
 use crate::path::Quaternion;
 use crate::planning::Plan;
 
@@ -74,7 +74,6 @@ fn places(plan: &Plan, correction: &Correction) -> Vec<Point> {
 /// Shares of the way between two arc lengths at which the feed has turned by so much.
 fn shares(plan: &Plan, begin: f64, end: f64) -> impl Iterator<Item = f64> {
     let [a, b, c] = [0.0, 0.5, 1.0].map(|u| plan.path.direction(begin + u * (end - begin)));
-    let turn = |a: V3, b: V3| norm(cross(a, b)).atan2(dot(a, b));
-    let count = ((turn(a, b) + turn(b, c)) / TURN).ceil();
+    let count = ((angle(a, b) + angle(b, c)) / TURN).ceil();
     (1..count as usize).map(move |k| k as f64 / count)
 }

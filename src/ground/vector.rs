@@ -10,6 +10,11 @@ pub type M3<S = f64> = [[S; 3]; 3];
 /// The unit matrix.
 pub const IDENTITY: M3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
+/// Angle between two vectors, rad.
+pub fn angle(a: V3, b: V3) -> f64 {
+    norm(cross(a, b)).atan2(dot(a, b))
+}
+
 /// A constant vector.
 #[inline(always)]
 pub fn lift<S: Scalar>(v: V3) -> V3<S> {

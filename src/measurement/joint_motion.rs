@@ -55,6 +55,26 @@ pub struct JointRecord {
     pub left_out: usize,
 }
 
+#[cfg(test)]
+impl JointRecord {
+    /// Time, motor, link and torque of A2 and nothing else.
+    pub fn bare([time, motor, link, torque]: [Vec<f64>; 4]) -> Self {
+        Self {
+            number: 2,
+            time,
+            motor,
+            link,
+            torque,
+            ratio: None,
+            delay: None,
+            nominal_stiffness: None,
+            nominal_rel_std: 0.1,
+            zero_std: None,
+            left_out: 0,
+        }
+    }
+}
+
 impl JointRecord {
     /// Its site: `A2`.
     pub fn site(&self) -> String {

@@ -2,7 +2,7 @@
 
 use super::curve::Curve;
 use super::element::{Element, SAME_PLACE};
-use crate::ground::vector::{V3, cross, dot, norm, sub};
+use crate::ground::vector::{V3, angle, norm, sub};
 
 /// A corner sharper than this is a reversal: a stop (179.9 degrees), rad.
 const REVERSAL: f64 = 179.9 / 180.0 * std::f64::consts::PI;
@@ -51,7 +51,7 @@ impl Corner {
     pub fn between(before: &Element, after: &Element, asked: Option<f64>, halted: bool) -> Self {
         let length = before.curve.length();
         let (end, start) = (before.curve.end(length), after.curve.end(0.0));
-        let angle = norm(cross(end.tangent, start.tangent)).atan2(dot(end.tangent, start.tangent));
+        let angle = angle(end.tangent, start.tangent);
         let asked = match before.rapid && !after.rapid {
             true => 0.0,
             false => before.asked_blend(asked),

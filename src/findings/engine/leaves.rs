@@ -142,7 +142,10 @@ impl<'a> Weighing<'a> {
         let judgement = self.judgement;
         let explained = explained_rms(self.statement, self.bank, &story.fit, judgement);
         let left = rms(&in_noise(self.statement, &self.beside(&story.fit).0));
-        let share = told([explained, left].map(|size| self.share(size)));
+        let share = told(
+            [explained, left].map(|size| self.share(size)),
+            judgement.taken_back,
+        );
         match story.score > judgement.left_nats && share > judgement.left_share {
             true => Rest {
                 nats: rest.nats.max(story.score),
@@ -156,10 +159,10 @@ impl<'a> Weighing<'a> {
 }
 
 /// What a story explains, as a share of the misfit (rms): what is larger than all that is missed is mostly taken back by what is uncertain, and
-/// then it explains no more than what it leaves less; from one to one and a half times what is missed the one becomes the other.
-fn told([explained, left]: [f64; 2]) -> f64 {
+/// then it explains no more than what it leaves less ([`Judgement::taken_back`]).
+fn told([explained, left]: [f64; 2], taken_back: f64) -> f64 {
     let less = (1.0 - left * left).max(0.0).sqrt();
-    let own = (3.0 - 2.0 * explained).clamp(0.0, 1.0);
+    let own = ((taken_back - explained) / (taken_back - 1.0)).clamp(0.0, 1.0);
     own * explained.min(1.0) + (1.0 - own) * less
 }
 
@@ -167,11 +170,15 @@ fn told([explained, left]: [f64; 2]) -> f64 {
 mod tests {
     use super::told;
 
+    fn worth(shares: [f64; 2]) -> f64 {
+        told(shares, 1.5)
+    }
+
     #[test]
     fn a_story_that_what_is_uncertain_takes_back_explains_what_it_leaves_less() {
-        assert_eq!(told([0.5, 0.9]), 0.5);
-        assert!((told([1.001, 0.9]) - told([0.999, 0.9])).abs() < 3e-3);
-        assert!((told([17.0, 0.6]) - 0.8).abs() < 1e-12);
-        assert_eq!(told([17.0, 1.1]), 0.0);
+        assert_eq!(worth([0.5, 0.9]), 0.5);
+        assert!((worth([1.001, 0.9]) - worth([0.999, 0.9])).abs() < 3e-3);
+        assert!((worth([17.0, 0.6]) - 0.8).abs() < 1e-12);
+        assert_eq!(worth([17.0, 1.1]), 0.0);
     }
 }

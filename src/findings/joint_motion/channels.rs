@@ -258,19 +258,8 @@ mod tests {
             -30.0 * (slow + 1e-3 * swing * swing * (swing * t).sin())
         };
         let motor: Vec<f64> = time.iter().map(|t| angle(*t)).collect();
-        let record = JointRecord {
-            number: 2,
-            link: motor.clone(),
-            torque: time.iter().map(|t| pull(*t)).collect(),
-            ratio: None,
-            delay: None,
-            nominal_stiffness: None,
-            nominal_rel_std: 0.1,
-            zero_std: None,
-            left_out: 0,
-            motor,
-            time,
-        };
+        let torque = time.iter().map(|t| pull(*t)).collect();
+        let record = JointRecord::bare([time, motor.clone(), motor, torque]);
         let data = Channels::of(&record);
         let each = data.torque.iter().zip(&data.acceleration);
         let most = data.torque.iter().fold(0.0_f64, |m, t| m.max(t.abs()));

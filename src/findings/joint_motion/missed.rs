@@ -100,17 +100,8 @@ mod tests {
             angle(t) - torque(t) / 2e6 - 3e-5 * (40.0 * speed(t)).tanh() + step
         };
         let record = JointRecord {
-            number: 2,
-            motor: of(&angle),
-            link: of(&link),
-            torque: of(&torque),
             ratio: Some(200.0),
-            delay: None,
-            nominal_stiffness: None,
-            nominal_rel_std: 0.1,
-            zero_std: None,
-            left_out: 0,
-            time: time.clone(),
+            ..JointRecord::bare([time.clone(), of(&angle), of(&link), of(&torque)])
         };
         Joint::new(&record, Nominal::default())
     }

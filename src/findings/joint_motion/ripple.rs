@@ -186,19 +186,8 @@ mod tests {
         let motor: Vec<f64> = time.iter().map(|t| 0.5 * t).collect();
         let order = TAU / (0.5 * 9.0 * 0.004);
         let link = motor.iter().map(|q| q + 4e-5 * (order * q).sin());
-        let record = JointRecord {
-            number: 1,
-            link: link.collect(),
-            torque: vec![0.0; motor.len()],
-            ratio: None,
-            delay: None,
-            nominal_stiffness: None,
-            nominal_rel_std: 0.1,
-            zero_std: None,
-            left_out: 0,
-            motor,
-            time,
-        };
+        let still = vec![0.0; motor.len()];
+        let record = JointRecord::bare([time, motor.clone(), link.collect(), still]);
         let data = Channels::of(&record);
         assert_eq!(data.block, 3);
         let [sine, cosine] = [0, 1].map(|k| wave(&data, &data.motor, order)[k].clone());
