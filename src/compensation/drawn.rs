@@ -1,7 +1,8 @@
 //! The drawn path as the part has it: the place nearest to where the tool is, on the same stretch between stops.
 
-use crate::ground::spatial::{V3, dot, norm, sub};
+use crate::ground::spatial::{V3, sub};
 use crate::path::Path;
+use crate::path::nearest::nearest;
 use crate::process::way::normal_part;
 
 /// A drawn path, of which what is left is measured.
@@ -11,9 +12,8 @@ pub struct Drawn<'a> {
     stops: Vec<f64>,
 }
 
-/// Steps to the nearest place, and how near they lead, m.
-const STEPS: usize = 12;
-const ARRIVED: f64 = 1e-9;
+/// The feed at the end of a stretch is that so far before it, m.
+const BEFORE: f64 = 1e-9;
 
 impl<'a> Drawn<'a> {
     /// A path.
@@ -28,35 +28,16 @@ impl<'a> Drawn<'a> {
     /// normal to the feed there. A tool that is late is not off the part; where the path bends it is, by what it cuts off the bend.
     pub fn left(&self, s: f64, at: V3) -> V3 {
         let stretch = self.stretch(s);
-        let place = self.nearest(stretch, s, at);
+        let [first, last] = stretch;
+        let point = |s: f64| self.path.point(s);
+        let place = nearest(point, |s| self.feed(stretch, s), at, &(first..=last), s);
         let off = sub(at, self.path.point(place));
         normal_part(off, Some(self.feed(stretch, place)))
     }
 
-    /// Arc length of the nearest place: by the feed there, again and again; half as far where that leads away.
-    fn nearest(&self, [first, last]: [f64; 2], s: f64, at: V3) -> f64 {
-        let off = |s: f64| sub(at, self.path.point(s));
-        let (mut place, mut share) = (s.clamp(first, last), 1.0);
-        let mut here = off(place);
-        for _ in 0..STEPS {
-            let step = share * dot(here, self.feed([first, last], place));
-            let next = (place + step).clamp(first, last);
-            if (next - place).abs() < ARRIVED {
-                break;
-            }
-            let there = off(next);
-            if norm(there) < norm(here) {
-                (place, here, share) = (next, there, 1.0);
-            } else {
-                share *= 0.5;
-            }
-        }
-        place
-    }
-
     /// Direction of the feed at a place of a stretch: at its end that in which it arrives.
     fn feed(&self, [first, last]: [f64; 2], place: f64) -> V3 {
-        self.path.direction(place.min(last - ARRIVED).max(first))
+        self.path.direction(place.min(last - BEFORE).max(first))
     }
 
     /// From stop to stop about an arc length.

@@ -2,6 +2,7 @@
 
 use super::curve::Curve;
 use super::element::{Element, SAME_PLACE};
+use super::nearest::{coarse, nearest};
 use crate::ground::vector::{V3, angle, norm, sub};
 
 /// A corner sharper than this is a reversal: a stop (179.9 degrees), rad.
@@ -11,6 +12,8 @@ const COLLINEAR: f64 = 1e-6;
 /// An arc or a spline that a neighbour meets at less than this is tangential, rad: nothing is
 /// blended there, the curvature jumps, as on the controller.
 const TANGENTIAL: f64 = 1e-3;
+/// Pieces of a blend in which the place nearest to its corner is looked for.
+const PIECES: usize = 64;
 
 /// How the path goes through a corner.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -90,7 +93,7 @@ impl Corner {
         let symmetric = before.is_line() && after.is_line();
         let deviation = match symmetric {
             true => norm(sub(blend.point(0.5 * blend.length()), self.point)),
-            false => nearest(&blend, self.point),
+            false => distance(&blend, self.point),
         };
         (blend, deviation)
     }
@@ -102,20 +105,15 @@ impl Corner {
 }
 
 /// Distance from a point to the nearest one of a curve, m.
-fn nearest(curve: &Curve, point: V3) -> f64 {
-    const STEPS: usize = 64;
-    let length = curve.length();
-    let away = |s: f64| norm(sub(curve.point(s), point));
-    let at = |i: usize| length * i as f64 / STEPS as f64;
-    let best = (0..=STEPS).min_by(|&i, &j| away(at(i)).total_cmp(&away(at(j))));
-    let best = best.unwrap_or(0);
-    let (mut low, mut high) = (at(best.saturating_sub(1)), at((best + 1).min(STEPS)));
-    for _ in 0..60 {
-        let third = (high - low) / 3.0;
-        match away(low + third) < away(high - third) {
-            true => high -= third,
-            false => low += third,
-        }
-    }
-    away(0.5 * (low + high))
+fn distance(curve: &Curve, to: V3) -> f64 {
+    let whole = 0.0..=curve.length();
+    let (near, about) = coarse(|s| curve.point(s), to, &whole, PIECES);
+    let place = nearest(
+        |s| curve.point(s),
+        |s| curve.end(s).tangent,
+        to,
+        &about,
+        near,
+    );
+    norm(sub(curve.point(place), to))
 }

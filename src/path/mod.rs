@@ -15,6 +15,7 @@ pub mod corner;
 pub mod curve;
 pub mod double_s;
 pub mod element;
+pub mod nearest;
 pub mod nurbs;
 pub mod orientation;
 pub mod profile;

@@ -5,12 +5,13 @@ use super::run::Outcome as Milled;
 use super::way::{Row, Way};
 use crate::cutting::cutter::Cutter;
 use crate::ground::problem::{Outcome, Problem};
-use crate::ground::spatial::{V3, add, dot, norm, rotate, scale, sub};
+use crate::ground::spatial::{V3, add, norm, rotate, scale, sub};
 use crate::ground::stats;
 use crate::measurement::recorded_joints::RecordedJoints;
 use crate::motion::{Work, forward_kinematics};
 use crate::path::Path;
 use crate::path::build::Side;
+use crate::path::nearest::{coarse, nearest};
 use crate::planning::Plan;
 use std::f64::consts::TAU;
 
@@ -33,9 +34,8 @@ const LAST: f64 = 2e-3;
 /// How far ahead of the last place the next is looked for: m, and per way of the recorded tip.
 const AHEAD: f64 = 1e-3;
 const FASTER: f64 = 3.0;
-/// Pieces of that stretch, and roundings of the best.
+/// Pieces of that stretch.
 const PIECES: usize = 24;
-const ROUNDS: usize = 3;
 
 impl Recorded {
     /// Lays a recording along the path of a plan.
@@ -54,7 +54,7 @@ impl Recorded {
         for i in 0..rows.len() {
             if i > begin {
                 let moved = norm(sub(rows[i].tip, rows[i - 1].tip));
-                s = nearest(&plan.path, rows[i].tip, s, AHEAD + FASTER * moved);
+                s = place(&plan.path, rows[i].tip, s, AHEAD + FASTER * moved);
             }
             rows[i].s_m = s;
             let counts = i >= begin && s < plan.path.length;
@@ -179,16 +179,8 @@ fn begin(plan: &Plan, rows: &[Row]) -> usize {
 }
 
 /// Arc length of the place of the path nearest to a point, from `s` on, at most `ahead` farther, m.
-fn nearest(path: &Path, point: V3, s: f64, ahead: f64) -> f64 {
-    let (mut from, mut to) = (s, (s + ahead).min(path.length));
-    for _ in 0..ROUNDS {
-        let step = (to - from) / PIECES as f64;
-        let far = |i: &usize| norm(sub(path.point(from + step * *i as f64), point));
-        let best = (0..=PIECES).min_by(|a, b| far(a).total_cmp(&far(b)));
-        let centre = from + step * best.unwrap_or(0) as f64;
-        (from, to) = ((centre - step).max(from), (centre + step).min(to));
-    }
-    let middle = 0.5 * (from + to);
-    let along = dot(sub(point, path.point(middle)), path.direction(middle));
-    (middle + along.clamp(from - middle, to - middle)).min(path.length)
+fn place(path: &Path, to: V3, s: f64, ahead: f64) -> f64 {
+    let within = s..=(s + ahead).min(path.length).max(s);
+    let (near, about) = coarse(|s| path.point(s), to, &within, PIECES);
+    nearest(|s| path.point(s), |s| path.direction(s), to, &about, near)
 }

@@ -45,12 +45,26 @@ pub(super) fn picked(
     let kept = Picked { set, gains, leaves };
     if experiment.has_rough_laws() {
         return match kept.leaves.rest.is_left {
-            true => needed(weighing, posterior, &chosen, &kept).unwrap_or(kept),
+            true => needed(
+                weighing,
+                posterior,
+                &chosen,
+                &kept,
+                judgement.not_plain_gain,
+            )
+            .unwrap_or(kept),
             false => kept,
         };
     }
     let kept = outweighed(weighing, posterior, kept);
-    needed(weighing, posterior, &chosen, &kept).unwrap_or(kept)
+    needed(
+        weighing,
+        posterior,
+        &chosen,
+        &kept,
+        -judgement.companion_gain,
+    )
+    .unwrap_or(kept)
 }
 
 /// With the gains as they are told, and without companions that surely make the simulation worse as it is used: they fit only where
@@ -144,12 +158,14 @@ fn beyond(weighing: &Weighing, kept: &Picked, at: usize) -> f64 {
 /// of unseen rows. It may be plain beside all others alone; or lower the error by little, but by more than laws miss of the
 /// largest; or not at all, since all that is uncertain may stand in for it there, far from where it is known to be. Where that
 /// alone costs more than the price of a cause, unseen rows may show a little of it as well, and something may be left.
-/// Where laws are only nearly right, a probable cause may be what they miss, and something must be left without it.
+/// Where laws are only nearly right, a probable cause may be what they miss, and something must be left without it. `least`: by how many
+/// percent one must lower that error where its interval is not plain.
 fn needed(
     weighing: &Weighing,
     posterior: &Posterior,
     chosen: &Scored,
     kept: &Picked,
+    least: f64,
 ) -> Option<Picked> {
     let (bank, judgement) = (weighing.bank, weighing.judgement);
     // where nobody states the noise, a companion that unseen rows do not show is worth the noise that it makes smaller
@@ -183,7 +199,8 @@ fn needed(
         let is_little = gain.reduction_percent < judgement.companion_gain;
         let is_missed =
             gain.is_real() && is_little && gain.explained() < missed || gain.explained() < law;
-        (is_strained || !is_missed) && gain.reduction_percent > -judgement.companion_gain
+        let is_shown = gain.is_real() || gain.reduction_percent > least;
+        (is_strained || !is_missed) && is_shown
     };
     // what spares strain is as large as what it does, however little unseen rows show of that
     let parts = raw_parts(bank, &chosen.fit);
@@ -200,7 +217,7 @@ fn needed(
     if let Some(at) = fallen.min_by(|a, b| gained(a).total_cmp(&gained(b))) {
         // the others may be needed without it
         let others = less(bank, posterior, &chosen, at, judgement);
-        return needed(weighing, posterior, &others, kept);
+        return needed(weighing, posterior, &others, kept, least);
     }
     if !chosen.suspects.iter().any(is_dropped) {
         return None;

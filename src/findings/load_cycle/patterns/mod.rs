@@ -1,9 +1,10 @@
 //! What is seen now and then and no cause of the library does: a level that jumps again and again, ringing after the corners
-//! of the load. They compete with the causes, so that they take none of their names, and with the noise, which else
+//! of the load, a slope that comes back. They compete with the causes, so that they take none of their names, and with the noise, which else
 //! would take them for colour or for bursts; they are never named.
 
 mod many_jumps;
 mod ringing;
+mod wandering_stiffness;
 
 pub use many_jumps::{JUMPS, told};
 
@@ -33,7 +34,7 @@ struct Kind {
     seek: fn(&Seen) -> Sought,
 }
 
-const KINDS: &[Kind] = &[many_jumps::KIND, ringing::KIND];
+const KINDS: &[Kind] = &[many_jumps::KIND, ringing::KIND, wandering_stiffness::KIND];
 
 /// The patterns of a record.
 pub fn patterns(view: &View, reading: &[f64]) -> Vec<Suspect> {
