@@ -71,7 +71,7 @@ pub(super) fn picked(
 /// all that is uncertain moves against them, and stand for what it cannot do. The last cause stands where unseen rows plainly tell that
 /// something is wrong: what is uncertain may hide it. Where structure is left that nobody makes, any cause may stand for it: one whose
 /// gain is not plain takes no name, nor any companion where a kind asks that (`Judgement::companion_is_plain`). Nor do several, none of
-/// which plainly gains: together they fit what none of them makes.
+/// which gains plainly or much (`Judgement::not_plain_gain`): together they fit what none of them makes.
 pub(super) fn carrying(
     weighing: &Weighing,
     posterior: &Posterior,
@@ -97,7 +97,10 @@ pub(super) fn carrying(
         let decided =
             |at: usize| unseen::gains(statement, bank, &set.fit, plainly)[at].reduction_percent;
         let stands = |at: &usize| is_last && decided(*at) >= judgement.companion_gain;
-        let none_gains = !is_last && named.clone().all(|at| gains[at].ci95_percent[0] <= 0.0);
+        let hardly = |gain: &Gain| {
+            gain.ci95_percent[0] <= 0.0 && gain.reduction_percent < judgement.not_plain_gain
+        };
+        let none_gains = !is_last && named.clone().all(|at| hardly(&gains[at]));
         let worse =
             named.filter(|at| none_gains || stands_in(at) || surely_worse(at) && !stands(at));
         let Some(at) = worse.min_by(|a, b| gained(a).total_cmp(&gained(b))) else {

@@ -7,6 +7,7 @@ use super::refine::Refined;
 use super::structure;
 use crate::effects::Composite;
 use crate::findings::answer::{Answer, Verdict};
+use crate::findings::engine::Judgement;
 use crate::ground::stats::{difference, rms};
 
 impl Case<'_> {
@@ -19,7 +20,8 @@ impl Case<'_> {
     ) -> Diagnosis {
         let judged = self.found.answer.verdict;
         let left = (self.found.answer.is_open() || self.restless) && !self.within_step();
-        let story = !(left && judged == Verdict::UnknownCause);
+        let several = shapes.causes.len() + shapes.groups.len() >= Judgement::default().several;
+        let story = !(left && (several || judged == Verdict::UnknownCause));
         let mut named = if story { shapes } else { Named::default() };
         named.extend(others);
         named.causes.sort_by(|a, b| {

@@ -69,14 +69,22 @@ const MOST: f64 = 3e-3;
 /// beside another cause on seeds 461 to 464 of `tests/judge`, a depth of 88 µm of 4.1 mm in a sound file on 503.
 const BEYOND: f64 = 2.0;
 
+/// Share of what is stated that is left of a cut at least: of less there would be no force.
+const LEFT: f64 = 0.05;
+
 /// Whether a width is off by more than what is uncertain of it anyway.
 pub(super) fn is_wrong_width(shape: &[f64], amounts: &[f64]) -> bool {
-    largest(shape, amounts) > BEYOND * WIDTH_SPREAD
+    is_cut(amounts) && largest(shape, amounts) > BEYOND * WIDTH_SPREAD
 }
 
 /// Whether a depth is.
 fn is_wrong_depth(shape: &[f64], amounts: &[f64]) -> bool {
-    largest(shape, amounts) > BEYOND * DEPTH_SPREAD
+    is_cut(amounts) && largest(shape, amounts) > BEYOND * DEPTH_SPREAD
+}
+
+/// Whether something is left of every cut: amounts count in what is stated of the least.
+fn is_cut(amounts: &[f64]) -> bool {
+    amounts.iter().all(|amount| *amount > LEFT - 1.0)
 }
 
 /// The largest length by which a cut is off, m.
@@ -114,12 +122,16 @@ fn members(
         let starts = starts.iter().map(|m| m / largest).collect::<Vec<_>>();
         far(case, &direction, MOST / largest, &starts)
     };
-    let single = |own: &usize| along(&|c| if c == *own { 1e-3 } else { 0.0 });
+    let single = |own: &usize| along(&|c| if c == *own { stated(c) } else { 0.0 });
+    let least = cuts
+        .iter()
+        .map(|c| stated(*c))
+        .fold(f64::INFINITY, f64::min);
     match cuts {
         [] => Vec::new(),
         [own] => vec![single(own)],
         _ => {
-            let mut members = vec![along(&|_| 1e-3)];
+            let mut members = vec![along(&|_| least)];
             if cuts.iter().any(|c| stated(*c) != stated(cuts[0])) {
                 members.push(along(&|c| stated(c)));
             }
