@@ -8,6 +8,7 @@ use ident::fit::suitability::is_fatal;
 use ident::ground::random::Random;
 use ident::measurement::load_cycle::LoadCycle;
 use ident::measurement::table::Table;
+use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -40,6 +41,12 @@ fn judged(file: &LoadCycle) -> Diagnosis {
 /// Three triangles from zero load.
 fn triangles(rows: usize) -> Vec<f64> {
     let at = |i: usize| (3.0 * i as f64 / rows as f64 + 0.25).fract();
+    (0..rows).map(|i| 1.0 - 4.0 * (at(i) - 0.5).abs()).collect()
+}
+
+/// Six of them.
+fn more_triangles(rows: usize) -> Vec<f64> {
+    let at = |i: usize| (6.0 * i as f64 / rows as f64 + 0.25).fract();
     (0..rows).map(|i| 1.0 - 4.0 * (at(i) - 0.5).abs()).collect()
 }
 
@@ -79,6 +86,21 @@ fn what_jumps_many_times_is_no_drift() {
 
 fn named(found: &Diagnosis) -> Vec<&'static str> {
     found.causes.iter().map(|cause| cause.effect).collect()
+}
+
+/// A slope that falls and rises again does not loosen; one that only falls does.
+#[test]
+fn what_loosens_does_not_come_back() {
+    let load = more_triangles(900);
+    let time = |i: usize| i as f64 / 900.0;
+    let swings = |i: usize, u: f64| 0.05 * u * (1.7 * TAU * time(i) + 0.4).sin();
+    let found = judged(&file(&load, &with(&load, swings), 0.3, 13));
+    let said = &found.unexplained.description;
+    assert_eq!(found.verdict, Verdict::UnknownCause, "{:?}", found.causes);
+    assert!(said.contains("falls and rises again"), "{said}");
+    let loosens = |i: usize, u: f64| 0.05 * u * time(i).sqrt();
+    let found = judged(&file(&load, &with(&load, loosens), 0.3, 14));
+    assert_eq!(named(&found), ["loosening"], "{}", found.verdict.name());
 }
 
 #[test]

@@ -171,6 +171,11 @@ impl Answer {
         is_fatal(&self.doubts)
     }
 
+    /// How many causes are named, groups of them as one.
+    pub fn named(&self) -> usize {
+        self.causes.len() + self.groups.len()
+    }
+
     /// Whether something is left that no name makes.
     pub fn is_open(&self) -> bool {
         matches!(

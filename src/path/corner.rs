@@ -2,7 +2,7 @@
 
 use super::curve::Curve;
 use super::element::{Element, SAME_PLACE};
-use super::nearest::{coarse, nearest};
+use super::nearest::sought;
 use crate::ground::vector::{V3, angle, norm, sub};
 
 /// A corner sharper than this is a reversal: a stop (179.9 degrees), rad.
@@ -12,8 +12,6 @@ const COLLINEAR: f64 = 1e-6;
 /// An arc or a spline that a neighbour meets at less than this is tangential, rad: nothing is
 /// blended there, the curvature jumps, as on the controller.
 const TANGENTIAL: f64 = 1e-3;
-/// Pieces of a blend in which the place nearest to its corner is looked for.
-const PIECES: usize = 64;
 
 /// How the path goes through a corner.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -106,14 +104,7 @@ impl Corner {
 
 /// Distance from a point to the nearest one of a curve, m.
 fn distance(curve: &Curve, to: V3) -> f64 {
-    let whole = 0.0..=curve.length();
-    let (near, about) = coarse(|s| curve.point(s), to, &whole, PIECES);
-    let place = nearest(
-        |s| curve.point(s),
-        |s| curve.end(s).tangent,
-        to,
-        &about,
-        near,
-    );
+    let (point, feed) = (|s| curve.point(s), |s| curve.end(s).tangent);
+    let place = sought(point, feed, to, 0.0..=curve.length());
     norm(sub(curve.point(place), to))
 }

@@ -11,7 +11,7 @@ use crate::measurement::recorded_joints::RecordedJoints;
 use crate::motion::{Work, forward_kinematics};
 use crate::path::Path;
 use crate::path::build::Side;
-use crate::path::nearest::{coarse, nearest};
+use crate::path::nearest::sought;
 use crate::planning::Plan;
 use std::f64::consts::TAU;
 
@@ -34,8 +34,6 @@ const LAST: f64 = 2e-3;
 /// How far ahead of the last place the next is looked for: m, and per way of the recorded tip.
 const AHEAD: f64 = 1e-3;
 const FASTER: f64 = 3.0;
-/// Pieces of that stretch.
-const PIECES: usize = 24;
 
 impl Recorded {
     /// Lays a recording along the path of a plan.
@@ -180,7 +178,6 @@ fn begin(plan: &Plan, rows: &[Row]) -> usize {
 
 /// Arc length of the place of the path nearest to a point, from `s` on, at most `ahead` farther, m.
 fn place(path: &Path, to: V3, s: f64, ahead: f64) -> f64 {
-    let within = s..=(s + ahead).min(path.length).max(s);
-    let (near, about) = coarse(|s| path.point(s), to, &within, PIECES);
-    nearest(|s| path.point(s), |s| path.direction(s), to, &about, near)
+    let (point, feed) = (|s| path.point(s), |s| path.direction(s));
+    sought(point, feed, to, s..=(s + ahead).min(path.length).max(s))
 }

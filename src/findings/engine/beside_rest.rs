@@ -72,6 +72,20 @@ pub(super) fn less_doubtful(
     found
 }
 
+impl Found {
+    /// The same without any name: what was explained is left, for so many that leave something together imitate one that nobody
+    /// knows ([`Judgement::several`]).
+    #[must_use]
+    pub fn without_names(mut self, experiment: &dyn Experiment, judgement: &Judgement) -> Self {
+        self.answer.causes.clear();
+        self.answer.groups.clear();
+        self.doubted.append(&mut self.blamed);
+        leave(experiment, &mut self, judgement);
+        self.answer.unexplained.description = experiment.remaining(&self.left).description;
+        self
+    }
+}
+
 /// Leaves what doubtful causes explained.
 fn leave(experiment: &dyn Experiment, found: &mut Found, judgement: &Judgement) {
     for doubtful in &found.doubted {
@@ -144,6 +158,10 @@ mod tests {
             assert_eq!(none.answer.verdict, Verdict::UnknownCause);
             let whole = none.left.iter().zip(&none.missed);
             assert!(whole.into_iter().all(|(l, m)| (l - m).abs() < 1e-9));
+            let taken = before.clone().without_names(&toy, &asked);
+            assert_eq!(taken.answer.verdict, Verdict::UnknownCause);
+            assert_eq!((taken.answer.named(), taken.blamed.len()), (0, 0));
+            assert_eq!((&taken.left, taken.doubted.len()), (&none.left, 1));
             let shares = [&before, &none].map(|f| f.answer.unexplained.share_of_variance);
             assert!(shares[0] < shares[1], "{shares:?}");
             kept += 1;

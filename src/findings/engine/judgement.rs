@@ -93,8 +93,8 @@ pub struct Judgement {
     /// one to this the one becomes the other. Seven clean joints by a stranger that were called unknown had such a story of 1.6 to 17; of eight
     /// structures from outside five had one of 0.3 to 0.9, three of 2.5 to 18. No other value was tried.
     pub taken_back: f64,
-    /// So many shapes that leave something together imitate one that nobody knows, where laws are only nearly right: none is named. Of some 740
-    /// load cycles by two strangers four had three names and a rest, and in each at least two were untrue.
+    /// So many shapes of a load cycle that leave something together imitate one that nobody knows: none is named. Of some 740 load cycles by two
+    /// strangers four had three names and a rest, and in each at least two were untrue. Other kinds do not ask it.
     pub several: usize,
     /// What is left scatters by so many times the noise that is stated: it is none.
     pub noise_beyond: f64,

@@ -71,7 +71,7 @@ pub(super) fn picked(
 /// all that is uncertain moves against them, and stand for what it cannot do. The last cause stands where unseen rows plainly tell that
 /// something is wrong: what is uncertain may hide it. Where structure is left that nobody makes, any cause may stand for it: one whose
 /// gain is not plain takes no name, nor any companion where a kind asks that (`Judgement::companion_is_plain`). Nor do several, none of
-/// which gains plainly or much (`Judgement::not_plain_gain`): together they fit what none of them makes.
+/// which plainly gains: together they fit what none of them makes.
 pub(super) fn carrying(
     weighing: &Weighing,
     posterior: &Posterior,
@@ -97,10 +97,7 @@ pub(super) fn carrying(
         let decided =
             |at: usize| unseen::gains(statement, bank, &set.fit, plainly)[at].reduction_percent;
         let stands = |at: &usize| is_last && decided(*at) >= judgement.companion_gain;
-        let hardly = |gain: &Gain| {
-            gain.ci95_percent[0] <= 0.0 && gain.reduction_percent < judgement.not_plain_gain
-        };
-        let none_gains = !is_last && named.clone().all(|at| hardly(&gains[at]));
+        let none_gains = !is_last && named.clone().all(|at| gains[at].ci95_percent[0] <= 0.0);
         let worse =
             named.filter(|at| none_gains || stands_in(at) || surely_worse(at) && !stands(at));
         let Some(at) = worse.min_by(|a, b| gained(a).total_cmp(&gained(b))) else {
@@ -158,7 +155,7 @@ fn beyond(weighing: &Weighing, kept: &Picked, at: usize) -> f64 {
 }
 
 /// The set as it was chosen, where nothing is left beside it, and all that was dropped is probable and does not raise the error
-/// of unseen rows. It may be plain beside all others alone; or lower the error by little, but by more than laws miss of the
+/// of unseen rows (where laws are only nearly right: halves it, or plainly lowers it). It may be plain beside all others alone; or lower the error by little, but by more than laws miss of the
 /// largest; or not at all, since all that is uncertain may stand in for it there, far from where it is known to be. Where that
 /// alone costs more than the price of a cause, unseen rows may show a little of it as well, and something may be left.
 /// Where laws are only nearly right, a probable cause may be what they miss, and something must be left without it. `least`: by how many

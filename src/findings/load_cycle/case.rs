@@ -2,7 +2,7 @@
 
 use super::diagnosis::Settings;
 use super::naming::site;
-use super::noise::{Coloured, rough};
+use super::noise::rough;
 use super::patterns::JUMPS;
 use super::present::Present;
 use super::refine::{Refined, refine_from};
@@ -12,6 +12,7 @@ use crate::findings::engine::{Found, Judgement, diagnose};
 use crate::findings::gain::Gain;
 use crate::fit::observation::Observation;
 use crate::fit::starts::starts;
+use crate::ground::stats::rms;
 use crate::measurement::load_cycle::LoadCycle;
 use crate::signal::colour::Colour;
 use crate::signal::lattice;
@@ -27,6 +28,8 @@ const SEEN: f64 = 8.7;
 const HALF_STEP: f64 = 0.5;
 /// Iterations of a law's fit, and points that it starts from.
 const FIT: (usize, usize) = (14, 3);
+/// Share of a step of a lattice below which what is left may be its rounding, rms.
+pub(super) const HIDES: f64 = 0.5;
 
 /// A record and what is known of it before causes are named.
 pub(super) struct Case<'a> {
@@ -51,15 +54,25 @@ impl<'a> Case<'a> {
     /// Judges a file.
     pub(super) fn of(file: &'a LoadCycle, settings: &Settings) -> Self {
         let data = Observation::of(file, settings.rows);
-        let (found, noise, restless) = judged(file, &data, settings);
-        let factor = found.answer.discrepancy.noise_rms / crate::ground::stats::rms(&noise.spread);
-        let colour = noise.colour(factor);
-        let start = [data.scene.load_scale / data.scene.deflection_scale];
-        let plain = refine_from(Composite::new(&[]), &start, &data, &colour, FIT.0);
+        let place = |cause: &'static str| site(file, cause);
+        let unit = file.port.deflection_unit();
+        let record = Record::new(&data, (unit, None), &settings.library, &place);
+        let (found, restless) = judged(file, &data, &record);
         let shown = found.answer.discrepancy.noise_rms;
+        let factor = shown / rms(&record.noise.spread);
+        let colour = record.noise.colour(factor);
         let step = lattice::step(&file.deflection)
             .filter(|s| *s > COARSE * colour.floor() && *s < SEEN * shown)
             .or_else(|| lattice::plain_step(&file.deflection));
+        let is_rounding = step.is_some_and(|step| rms(&found.left) < HIDES * step);
+        let is_left = (restless || found.answer.is_open()) && !is_rounding;
+        let found = match is_left && found.answer.named() >= Judgement::default().several {
+            true => found.without_names(&record, &Judgement::default()),
+            false => found,
+        };
+        drop(record);
+        let start = [data.scene.load_scale / data.scene.deflection_scale];
+        let plain = refine_from(Composite::new(&[]), &start, &data, &colour, FIT.0);
         Self {
             file,
             data,
@@ -144,18 +157,16 @@ impl<'a> Case<'a> {
     }
 }
 
-fn judged(file: &LoadCycle, data: &Observation, settings: &Settings) -> (Found, Coloured, bool) {
-    let unit = file.port.deflection_unit();
-    let place = |cause: &'static str| site(file, cause);
-    let record = Record::new(data, (unit, None), &settings.library, &place);
-    let mut found = diagnose(&record, &Judgement::default());
+/// What the engine finds, and whether it leaves what no noise makes.
+fn judged(file: &LoadCycle, data: &Observation, record: &Record) -> (Found, bool) {
+    let mut found = diagnose(record, &Judgement::default());
     let seen = &mut found.answer.unexplained.description;
     if seen == JUMPS {
         *seen = record.jumps();
     }
     let restless =
         record.is_restless(&found.left) || record.is_beyond(&found.left, stated(file, data));
-    (found, record.noise, restless)
+    (found, restless)
 }
 
 /// Deviation of a reading by the data sheet, with what the load's own scatter makes of it; none where no sheet is stated.

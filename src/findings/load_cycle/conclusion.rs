@@ -1,13 +1,12 @@
 //! From named causes to the verdict: what is left, and how far the present simulation is off.
 
-use super::case::Case;
+use super::case::{Case, HIDES};
 use super::diagnosis::Diagnosis;
 use super::naming::Named;
 use super::refine::Refined;
 use super::structure;
 use crate::effects::Composite;
 use crate::findings::answer::{Answer, Verdict};
-use crate::findings::engine::Judgement;
 use crate::ground::stats::{difference, rms};
 
 impl Case<'_> {
@@ -20,8 +19,7 @@ impl Case<'_> {
     ) -> Diagnosis {
         let judged = self.found.answer.verdict;
         let left = (self.found.answer.is_open() || self.restless) && !self.within_step();
-        let several = shapes.causes.len() + shapes.groups.len() >= Judgement::default().several;
-        let story = !(left && (several || judged == Verdict::UnknownCause));
+        let story = !(left && judged == Verdict::UnknownCause);
         let mut named = if story { shapes } else { Named::default() };
         named.extend(others);
         named.causes.sort_by(|a, b| {
@@ -59,7 +57,7 @@ impl Case<'_> {
     /// Whether all that is left is smaller than a coarse lattice makes it.
     fn within_step(&self) -> bool {
         self.step
-            .is_some_and(|step| rms(&self.found.left) < 0.5 * step)
+            .is_some_and(|step| rms(&self.found.left) < HIDES * step)
     }
 
     /// The chosen model, with what the present one has and these data do not deny.

@@ -249,7 +249,8 @@ impl Case {
             let step = steps.fold(f64::INFINITY, f64::min);
             cut.time.len() as f64 * step * cut.present.scene.cut.spindle_rad_s / TAU
         };
-        self.cuts().iter().map(of).sum()
+        let each = self.cuts().iter().map(of);
+        each.filter(|turns| turns.is_finite()).sum()
     }
 
     /// Time of every sample over the whole file, 0 to 1.

@@ -82,7 +82,7 @@ fn is_wrong_depth(shape: &[f64], amounts: &[f64]) -> bool {
     is_cut(amounts) && largest(shape, amounts) > BEYOND * DEPTH_SPREAD
 }
 
-/// Whether something is left of every cut: amounts count in what is stated of the least.
+/// Whether something is left of every cut: amounts count in what is stated of it, of the least where all are off by the same.
 fn is_cut(amounts: &[f64]) -> bool {
     amounts.iter().all(|amount| *amount > LEFT - 1.0)
 }
