@@ -60,7 +60,7 @@ pub struct Judgement {
     /// 98) with two gaps one was untrue in each, and gained surely 0 to 14 %; no other value was tried.
     pub companion_gain_beside_kin: f64,
     /// Where laws are only nearly right, a cause whose gain on unseen rows is not plain must lower their error by so much, percent, though it is
-    /// probable and nothing is left beside it. Of 680 load cycles by two strangers four true names of that kind lowered it by 74 to 91, nine
+    /// probable and nothing is left beside it. Of 780 load cycles by two strangers four true names of that kind lowered it by 74 to 91, nine
     /// untrue ones by 39 at most, one by 77; no other value was tried.
     pub not_plain_gain: f64,
     /// What a companion must explain of unseen readings, as a share of what the largest cause that adds no straight line explains (rms):
@@ -93,7 +93,7 @@ pub struct Judgement {
     /// one to this the one becomes the other. Seven clean joints by a stranger that were called unknown had such a story of 1.6 to 17; of eight
     /// structures from outside five had one of 0.3 to 0.9, three of 2.5 to 18. No other value was tried.
     pub taken_back: f64,
-    /// So many shapes of a load cycle that leave something together imitate one that nobody knows: none is named. Of some 740 load cycles by two
+    /// So many shapes of a load cycle that leave something together imitate one that nobody knows: none is named. Of 840 load cycles by two
     /// strangers four had three names and a rest, and in each at least two were untrue. Other kinds do not ask it.
     pub several: usize,
     /// What is left scatters by so many times the noise that is stated: it is none.
