@@ -13,8 +13,7 @@ use std::path::Path;
 /// Peak of a cause's own part below which it is too small to be named, in noise deviations over the root of the revolutions. An
 /// offset acts on all readings alike and has no more of a peak than of a mean: at 2 one of 1.2 deviations was put aside,
 /// and a drift named for it (seed 434 of `tests/judge`). On seeds 433 to 436 1 finds one single cause
-/// more than 1.5 and as many untrue ones; the more careful is kept. Those of all cuts count together: by their mean a zero off by 1.7 deviations in three
-/// slots, 404 nats, was put aside, and another of 24 single causes of a stranger.
+/// more than 1.5 and as many untrue ones; the more careful is kept.
 const PEAK: f64 = 1.5;
 
 /// Places of a revolution that are drawn.

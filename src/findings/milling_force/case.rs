@@ -242,15 +242,14 @@ impl Case {
         self.cuts().iter().any(|c| c.present.scene.jumps())
     }
 
-    /// Revolutions of the spindle in the samples of all cuts.
+    /// Revolutions of the spindle in the samples of a cut, on average.
     pub fn revolutions(&self) -> f64 {
         let of = |cut: &CutSamples| {
             let steps = cut.time.windows(2).map(|w| w[1] - w[0]);
             let step = steps.fold(f64::INFINITY, f64::min);
             cut.time.len() as f64 * step * cut.present.scene.cut.spindle_rad_s / TAU
         };
-        let each = self.cuts().iter().map(of);
-        each.filter(|turns| turns.is_finite()).sum()
+        self.cuts().iter().map(of).sum::<f64>() / self.cuts().len().max(1) as f64
     }
 
     /// Time of every sample over the whole file, 0 to 1.
