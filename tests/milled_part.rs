@@ -8,7 +8,7 @@
 use crate::common::{few_or_all, is_thorough};
 use crate::part_bench::{CORNER, OUTLINE, SLOT, job, ready};
 use ident::findings::kinds;
-use ident::findings::milled_part::Case;
+use ident::findings::milled_part::Begun;
 use ident::findings::{Answer, Verdict};
 use ident::ground::random::Random;
 use ident::ground::spatial::{V3, add, cross, norm, scale, sub};
@@ -356,7 +356,7 @@ fn arc_lengths_from_point_to_point_are_read_as_such() {
         std::fs::write(&path, text).unwrap();
         let test = PartTest::read(&path).unwrap();
         let planned = Planned::read(&folder.path().join("job.toml")).unwrap();
-        let case = Case::new(test, planned).unwrap();
+        let case = Begun::of(test, planned).unwrap().case().unwrap();
         (case.counts_by_points, 1e3 * case.stations[4].tip[1])
     };
     let (by_points, y) = told(101.9);

@@ -57,14 +57,10 @@ pub(super) fn picked(
         };
     }
     let kept = outweighed(weighing, posterior, kept);
-    needed(
-        weighing,
-        posterior,
-        &chosen,
-        &kept,
-        -judgement.companion_gain,
-    )
-    .unwrap_or(kept)
+    let least = judgement
+        .not_plain_gain_if_exact
+        .max(-judgement.companion_gain);
+    needed(weighing, posterior, &chosen, &kept, least).unwrap_or(kept)
 }
 
 /// With the gains as they are told, and without companions that surely make the simulation worse as it is used: they fit only where

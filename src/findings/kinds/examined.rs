@@ -49,8 +49,13 @@ struct Examined<M> {
 
 /// Diagnoses an experiment.
 pub fn examined<M: Measured + 'static>(measured: M) -> Box<dyn Diagnosed> {
+    let found = diagnose(&measured, &measured.judgement());
+    found_of(measured, found)
+}
+
+/// An experiment with what was found in it.
+pub fn found_of<M: Measured + 'static>(measured: M, mut found: Found) -> Box<dyn Diagnosed> {
     let judgement = measured.judgement();
-    let mut found = diagnose(&measured, &judgement);
     found.answer = found.answer.doubted(measured.doubts());
     Box::new(Examined {
         measured,

@@ -1,8 +1,8 @@
 //! A diagnosed part: its figures.
 
-use super::{Diagnosed, Measured, Source, examined};
-use crate::findings::engine::{Found, Judgement};
-use crate::findings::milled_part::{Case, Row, backlash};
+use super::{Diagnosed, Measured, Source, examined, found_of};
+use crate::findings::engine::{Found, Judgement, diagnose};
+use crate::findings::milled_part::{Begun, Case, Row, backlash};
 use crate::findings::physics;
 use crate::fit::suitability::{self, Doubt, Weight};
 use crate::ground::problem::Outcome;
@@ -20,7 +20,14 @@ use std::path::Path;
 pub fn diagnosed(path: &Path) -> Outcome<Box<dyn Diagnosed>> {
     let test = PartTest::read(path)?;
     let planned = Planned::read(&beside(path, &test.facts.job))?;
-    Ok(examined(Case::new(test, planned)?))
+    let begun = Begun::of(test, planned)?;
+    if let Some(case) = begun.at_rest()? {
+        let found = diagnose(&case, &case.judgement());
+        if case.rests(&found) {
+            return Ok(found_of(case, found));
+        }
+    }
+    Ok(examined(begun.case()?))
 }
 
 /// Times by which what is left may scatter beyond a stated noise of the probe: as for a stated noise of cutting forces.
@@ -58,6 +65,7 @@ impl Measured for Case {
             share: 0.03,
             temper: 0.8,
             companion_needed: 0.85,
+            not_plain_gain_if_exact: 25.0,
             group_carries: 0.9,
             companion_share: if self.swings() {
                 Judgement::default().formula_error

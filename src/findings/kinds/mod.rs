@@ -16,7 +16,7 @@ mod screw;
 mod workspace;
 mod workspace_figures;
 
-pub use examined::{Measured, examined};
+pub use examined::{Measured, examined, found_of};
 pub use known::{Known, Table, known};
 
 use crate::findings::belief::Belief;

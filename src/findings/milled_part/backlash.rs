@@ -34,8 +34,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     would_tell: "load the joint to and fro past zero (`ident stiffness`)",
 };
 
-/// Share of its greatest size below which a torque chooses no flank.
-const IDLE: f64 = 0.02;
+/// Shares of its greatest size below which a torque chooses no flank: hardly any, and what the friction of a drive holds.
+const IDLE: [f64; 3] = [0.02, 0.07, 0.2];
 /// Ways by which a joint turns back until its link follows, rad: at once, as a link that something presses, and the gaps of a
 /// good and of a worn drive.
 const GAPS: [f64; 3] = [1e-6, 2e-5, 2e-4];
@@ -119,8 +119,16 @@ fn sides(case: &Case, joint: usize, levers: &[Lever]) -> Vec<Option<Vec<f64>>> {
     let cut: Vec<f64> = levers.iter().map(|l| l.cut).collect();
     let loaded: Vec<f64> = levers.iter().map(|l| l.cut + l.weight).collect();
     let by_motion = GAPS.map(|gap| followed(case, joint, gap));
-    let by_load = [flanks(&cut), flanks(&loaded)];
-    by_motion.into_iter().chain(by_load).collect()
+    let by_load = IDLE
+        .iter()
+        .flat_map(|idle| [flanks(&cut, *idle), flanks(&loaded, *idle)]);
+    let mut all: Vec<Option<Vec<f64>>> = by_motion.into_iter().chain(by_load).collect();
+    for i in 1..all.len() {
+        if all[..i].contains(&all[i]) {
+            all[i] = None;
+        }
+    }
+    all
 }
 
 /// Where a gap of one lets the tool go, m/rad.
@@ -173,10 +181,10 @@ fn dragged(angles: &[f64], gap: f64) -> Vec<f64> {
     angles.iter().map(follow).collect()
 }
 
-/// +1 or −1, kept while what drives it is idle; none where it never changes.
-fn flanks(drive: &[f64]) -> Option<Vec<f64>> {
+/// +1 or −1, kept while what drives it is idle (below this share of its greatest size); none where it never changes.
+fn flanks(drive: &[f64], idle: f64) -> Option<Vec<f64>> {
     let most = largest(drive);
-    let clear = |d: &f64| d.abs() > IDLE * most;
+    let clear = |d: &f64| d.abs() > idle * most;
     let mut now = drive.iter().find(|d| clear(d))?.signum();
     let side: Vec<f64> = drive
         .iter()
@@ -214,9 +222,16 @@ mod tests {
 
     #[test]
     fn a_flank_is_kept_while_nothing_drives() {
-        let side = flanks(&[0.0, 1.0, 0.001, -2.0, 0.0]).unwrap();
+        let side = flanks(&[0.0, 1.0, 0.001, -2.0, 0.0], 0.02).unwrap();
         assert_eq!(side, [1.0, 1.0, 1.0, -1.0, -1.0]);
-        assert!(flanks(&[1.0, 2.0, 0.5]).is_none());
-        assert!(flanks(&[0.0, 0.0]).is_none());
+        assert!(flanks(&[1.0, 2.0, 0.5], 0.02).is_none());
+        assert!(flanks(&[0.0, 0.0], 0.02).is_none());
+    }
+
+    #[test]
+    fn friction_holds_a_flank_until_the_load_is_greater() {
+        let drive = [-1.0, -0.1, 0.1, 0.5, 0.1, -0.1, -0.5];
+        let side = flanks(&drive, 0.2).unwrap();
+        assert_eq!(side, [-1.0, -1.0, -1.0, 1.0, 1.0, 1.0, -1.0]);
     }
 }

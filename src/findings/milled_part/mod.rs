@@ -3,6 +3,7 @@
 mod again;
 mod anew;
 pub mod backlash;
+mod begun;
 mod corner_lag;
 mod counted;
 mod cutting_coefficients;
@@ -11,6 +12,7 @@ mod experiment;
 mod hold;
 mod noise;
 mod patterns;
+mod plane;
 mod robot;
 mod stations;
 mod still;
@@ -26,18 +28,18 @@ use super::engine::{Nuisance, Suspect};
 use super::table::Effect;
 use crate::ground::problem::Outcome;
 use crate::ground::spatial::{M3, V3, dot, rotate};
-use crate::ground::stats::{difference, quantile, rms};
+use crate::ground::stats::{quantile, rms};
 use crate::measurement::milled_part::PartTest;
 use crate::process::Planned;
 use crate::process::setup::{Setup, Support};
 use crate::robot::Robot;
-use counted::Counted;
+pub use begun::Begun;
+use begun::{Carried, Milled, Own};
 use hold::{Hold, holds};
-use stations::{LAW, placed, rows, spreads};
+use stations::{LAW, spreads};
 pub use stations::{Row, Station};
-use std::sync::{Mutex, OnceLock};
-use still::{Simulated, is_still};
-use tried::{left, tried};
+use std::sync::{Arc, Mutex, OnceLock};
+use tried::tried;
 use uncertain::Known;
 use wild::wild;
 
@@ -55,15 +57,17 @@ pub const EFFECTS: &[Effect<Case>] = &[
 /// A probed part beside the simulation of its job.
 pub struct Case {
     /// The file.
-    pub test: PartTest,
+    pub test: Arc<PartTest>,
     /// The job.
-    pub planned: Planned,
+    pub planned: Arc<Planned>,
     /// The job, ready to be milled.
     pub setup: Setup,
     /// The same, cut more coarsely, for runs of which only the change is asked.
     trial: Setup,
     /// How these runs carry the tool: by springs alone or, where the part shows that the robot swings, coupled in time.
     support: Support,
+    /// What the simulated swing adds to every row where springs alone carry the tool, m: the part may show it. Empty where there is none.
+    swing: Vec<f64>,
     /// Whether its job is so short that many trials can be coupled in time.
     is_short: bool,
     /// Whether the robot swings in a job that is too long for that.
@@ -113,15 +117,8 @@ struct Stated {
 /// How much more coarsely the cut is resolved where only a change is asked: at 1.5 the judge (`tests/judge_part.rs`, seeds 51 and
 /// 52) counts as at 1, in three fifths of the time; at 2 two more of 32 single causes are missed.
 const COARSER: f64 = 1.5;
-/// Deviations of the probe, rms, from which the swing of the robot shows on the part. A choice, no measurement.
-const SWINGS: f64 = 2.0;
-/// The same from which it is asked whether the part shows that swing. A choice, no measurement.
-const SWAYS: f64 = 0.2;
 /// Swing of which no trial is told, m: the cut is not resolved so finely.
 const LEAST: f64 = 1e-6;
-/// Steps of the simulated job beyond which trials are not coupled in time: some two hundred of them take minutes then. A choice for
-/// time, no measurement.
-const LONGEST: usize = 1_500_000;
 /// Steps per tooth of a trial coupled in time: the fewest that a job may have ([`Setup::coarser`]). A choice for time.
 const PER_TOOTH: usize = 12;
 /// Where the swing is simulated in every trial, a place is off by this share of what is steep. A choice, looking at what the simulated truth
@@ -131,42 +128,28 @@ const AHEAD: f64 = 0.3;
 const PROBE: f64 = 5e-6;
 
 impl Case {
-    /// Of a file and the job that it names.
-    ///
-    /// # Errors
-    /// The job cannot be milled, or the file has a place that is not on its path.
-    pub fn new(test: PartTest, planned: Planned) -> Outcome<Self> {
-        let setup = planned.setup(None)?;
-        let counted = Counted::of(&test, &planned.toolpath, &setup.way);
-        let probe = probe(&test);
-        let mut milled = Milled::of((&test, &counted), &setup, Support::Coupled)?;
-        let alone = seen(
-            &milled.rows,
-            &left(&setup, &milled.stations, Support::Static)?,
-        );
-        let swing = difference(&milled.simulated, &alone);
-        let shows_no_swing =
-            rms(&swing) > SWAYS * probe.max(LEAST) && milled.is_still(&alone, probe);
-        if shows_no_swing {
-            milled = Milled::of((&test, &counted), &setup, Support::Static)?;
-        }
-        let shows = !shows_no_swing && rms(&swing) > SWINGS * probe.max(LEAST);
+    /// Of a part as it is simulated.
+    fn of(begun: &Begun, own: Own) -> Outcome<Self> {
+        let Own {
+            milled,
+            carried,
+            swing,
+        } = own;
         let Milled {
             stations,
             rows,
             simulated,
-            steps,
+            ..
         } = milled;
-        let own = rows.iter().zip(&simulated);
-        let missed: Vec<f64> = own.map(|(row, s)| row.measured - s).collect();
+        let setup = begun.setup.clone();
+        let each = rows.iter().zip(&simulated);
+        let missed: Vec<f64> = each.map(|(row, s)| row.measured - s).collect();
         let trial = setup.coarser(COARSER);
-        let is_short = steps <= LONGEST;
-        let swings = shows && is_short;
-        let (support, trial, ahead) = match swings {
-            true => (Support::Coupled, trial.with_steps(PER_TOOTH), AHEAD),
-            false => (Support::Static, trial, 1.0),
+        let (support, trial, ahead) = match carried {
+            Carried::InTime => (Support::Coupled, trial.with_steps(PER_TOOTH), AHEAD),
+            _ => (Support::Static, trial, 1.0),
         };
-        let mut spread = spreads(&stations, &rows, probe, ahead);
+        let mut spread = spreads(&stations, &rows, probe(&begun.test), ahead);
         let stands_out = wild(&stations, &rows, &missed);
         for (row, off) in &stands_out {
             spread[*row] = spread[*row].hypot(*off);
@@ -192,12 +175,13 @@ impl Case {
             setup,
             trial,
             support,
-            is_short,
-            counts_by_points: counted.is_by_points(),
-            swings_unheard: shows && !is_short,
-            shows_no_swing,
-            planned,
-            test,
+            swing,
+            is_short: begun.is_short(),
+            counts_by_points: begun.counted.is_by_points(),
+            swings_unheard: carried == Carried::Unheard,
+            shows_no_swing: carried == Carried::AtRest,
+            planned: begun.planned.clone(),
+            test: begun.test.clone(),
         })
     }
 
@@ -237,46 +221,6 @@ impl Case {
         let each = moved.iter().zip(&self.answer);
         let answered: Vec<V3> = each.map(|(m, answer)| rotate(answer, *m)).collect();
         self.seen(&answered)
-    }
-}
-
-/// The job as it is simulated, where it was probed.
-struct Milled {
-    stations: Vec<Station>,
-    rows: Vec<Row>,
-    /// What is left, row by row, m.
-    simulated: Vec<f64>,
-    /// Steps of the run.
-    steps: usize,
-}
-
-impl Milled {
-    fn of(
-        (test, counted): (&PartTest, &Counted),
-        setup: &Setup,
-        support: Support,
-    ) -> Outcome<Self> {
-        let (milled, _) = setup.run(support, |_| {})?;
-        let stations =
-            placed((test, counted), setup, &milled).map_err(|p| p.in_text(&test.path))?;
-        let rows = rows(&stations);
-        let left = rows
-            .iter()
-            .map(|row| dot(row.across, stations[row.station].deviation));
-        Ok(Self {
-            simulated: left.collect(),
-            steps: milled.steps,
-            rows,
-            stations,
-        })
-    }
-
-    fn is_still(&self, alone: &[f64], probe: f64) -> bool {
-        let simulated = Simulated {
-            coupled: &self.simulated,
-            alone,
-        };
-        is_still((&self.stations, &self.rows), &simulated, probe)
     }
 }
 

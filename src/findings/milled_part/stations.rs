@@ -2,11 +2,13 @@
 //! surface shows, and how well a simulation knows them.
 
 use super::counted::Counted;
+use super::plane::Plane;
 use crate::ground::problem::{Outcome, Problem};
-use crate::ground::spatial::{V3, add, cross, dot, norm, sub, unit};
+use crate::ground::spatial::{V3, add, cross, dot, norm, scale, sub, unit};
 use crate::measurement::milled_part::{At, PartTest, Reading};
 use crate::process::run::Outcome as Milled;
 use crate::process::setup::Setup;
+use crate::process::way;
 
 /// A probed place.
 #[derive(Debug, Clone, PartialEq)]
@@ -149,11 +151,9 @@ fn when(reading: &Reading, counted: &Counted, setup: &Setup) -> Outcome<f64> {
             Ok(a.time_s + share * (b.time_s - a.time_s))
         }
         At::Place(place) => {
-            let far = |i: &usize| norm(sub(rows[*i].tip, place));
-            let nearest = (0..rows.len()).min_by(|a, b| far(a).total_cmp(&far(b)));
             let reach = 2.0 * setup.tool.radius_m + NEAR;
-            match nearest.filter(|i| far(i) <= reach) {
-                Some(i) => Ok(rows[i].time_s),
+            match passes(rows, place).filter(|(far, _)| *far <= reach) {
+                Some((_, time_s)) => Ok(time_s),
                 None => Err(Problem::new(
                     format!("the place is more than {:.1} mm from the path", 1e3 * reach),
                     "give nominal coordinates in the frame of the workpiece",
@@ -164,50 +164,21 @@ fn when(reading: &Reading, counted: &Counted, setup: &Setup) -> Outcome<f64> {
     }
 }
 
-/// Speed below which a tool stands, m/s: the places that it passes later are not told from its deviation.
-const STANDS: f64 = 1e-3;
-/// Steps to the time at which the tool passes a place, and how near to the place it is passed, m.
-const STEPS: usize = 4;
-const PASSED: f64 = 1e-6;
-/// Way within which that time is sought, m, and parts of it that are looked at on either side: a tool that passes the place from
-/// farther off has been there before or comes again.
-const NEAREST: f64 = 2e-3;
-const PARTS: i32 = 40;
-
-/// The plane across the feed at a place.
-pub(super) struct Plane {
-    place: V3,
-    /// How fast the tool goes through it, m/s.
-    speed: f64,
-    feed: V3,
-}
-
-impl Plane {
-    /// From its place to where a tool passes it, m: ahead or behind of about that time as it gives way along the feed. `tool`: where
-    /// that is at any time.
-    pub fn passed_by(&self, tool: impl Fn(f64) -> V3, about_s: f64) -> V3 {
-        let off = |time: f64| sub(tool(time), self.place);
-        if self.speed <= STANDS {
-            return off(about_s);
-        }
-        let behind = |time: f64| -dot(off(time), self.feed);
-        let passes = (0..STEPS).fold(about_s, |time, _| time + behind(time) / self.speed);
-        let far_s = NEAREST / self.speed;
-        if behind(passes).abs() < PASSED && (passes - about_s).abs() < far_s {
-            return off(passes);
-        }
-        off(passed(behind, about_s, far_s / f64::from(PARTS)).unwrap_or(about_s))
-    }
-}
-
-/// When what is behind of a place no longer is: the nearest such time about one, looked for in steps.
-fn passed(behind: impl Fn(f64) -> f64, about_s: f64, step_s: f64) -> Option<f64> {
-    let time = |k: i32| about_s + step_s * f64::from(k);
-    let far: Vec<f64> = (-PARTS..=PARTS).map(|k| behind(time(k))).collect();
-    let turns = far.windows(2).zip(-PARTS..);
-    let turns = turns.filter(|(w, _)| w[0] >= 0.0 && w[1] < 0.0);
-    let crossed = turns.map(|(w, k)| time(k) + step_s * w[0] / (w[0] - w[1]));
-    crossed.min_by(|a, b| (a - about_s).abs().total_cmp(&(b - about_s).abs()))
+/// How far a way stays from a place (m), and when it is there (s): between its rows it is straight.
+fn passes(rows: &[way::Row], place: V3) -> Option<(f64, f64)> {
+    let nearest = |pair: &[way::Row]| {
+        let [a, b] = [&pair[0], &pair[1]];
+        let along = sub(b.tip, a.tip);
+        let off = sub(place, a.tip);
+        let share = match dot(along, along) {
+            0.0 => 0.0,
+            square => (dot(off, along) / square).clamp(0.0, 1.0),
+        };
+        let far = norm(sub(off, scale(share, along)));
+        (far, a.time_s + share * (b.time_s - a.time_s))
+    };
+    let all = rows.windows(2).map(nearest);
+    all.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
 fn station(reading: &Reading, time_s: f64, setup: &Setup, milled: &Milled) -> Option<Station> {
@@ -274,30 +245,4 @@ pub(super) fn spreads(stations: &[Station], rows: &[Row], probe: f64, ahead: f64
         (probe * probe + law * law + (ahead * s.steep).powi(2)).sqrt()
     };
     rows.iter().map(of).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Plane;
-    use crate::ground::spatial::V3;
-
-    /// A tool that swings along its feed by 0.8 mm at 10 Hz passes a place when it is there, not when it is told to be there.
-    #[test]
-    fn a_place_is_passed_when_the_tool_is_there() {
-        let tool = |time: f64| -> V3 {
-            let swing = 0.8e-3 * (62.8 * time).sin();
-            [0.03 * time + swing, 1e-4 * time, 0.0]
-        };
-        for k in 0..20 {
-            let time = 0.01 * f64::from(k) + 0.1;
-            let plane = Plane {
-                place: [0.03 * time, 0.0, 0.0],
-                speed: 0.03,
-                feed: [1.0, 0.0, 0.0],
-            };
-            let left = plane.passed_by(tool, time);
-            assert!(left[0].abs() < 3e-6, "{left:?}");
-            assert!((left[1] / 1e-4 - time).abs() < 0.03, "{left:?}");
-        }
-    }
 }

@@ -28,6 +28,8 @@ pub enum Known {
     Calibration,
     /// Whether a place was measured where the tool passes it, or what the tool did when it was told to be there: none or one.
     Instant,
+    /// Whether the part shows the simulated swing where springs alone carry the tool: none or all of it.
+    Swing,
     /// What the laws of the cut do not know, as a share of the simulated deviation times one of some waves along the path.
     Law(usize),
     /// What surface and probe are off alike at neighbouring places, in deviations of the probe.
@@ -65,6 +67,7 @@ pub(super) fn uncertain(case: &Case) -> Vec<(Known, Nuisance)> {
     let all = all
         .chain(calibration(case))
         .chain(instant(case))
+        .chain(swing(case))
         .chain(laws(case))
         .chain(forms(case));
     all.filter(|(_, n)| n.column.iter().any(|x| x.abs() > 1e-12))
@@ -89,6 +92,15 @@ fn instant(case: &Case) -> Option<(Known, Nuisance)> {
         spread: 1.0,
     };
     case.swings().then_some((Known::Instant, nuisance))
+}
+
+/// Dampings decide how much of the swing is there: hammer tests tell, and not every robot had one.
+fn swing(case: &Case) -> Option<(Known, Nuisance)> {
+    let nuisance = Nuisance {
+        column: case.swing.clone(),
+        spread: 1.0,
+    };
+    (!case.swing.is_empty()).then_some((Known::Swing, nuisance))
 }
 
 /// Relative standard deviation of a damping that states none: what hammer tests in other poses leave open. A choice, no measurement.
@@ -197,7 +209,12 @@ pub(super) fn put(known: &Known, amount: f64, setup: &mut Setup) -> bool {
         Known::Spring(site) => soften(&mut setup.robot, site, amount),
         Known::Dampers | Known::Damper(_) => damp(&mut setup.robot, known, amount),
         Known::Coefficient(k) => setup.material.coefficients[*k] *= (1.0 + amount).max(0.05),
-        Known::Datum | Known::Calibration | Known::Instant | Known::Law(_) | Known::Form => {
+        Known::Datum
+        | Known::Calibration
+        | Known::Instant
+        | Known::Swing
+        | Known::Law(_)
+        | Known::Form => {
             return false;
         }
     }

@@ -5,6 +5,7 @@ use super::workpiece_offset::CUT;
 use crate::findings::engine::{Blamed, Member};
 use crate::findings::table::{Effect, Place, together};
 use crate::ground::spatial::{IDENTITY, V3, add, cross, scale, sub};
+use crate::inference::gaussian::Size;
 use crate::measurement::job::Stock;
 
 pub(super) const EFFECT: Effect<Case> = Effect {
@@ -27,6 +28,10 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     would_tell: "probe the datum faces of the workpiece at both ends",
 };
 
+/// How far a clamped workpiece may be turned, rad: a face of 100 mm is off by half a millimetre at its end. A turn of a part that is nearly
+/// round is a shift of its middle, and nothing else would keep it small. A choice, no measurement.
+const USUAL: f64 = 5e-3;
+
 /// About z alone, and about all axes. Nobody states what stayed where it was: what was probed (its middle: an alignment to
 /// it), the block (clamped by its middle), or the frame of the job (its orientation is wrong); nor whether the block is
 /// turned, too, and cut elsewhere.
@@ -39,7 +44,10 @@ fn members(case: &Case) -> Vec<Member> {
                 false => case.seen(&turned),
             }
         };
-        together(axes.iter().map(about).collect(), &[-1.0, pivot as f64, cut])
+        Member {
+            size: Size::Given(USUAL),
+            ..together(axes.iter().map(about).collect(), &[-1.0, pivot as f64, cut])
+        }
     };
     let member = &member;
     let forms: [&[usize]; 2] = [&[2], &[0, 1, 2]];
