@@ -48,13 +48,6 @@ pub struct Found {
     pub(super) nothing: f64,
 }
 
-impl Found {
-    /// Most probable amounts of what is uncertain, in the order of the statement.
-    pub fn uncertain(&self) -> &[f64] {
-        &self.uncertain
-    }
-}
-
 /// Effects with their sites.
 pub(super) type Names = Vec<(&'static str, String)>;
 

@@ -60,6 +60,7 @@ const MILLED: [f64; 7] = [0.6e-4, 0.9e-4, 1.3e-4, 1.9e-4, 2.7e-4, 3.8e-4, 5.4e-4
 const ORDINARY: f64 = 3e-4;
 /// The form of a gap with which the part is milled.
 const BY_CUT: f64 = 9.0;
+const _: () = assert!(GAPS.len() + 2 * IDLE.len() <= BY_CUT as usize);
 
 /// What gaps do to the part where robot and cut are coupled in time: the link goes from flank to flank as its load changes sign,
 /// whatever loads it.
@@ -114,14 +115,28 @@ pub fn alter(blamed: &Blamed, robot: &mut Robot) -> bool {
     own
 }
 
-/// Flanks at every station, form by form: by the motion, by the cut, by cut and weight.
+/// Flanks at every station, form by form: by the motion; by the cut, and by cut and weight, for every friction. None where one is as another or
+/// never changes.
 fn sides(case: &Case, joint: usize, levers: &[Lever]) -> Vec<Option<Vec<f64>>> {
     let cut: Vec<f64> = levers.iter().map(|l| l.cut).collect();
     let loaded: Vec<f64> = levers.iter().map(|l| l.cut + l.weight).collect();
     let by_motion = GAPS.map(|gap| followed(case, joint, gap));
+    let mut order: Vec<usize> = (0..levers.len()).collect();
+    order.sort_by(|a, b| {
+        case.stations[*a]
+            .time_s
+            .total_cmp(&case.stations[*b].time_s)
+    });
+    let in_time = |drive: &[f64], idle: f64| {
+        let sorted: Vec<f64> = order.iter().map(|i| drive[*i]).collect();
+        let told = flanks(&sorted, idle)?;
+        let mut side = vec![0.0; told.len()];
+        order.iter().zip(told).for_each(|(i, s)| side[*i] = s);
+        Some(side)
+    };
     let by_load = IDLE
         .iter()
-        .flat_map(|idle| [flanks(&cut, *idle), flanks(&loaded, *idle)]);
+        .flat_map(|idle| [in_time(&cut, *idle), in_time(&loaded, *idle)]);
     let mut all: Vec<Option<Vec<f64>>> = by_motion.into_iter().chain(by_load).collect();
     for i in 1..all.len() {
         if all[..i].contains(&all[i]) {

@@ -2,7 +2,7 @@
 
 use super::counted::Counted;
 use super::stations::{Row, Station, placed, rows};
-use super::still::{Probe, Simulated, is_still, lacks_swing};
+use super::still::{Column, Probe, Simulated, is_still, lacks_first};
 use super::tried::left;
 use super::uncertain::Known;
 use super::{Case, LEAST, probe, seen};
@@ -25,10 +25,15 @@ const LONGEST: usize = 1_500_000;
 
 /// A part that was milled as the job says.
 pub struct Begun {
+    /// The file.
     pub(super) test: Arc<PartTest>,
+    /// The job.
     pub(super) planned: Arc<Planned>,
+    /// The same, ready to be milled.
     pub(super) setup: Setup,
+    /// How the file counts its arc length.
     pub(super) counted: Counted,
+    /// Milled as the job says.
     coupled: Milled,
     /// What the swing adds to every row of it, m.
     swing: Vec<f64>,
@@ -62,8 +67,11 @@ pub(super) enum Carried {
 
 /// What a case is made of.
 pub(super) struct Own {
+    /// The job as it is simulated with what carries the tool.
     pub milled: Milled,
+    /// That.
     pub carried: Carried,
+    /// What the swing would add to a part at rest, row by row, m; empty otherwise.
     pub swing: Vec<f64>,
 }
 
@@ -114,10 +122,17 @@ impl Begun {
 
     fn resting(&self) -> Outcome<Case> {
         let milled = Milled::of((&self.test, &self.counted), &self.setup, Support::Static)?;
-        let coupled = left(&self.setup, &milled.stations, Support::Coupled)?;
-        let coupled = seen(&milled.rows, &coupled);
+        let times = |m: &Milled| m.stations.iter().map(|s| s.time_s).collect::<Vec<_>>();
+        let swinging = match times(&milled) == times(&self.coupled) {
+            true => self.coupled.simulated.clone(),
+            // other places are cut: the same run, told at these
+            false => {
+                let coupled = left(&self.setup, &milled.stations, Support::Coupled)?;
+                seen(&milled.rows, &coupled)
+            }
+        };
         let own = Own {
-            swing: difference(&coupled, &milled.simulated),
+            swing: difference(&swinging, &milled.simulated),
             carried: Carried::AtRest,
             milled,
         };
@@ -137,13 +152,8 @@ impl Begun {
             (true, false) => Carried::Unheard,
             (false, _) => Carried::BySprings,
         };
-        let by_springs = carried != Carried::InTime;
         let own = Own {
-            swing: if by_springs {
-                self.swing.clone()
-            } else {
-                Vec::new()
-            },
+            swing: Vec::new(),
             carried,
             milled: self.coupled.clone(),
         };
@@ -152,14 +162,26 @@ impl Begun {
 }
 
 impl Case {
-    /// Whether a part that springs alone were taken to carry shows none of the swing beside what was found, and little besides.
+    /// Whether a part that springs alone were taken to carry shows none of the swing beside what was found and all that is uncertain, and
+    /// little besides.
     pub fn rests(&self, found: &Found) -> bool {
-        let known = self.stated().uncertain.iter().zip(found.uncertain());
-        let mut own = known.filter(|((known, _), _)| *known == Known::Swing);
-        let shown = own.next().map_or(0.0, |(_, amount)| *amount);
-        let noise = (&self.spread[..], Probe::of(&self.test));
-        lacks_swing(shown, [&self.swing, &found.left], noise)
+        if !self.shows_no_swing {
+            return false;
+        }
+        let less = self.swing.iter().map(|x| -x).collect();
+        let known = self.stated().uncertain.iter();
+        let known = known.filter(|(known, _)| *known != Known::Swing);
+        let known = known.map(|(_, n)| (n.column.clone(), n.spread));
+        let blamed = found.blamed.iter().map(|b| (b.part.clone(), f64::INFINITY));
+        let columns = std::iter::once((less, f64::INFINITY)).chain(known);
+        let columns: Vec<Column> = columns.chain(blamed).filter(is_there).collect();
+        let missed = difference(&self.missed, &self.swing);
+        lacks_first(&missed, &columns, &self.spread, Probe::of(&self.test))
     }
+}
+
+fn is_there(column: &Column) -> bool {
+    column.0.iter().any(|x| *x != 0.0)
 }
 
 impl Milled {

@@ -66,7 +66,7 @@ pub struct Case {
     trial: Setup,
     /// How these runs carry the tool: by springs alone or, where the part shows that the robot swings, coupled in time.
     support: Support,
-    /// What the simulated swing adds to every row where springs alone carry the tool, m: the part may show it. Empty where there is none.
+    /// What the simulated swing would add to every row of a part at rest, m; empty otherwise.
     swing: Vec<f64>,
     /// Whether its job is so short that many trials can be coupled in time.
     is_short: bool,

@@ -48,7 +48,7 @@ pub struct Station {
 impl Station {
     /// A place on a straight way along x where nothing is simulated to be left.
     #[cfg(test)]
-    pub(super) fn at_rest(s_m: f64) -> Self {
+    pub(super) fn plain(s_m: f64) -> Self {
         Self {
             time_s: s_m,
             progress: s_m,
@@ -111,7 +111,8 @@ pub(super) fn placed(
 ) -> Outcome<Vec<Station>> {
     let mut stations = Vec::new();
     for reading in &test.readings {
-        let time_s = when(reading, counted, setup).map_err(|p| p.at_line(reading.line))?;
+        let time_s =
+            when(reading, counted, (setup, milled)).map_err(|p| p.at_line(reading.line))?;
         stations.extend(station(reading, time_s, setup, milled));
     }
     match stations.is_empty() {
@@ -124,7 +125,7 @@ pub(super) fn placed(
     }
 }
 
-fn when(reading: &Reading, counted: &Counted, setup: &Setup) -> Outcome<f64> {
+fn when(reading: &Reading, counted: &Counted, (setup, milled): (&Setup, &Milled)) -> Outcome<f64> {
     let rows = setup.way.rows();
     match reading.at {
         At::Along(told) => {
@@ -152,7 +153,8 @@ fn when(reading: &Reading, counted: &Counted, setup: &Setup) -> Outcome<f64> {
         }
         At::Place(place) => {
             let reach = 2.0 * setup.tool.radius_m + NEAR;
-            match passes(rows, place).filter(|(far, _)| *far <= reach) {
+            let cuts = |time_s: f64| norm(milled.force_at(time_s)) > 0.0;
+            match passes(rows, place, cuts).filter(|(far, _)| *far <= reach) {
                 Some((_, time_s)) => Ok(time_s),
                 None => Err(Problem::new(
                     format!("the place is more than {:.1} mm from the path", 1e3 * reach),
@@ -164,8 +166,11 @@ fn when(reading: &Reading, counted: &Counted, setup: &Setup) -> Outcome<f64> {
     }
 }
 
+/// Passes that are as near to a place as this leave it together, m: the last of them that cuts made the surface.
+const TWICE: f64 = 1e-6;
+
 /// How far a way stays from a place (m), and when it is there (s): between its rows it is straight.
-fn passes(rows: &[way::Row], place: V3) -> Option<(f64, f64)> {
+fn passes(rows: &[way::Row], place: V3, cuts: impl Fn(f64) -> bool) -> Option<(f64, f64)> {
     let nearest = |pair: &[way::Row]| {
         let [a, b] = [&pair[0], &pair[1]];
         let along = sub(b.tip, a.tip);
@@ -177,8 +182,11 @@ fn passes(rows: &[way::Row], place: V3) -> Option<(f64, f64)> {
         let far = norm(sub(off, scale(share, along)));
         (far, a.time_s + share * (b.time_s - a.time_s))
     };
-    let all = rows.windows(2).map(nearest);
-    all.min_by(|a, b| a.0.total_cmp(&b.0))
+    let all: Vec<(f64, f64)> = rows.windows(2).map(nearest).collect();
+    let least = all.iter().map(|a| a.0).fold(f64::INFINITY, f64::min);
+    let mut near = all.iter().filter(|a| a.0 <= least + TWICE);
+    let last = near.clone().rev().find(|a| cuts(a.1));
+    last.or_else(|| near.next_back()).copied()
 }
 
 fn station(reading: &Reading, time_s: f64, setup: &Setup, milled: &Milled) -> Option<Station> {
@@ -245,4 +253,45 @@ pub(super) fn spreads(stations: &[Station], rows: &[Row], probe: f64, ahead: f64
         (probe * probe + law * law + (ahead * s.steep).powi(2)).sqrt()
     };
     rows.iter().map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::passes;
+    use crate::process::way::Row;
+
+    fn way(places: &[[f64; 2]]) -> Vec<Row> {
+        let row = |(i, [x, y]): (usize, &[f64; 2])| Row {
+            time_s: i as f64,
+            s_m: 0.0,
+            tip: [*x, *y, 0.0],
+            axis: [0.0, 0.0, 1.0],
+            joints: Vec::new(),
+        };
+        places.iter().enumerate().map(row).collect()
+    }
+
+    /// A place between two rows belongs to the way that leads through it, though a row of another is nearer.
+    #[test]
+    fn a_place_is_looked_for_between_rows() {
+        let rows = way(&[[0.0, 0.0], [1e-3, 0.0], [1e-3, 1e-4], [0.5e-3, 1e-4]]);
+        let (far, time) = passes(&rows, [0.5e-3, 1e-5, 0.0], |_| true).unwrap();
+        assert!((far - 1e-5).abs() < 1e-12 && (time - 0.5).abs() < 1e-9);
+    }
+
+    /// Of two passes over a place the last that cuts made the surface.
+    #[test]
+    fn of_two_passes_the_last_that_cuts_counts() {
+        let rows = way(&[
+            [0.0, 0.0],
+            [1e-3, 0.0],
+            [1e-3, 1e-3],
+            [1e-3, 0.0],
+            [0.0, 0.0],
+        ]);
+        let when = |cuts: fn(f64) -> bool| passes(&rows, [0.4e-3, 0.0, 0.0], cuts).unwrap().1;
+        assert!((when(|_| true) - 3.6).abs() < 1e-9);
+        assert!((when(|time| time < 2.0) - 0.4).abs() < 1e-9);
+        assert!((when(|_| false) - 3.6).abs() < 1e-9);
+    }
 }

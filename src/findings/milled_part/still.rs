@@ -13,10 +13,12 @@ const SMOOTH: [usize; 2] = [10, 6];
 /// Shares of the swing between which a part is taken to show none, and standard errors by which it must be beyond half of it: such a part
 /// is nearer to one without. Choices, no measurement.
 const MISSING: [f64; 3] = [0.6, 1.5, 3.0];
-/// What is left may be so much of a noise that is stated, and of one that is not (squares) ...
-const CALM: [f64; 2] = [2.0, 8.0];
-/// ... or of the swing, where none is left: a part that swings at another frequency or phase lacks the simulated swing as well, and keeps its own.
-const OF_SWING: f64 = 0.1;
+/// What is left may be so much of the noise (squares), and of the swing beside the probe's own noise: a part that swings at another frequency or
+/// phase lacks the simulated swing as well, and keeps its own. Choices, no measurement.
+const CALM: f64 = 2.0;
+const BESIDE_PROBE: f64 = 0.5;
+/// ... or of the swing alone, where a noise is stated and where none is. Choices, no measurement.
+const OF_SWING: [f64; 2] = [0.1, 0.25];
 
 /// What is simulated, row by row, m.
 pub(super) struct Simulated<'a> {
@@ -44,9 +46,12 @@ impl Probe {
         }
     }
 
-    /// How much of this noise may be left, squares.
-    fn calm(self) -> f64 {
-        CALM[usize::from(!self.is_stated)]
+    /// How much may be left beside so large a swing: mean squares, in deviations of the rows.
+    fn calm(self, swing: f64, spread: &[f64]) -> f64 {
+        let own = spread.iter().map(|s| (self.spread / s).powi(2));
+        let own = own.sum::<f64>() / spread.len() as f64;
+        let of_swing = OF_SWING[usize::from(!self.is_stated)] * swing;
+        of_swing.max(CALM.min(own + BESIDE_PROBE * swing))
     }
 }
 
@@ -63,55 +68,51 @@ pub(super) fn is_still(
     let few = |columns: &Vec<Vec<f64>>| 2 * columns.len() <= rows.len();
     let misses = rows.iter().zip(simulated.coupled);
     let misses: Vec<f64> = misses.map(|(row, s)| row.measured - s).collect();
-    let calm = probe.calm();
+    let free = |columns: Vec<Vec<f64>>| -> Vec<Column> {
+        let each = columns.into_iter();
+        each.map(|column| (column, f64::INFINITY)).collect()
+    };
     sets.filter(few)
-        .any(|columns| lacks_first(&misses, &columns, &spread, calm))
+        .any(|columns| lacks_first(&misses, &free(columns), &spread, probe))
 }
 
+/// What one of something adds, and how much of it there is before the data (standard deviation).
+pub(super) type Column = (Vec<f64>, f64);
+
 /// Whether what is missed is the first of these columns, and nothing much besides all of them.
-fn lacks_first(missed: &[f64], columns: &[Vec<f64>], spread: &[f64], calm: f64) -> bool {
+pub(super) fn lacks_first(
+    missed: &[f64],
+    columns: &[Column],
+    spread: &[f64],
+    probe: Probe,
+) -> bool {
     let white = |c: &[f64]| {
         let each = c.iter().zip(spread);
         DVector::from_iterator(c.len(), each.map(|(v, s)| v / s))
     };
     let reading = white(missed);
-    let white: Vec<DVector<f64>> = columns.iter().map(|c| white(c).normalize()).collect();
-    let matrix = DMatrix::from_columns(&white);
-    let free = reading.len() - columns.len();
-    let mut inner = matrix.tr_mul(&matrix);
-    (0..columns.len()).for_each(|i| inner[(i, i)] += 1e-9);
+    let lengths: Vec<f64> = columns.iter().map(|c| length(&c.0, spread)).collect();
+    let each = columns.iter().zip(&lengths);
+    let units: Vec<DVector<f64>> = each.map(|(c, length)| white(&c.0) / *length).collect();
+    let matrix = DMatrix::from_columns(&units);
+    let gram = matrix.tr_mul(&matrix);
+    let mut inner = gram.clone();
+    for (i, (column, length)) in columns.iter().zip(&lengths).enumerate() {
+        inner[(i, i)] += 1e-9 + (column.1 * length).powi(-2);
+    }
     let Some(root) = inner.cholesky() else {
         return false;
     };
-    let amounts = root.solve(&matrix.tr_mul(&reading));
-    let left = (&reading - &matrix * &amounts).norm_squared() / free as f64;
-    let unit = length(&columns[0], spread);
+    let inverse = root.inverse();
+    let amounts = &inverse * matrix.tr_mul(&reading);
+    let free = reading.len() as f64 - (&inverse * gram).trace();
+    let left = (&reading - &matrix * &amounts).norm_squared() / free.max(1.0);
+    let unit = lengths[0];
     let missing = amounts[0] / unit;
-    let error = (left * root.inverse()[(0, 0)]).sqrt() / unit;
-    is_none([missing, error]) && is_calm(left, unit * unit / missed.len() as f64, calm)
-}
-
-/// Whether all of the swing is missing; `missing`: a share and its standard error.
-fn is_none([missing, error]: [f64; 2]) -> bool {
+    let error = (left.max(1.0) * inverse[(0, 0)]).sqrt() / unit;
     let [least, most, sure] = MISSING;
-    missing > least && missing < most && missing - 0.5 > sure * error
-}
-
-/// Whether what is left is little; all of it mean squares in noise deviations.
-fn is_calm(left: f64, swing: f64, calm: f64) -> bool {
-    left < calm.max(OF_SWING * swing)
-}
-
-/// Whether a part that springs alone were taken to carry lacks the swing, so much of it being found beside causes, and so much left.
-pub(super) fn lacks_swing(
-    shown: f64,
-    [swing, left]: [&[f64]; 2],
-    (spread, probe): (&[f64], Probe),
-) -> bool {
-    let mean = |column: &[f64]| length(column, spread).powi(2) / column.len() as f64;
-    let [swing, left] = [mean(swing), mean(left)];
-    let error = (left / (swing * spread.len() as f64)).sqrt();
-    is_none([1.0 - shown, error]) && is_calm(left, swing, probe.calm())
+    let is_none = missing > least && missing < most && missing - 0.5 > sure * error;
+    is_none && left < probe.calm(unit * unit / missed.len() as f64, spread)
 }
 
 fn length(column: &[f64], spread: &[f64]) -> f64 {
@@ -164,7 +165,7 @@ mod tests {
 
     fn among(count: usize, own: impl Fn(usize, &dyn Fn(usize) -> f64) -> f64) -> bool {
         let mut random = Random::new(5);
-        let station = |i: usize| Station::at_rest(1e-3 * i as f64);
+        let station = |i: usize| Station::plain(1e-3 * i as f64);
         let stations: Vec<Station> = (0..count).map(station).collect();
         let alone: Vec<f64> = (0..count).map(|i| 2e-4 + 1e-6 * i as f64).collect();
         let swing = |i: usize| 4e-5 * (1.7 * i as f64).sin();
@@ -205,6 +206,23 @@ mod tests {
         assert!(among(24, |_, _| 0.0));
         assert!(!among(24, |i, swing| swing(i)));
         assert!(!among(24, |i, _| 4e-5 * (1.7 * i as f64).cos()));
+    }
+
+    #[test]
+    fn a_column_with_a_prior_takes_no_more_than_it_may() {
+        let probe = Probe {
+            spread: 1.0,
+            is_stated: true,
+        };
+        let swing: Vec<f64> = (0..40).map(|i| 5.0 * (1.7 * f64::from(i)).sin()).collect();
+        let spread = vec![1.0; 40];
+        let lacks = |like: f64| {
+            let columns = [(swing.clone(), f64::INFINITY), (swing.clone(), like)];
+            lacks_first(&swing, &columns, &spread, probe)
+        };
+        assert!(lacks(0.01));
+        // what may as well be the other says nothing
+        assert!(!lacks(1.0));
     }
 
     #[test]

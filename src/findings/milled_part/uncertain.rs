@@ -28,7 +28,7 @@ pub enum Known {
     Calibration,
     /// Whether a place was measured where the tool passes it, or what the tool did when it was told to be there: none or one.
     Instant,
-    /// Whether the part shows the simulated swing where springs alone carry the tool: none or all of it.
+    /// Whether a part that is taken to be at rest shows the simulated swing: none or all of it.
     Swing,
     /// What the laws of the cut do not know, as a share of the simulated deviation times one of some waves along the path.
     Law(usize),
@@ -94,7 +94,7 @@ fn instant(case: &Case) -> Option<(Known, Nuisance)> {
     case.swings().then_some((Known::Instant, nuisance))
 }
 
-/// Dampings decide how much of the swing is there: hammer tests tell, and not every robot had one.
+/// Dampings decide how much of the swing is there: hammer tests tell, and not every robot had one. One of it is as likely as none; a choice.
 fn swing(case: &Case) -> Option<(Known, Nuisance)> {
     let nuisance = Nuisance {
         column: case.swing.clone(),

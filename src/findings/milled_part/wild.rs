@@ -58,7 +58,7 @@ mod tests {
     fn told(spoil: impl Fn(usize) -> f64) -> Vec<usize> {
         let mut random = Random::new(8);
         let stations: Vec<Station> = (0..80)
-            .map(|i| Station::at_rest(1e-3 * f64::from(i)))
+            .map(|i| Station::plain(1e-3 * f64::from(i)))
             .collect();
         let row = |i: usize| Row {
             station: i,
