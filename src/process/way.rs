@@ -105,6 +105,14 @@ impl Way {
     }
 }
 
+/// Where a straight piece between two rows is nearest to a place: how far along it (0 to 1), and how far that is from the place, m.
+pub fn nearest([a, b]: [&Row; 2], place: V3) -> (f64, f64) {
+    let along = sub(b.tip, a.tip);
+    let share = dot(sub(place, a.tip), along) / dot(along, along).max(f64::MIN_POSITIVE);
+    let share = share.clamp(0.0, 1.0);
+    (share, norm(sub(place, add(a.tip, scale(share, along)))))
+}
+
 /// What of `v` is normal to `direction`, or all of it without one.
 pub fn normal_part(v: V3, direction: Option<V3>) -> V3 {
     match direction {

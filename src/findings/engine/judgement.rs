@@ -63,11 +63,6 @@ pub struct Judgement {
     /// probable and nothing is left beside it. Of 780 load cycles by two strangers four true names of that kind lowered it by 74 to 91, nine
     /// untrue ones by 39 at most, one by 77; no other value was tried.
     pub not_plain_gain: f64,
-    /// The same where laws are all but exact, where a kind asks it of a name that stands alone: measured parts. Of five such names on 40 parts by a
-    /// stranger the two that lowered that error by less than a quarter were untrue, the three others true. No other value was tried; asked of groups
-    /// as well it silenced three true ones of 30 parts by another stranger. Elsewhere, and where what is uncertain would be far off without it, such
-    /// a cause must not raise it ([`Judgement::companion_gain`]).
-    pub not_plain_gain_if_exact: Option<f64>,
     /// What a companion must explain of unseen readings, as a share of what the largest cause that adds no straight line explains (rms):
     /// less may as well be what the law of that one misses ([`Judgement::formula_error`], where a kind asks), if it is not dear to do
     /// without. 0 where laws are all but exact.
@@ -179,7 +174,6 @@ impl Default for Judgement {
             companion_gain: 1.5,
             companion_gain_beside_kin: 10.0,
             not_plain_gain: 50.0,
-            not_plain_gain_if_exact: None,
             companion_share: 0.0,
             companion_is_plain: false,
             negligible: 0.0,

@@ -32,6 +32,7 @@ mod entry;
 pub mod judgement;
 mod leaves;
 pub mod materiality;
+pub mod noise;
 mod nuisances;
 mod peers;
 mod picked;
@@ -51,8 +52,8 @@ mod tests;
 pub use aspect::Aspects;
 pub use diagnosis::{Found, diagnose};
 pub use judgement::Judgement;
-pub use nuisances::{ALLOWED, held, unblamed};
+pub use noise::{Noise, White};
+pub use nuisances::{ALLOWED, Alone, unblamed};
 pub use statement::{
-    Blamed, CanBe, Experiment, LEVEL, Member, Noise, Nuisance, Peers, Remaining, Statement,
-    Suspect, White,
+    Blamed, CanBe, Experiment, LEVEL, Member, Nuisance, Peers, Remaining, Statement, Suspect,
 };

@@ -18,19 +18,37 @@ pub(super) fn allowed(nuisances: &[Nuisance]) -> f64 {
     -normal.inverse_cdf(normal.cdf(-ALLOWED) / count.max(1) as f64)
 }
 
-/// Squares, in noise deviations, that a column alone takes of the reading of a statement, its nuisances being integrated out, and those
-/// that there are.
-pub fn held(statement: &Statement, column: &[f64]) -> [f64; 2] {
-    let nuisances = Nuisances::of(statement);
-    let white = |c: &[f64]| DMatrix::from_vec(c.len(), 1, statement.noise.whiten(c));
-    let [column, reading] = [column, &statement.reading].map(white);
-    let [by_column, by_reading] = [&column, &reading].map(|c| nuisances.seen(c));
-    let square = column.norm_squared() - by_column.norm_squared();
-    let pull = column.dot(&reading) - by_column.dot(&by_reading);
-    let all = reading.norm_squared() - by_reading.norm_squared();
-    match square > 1e-12 * column.norm_squared() {
-        true => [pull * pull / square, all],
-        false => [0.0, all],
+/// What a column alone explains of a reading, all that is uncertain being integrated out.
+pub struct Alone {
+    /// Its most probable amount, and the standard error of that where the noise is as stated; none of a column that what is uncertain holds.
+    pub amount: Option<[f64; 2]>,
+    /// Squares that it takes, in noise deviations.
+    pub taken: f64,
+    /// Squares that there are without it.
+    pub all: f64,
+    /// Mean square of what it leaves: 1 where the noise and all that is uncertain are as stated.
+    pub left: f64,
+}
+
+impl Alone {
+    /// Of a column beside what is uncertain in a statement.
+    pub fn of(statement: &Statement, column: &[f64]) -> Self {
+        let nuisances = Nuisances::of(statement);
+        let white = |c: &[f64]| DMatrix::from_vec(c.len(), 1, statement.noise.whiten(c));
+        let [column, reading] = [column, &statement.reading].map(white);
+        let [by_column, by_reading] = [&column, &reading].map(|c| nuisances.seen(c));
+        let square = column.norm_squared() - by_column.norm_squared();
+        let pull = column.dot(&reading) - by_column.dot(&by_reading);
+        let all = reading.norm_squared() - by_reading.norm_squared();
+        let is_own = square > 1e-12 * column.norm_squared();
+        let taken = if is_own { pull * pull / square } else { 0.0 };
+        let free = reading.len().saturating_sub(nuisances.flat + 1).max(1);
+        Self {
+            amount: is_own.then(|| [pull / square, square.sqrt().recip()]),
+            taken,
+            all,
+            left: (all - taken) / free as f64,
+        }
     }
 }
 

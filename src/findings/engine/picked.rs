@@ -20,24 +20,6 @@ pub(super) struct Picked {
     pub leaves: Leaves,
 }
 
-/// By how many percent a cause whose gain is not plain must lower the error of unseen rows.
-#[derive(Clone, Copy)]
-struct Least {
-    /// As a rule.
-    usual: f64,
-    /// Where others could take its place, or what is uncertain would have to be far off without it.
-    needed: f64,
-}
-
-impl Least {
-    fn of(self, is_needed: bool) -> f64 {
-        match is_needed {
-            true => self.needed,
-            false => self.usual,
-        }
-    }
-}
-
 /// What is probable, real on unseen rows, and beats structure of any kind.
 pub(super) fn picked(
     experiment: &dyn Experiment,
@@ -62,23 +44,27 @@ pub(super) fn picked(
     let leaves = weighing.leaves(&set, story);
     let kept = Picked { set, gains, leaves };
     if experiment.has_rough_laws() {
-        let halved = Least {
-            usual: judgement.not_plain_gain,
-            needed: judgement.not_plain_gain,
-        };
         return match kept.leaves.rest.is_left {
-            true => needed(weighing, posterior, &chosen, &kept, halved).unwrap_or(kept),
+            true => needed(
+                weighing,
+                posterior,
+                &chosen,
+                &kept,
+                judgement.not_plain_gain,
+            )
+            .unwrap_or(kept),
             false => kept,
         };
     }
     let kept = outweighed(weighing, posterior, kept);
-    let no_worse = -judgement.companion_gain;
-    let asked = judgement.not_plain_gain_if_exact.unwrap_or(no_worse);
-    let least = Least {
-        usual: asked,
-        needed: no_worse,
-    };
-    needed(weighing, posterior, &chosen, &kept, least).unwrap_or(kept)
+    needed(
+        weighing,
+        posterior,
+        &chosen,
+        &kept,
+        -judgement.companion_gain,
+    )
+    .unwrap_or(kept)
 }
 
 /// With the gains as they are told, and without companions that surely make the simulation worse as it is used: they fit only where
@@ -172,14 +158,14 @@ fn beyond(weighing: &Weighing, kept: &Picked, at: usize) -> f64 {
 /// of unseen rows (where laws are only nearly right: halves it, or plainly lowers it). It may be plain beside all others alone; or lower the error by little, but by more than laws miss of the
 /// largest; or not at all, since all that is uncertain may stand in for it there, far from where it is known to be. Where that
 /// alone costs more than the price of a cause, unseen rows may show a little of it as well, and something may be left.
-/// Where laws are only nearly right, a probable cause may be what they miss, and something must be left without it. `least`: what unseen rows
-/// must show of one whose gain is not plain.
+/// Where laws are only nearly right, a probable cause may be what they miss, and something must be left without it. `least`: by how many
+/// percent one must lower that error where its interval is not plain.
 fn needed(
     weighing: &Weighing,
     posterior: &Posterior,
     chosen: &Scored,
     kept: &Picked,
-    least: Least,
+    least: f64,
 ) -> Option<Picked> {
     let (bank, judgement) = (weighing.bank, weighing.judgement);
     // where nobody states the noise, a companion that unseen rows do not show is worth the noise that it makes smaller
@@ -208,14 +194,12 @@ fn needed(
     let largest = gains.iter().map(Gain::explained).fold(0.0, f64::max);
     let missed = judgement.formula_error.powi(2) * largest;
     let law = missed_by_law(bank, &chosen, &gains, judgement);
-    let is_alone = |s: usize| posterior.inclusion(s) >= judgement.companion_needed;
-    let may_stand = |s: usize, gain: &Gain| {
+    let may_stand = |gain: &Gain| {
         // beside all others it may be plain what is not plain without them; little is what laws miss of the largest, too
         let is_little = gain.reduction_percent < judgement.companion_gain;
         let is_missed =
             gain.is_real() && is_little && gain.explained() < missed || gain.explained() < law;
-        let is_shown =
-            gain.is_real() || gain.reduction_percent > least.of(is_strained || !is_alone(s));
+        let is_shown = gain.is_real() || gain.reduction_percent > least;
         (is_strained || !is_missed) && is_shown
     };
     // what spares strain is as large as what it does, however little unseen rows show of that
@@ -225,7 +209,7 @@ fn needed(
         false => judgement.is_negligible(&gains[at]),
     };
     let falls = |at: &usize| {
-        let stands = may_stand(chosen.suspects[*at], &gains[*at]) && !is_negligible(*at);
+        let stands = may_stand(&gains[*at]) && !is_negligible(*at);
         is_dropped(&chosen.suspects[*at]) && !stands
     };
     let gained = |at: &usize| gains[*at].reduction_percent;

@@ -66,7 +66,6 @@ impl Measured for Case {
             share: 0.03,
             temper: 0.8,
             companion_needed: 0.85,
-            not_plain_gain_if_exact: Some(25.0),
             group_carries: 0.9,
             companion_share: if self.swings() {
                 Judgement::default().formula_error

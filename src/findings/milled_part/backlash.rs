@@ -1,8 +1,8 @@
 //! Play in a drive: the link lies on one flank of the gap and changes to the other where the joint turns
 //! back, or where the load on it changes its sign.
 
-use super::Case;
 use super::hold::{Lever, levers};
+use super::{Case, Station};
 use crate::findings::bent;
 use crate::findings::engine::{Blamed, Member};
 use crate::findings::table::{Effect, Place};
@@ -34,8 +34,8 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     would_tell: "load the joint to and fro past zero (`ident stiffness`)",
 };
 
-/// Shares of its greatest size below which a torque chooses no flank: hardly any, and what the friction of a drive holds.
-const IDLE: [f64; 3] = [0.02, 0.07, 0.2];
+/// Share of its greatest size below which a torque chooses no flank.
+const IDLE: f64 = 0.02;
 /// Ways by which a joint turns back until its link follows, rad: at once, as a link that something presses, and the gaps of a
 /// good and of a worn drive.
 const GAPS: [f64; 3] = [1e-6, 2e-5, 2e-4];
@@ -60,7 +60,6 @@ const MILLED: [f64; 7] = [0.6e-4, 0.9e-4, 1.3e-4, 1.9e-4, 2.7e-4, 3.8e-4, 5.4e-4
 const ORDINARY: f64 = 3e-4;
 /// The form of a gap with which the part is milled.
 const BY_CUT: f64 = 9.0;
-const _: () = assert!(GAPS.len() + 2 * IDLE.len() <= BY_CUT as usize);
 
 /// What gaps do to the part where robot and cut are coupled in time: the link goes from flank to flank as its load changes sign,
 /// whatever loads it.
@@ -115,35 +114,25 @@ pub fn alter(blamed: &Blamed, robot: &mut Robot) -> bool {
     own
 }
 
-/// Flanks at every station, form by form: by the motion; by the cut, and by cut and weight, for every friction. None where one is as another or
-/// never changes.
+/// Flanks at every station, form by form: by the motion, by the cut, by cut and weight.
 fn sides(case: &Case, joint: usize, levers: &[Lever]) -> Vec<Option<Vec<f64>>> {
     let cut: Vec<f64> = levers.iter().map(|l| l.cut).collect();
     let loaded: Vec<f64> = levers.iter().map(|l| l.cut + l.weight).collect();
     let by_motion = GAPS.map(|gap| followed(case, joint, gap));
-    let mut order: Vec<usize> = (0..levers.len()).collect();
-    order.sort_by(|a, b| {
-        case.stations[*a]
-            .time_s
-            .total_cmp(&case.stations[*b].time_s)
-    });
-    let in_time = |drive: &[f64], idle: f64| {
-        let sorted: Vec<f64> = order.iter().map(|i| drive[*i]).collect();
-        let told = flanks(&sorted, idle)?;
-        let mut side = vec![0.0; told.len()];
-        order.iter().zip(told).for_each(|(i, s)| side[*i] = s);
-        Some(side)
-    };
-    let by_load = IDLE
-        .iter()
-        .flat_map(|idle| [in_time(&cut, *idle), in_time(&loaded, *idle)]);
-    let mut all: Vec<Option<Vec<f64>>> = by_motion.into_iter().chain(by_load).collect();
-    for i in 1..all.len() {
-        if all[..i].contains(&all[i]) {
-            all[i] = None;
-        }
-    }
-    all
+    let by_load = [&cut, &loaded].map(|drive| flanks_in_time(&case.stations, drive));
+    by_motion.into_iter().chain(by_load).collect()
+}
+
+/// [`flanks`] of stations in the order of the file.
+fn flanks_in_time(stations: &[Station], drive: &[f64]) -> Option<Vec<f64>> {
+    let time = |i: &usize| stations[*i].time_s;
+    let mut order: Vec<usize> = (0..drive.len()).collect();
+    order.sort_by(|a, b| time(a).total_cmp(&time(b)));
+    let sorted: Vec<f64> = order.iter().map(|i| drive[*i]).collect();
+    let told = flanks(&sorted)?;
+    let mut side = vec![0.0; told.len()];
+    order.iter().zip(told).for_each(|(i, s)| side[*i] = s);
+    Some(side)
 }
 
 /// Where a gap of one lets the tool go, m/rad.
@@ -173,7 +162,7 @@ fn followed(case: &Case, joint: usize, gap: f64) -> Option<Vec<f64>> {
     let rows = case.setup.way.rows();
     let angles: Vec<f64> = rows.iter().map(|row| row.joints[joint]).collect();
     let sides = dragged(&angles, gap);
-    let at = |s: &super::Station| {
+    let at = |s: &Station| {
         let after = rows.partition_point(|row| row.time_s < s.time_s);
         sides[after.min(sides.len() - 1)]
     };
@@ -196,10 +185,10 @@ fn dragged(angles: &[f64], gap: f64) -> Vec<f64> {
     angles.iter().map(follow).collect()
 }
 
-/// +1 or −1, kept while what drives it is idle (below this share of its greatest size); none where it never changes.
-fn flanks(drive: &[f64], idle: f64) -> Option<Vec<f64>> {
+/// +1 or −1, kept while what drives it is idle; none where it never changes.
+fn flanks(drive: &[f64]) -> Option<Vec<f64>> {
     let most = largest(drive);
-    let clear = |d: &f64| d.abs() > idle * most;
+    let clear = |d: &f64| d.abs() > IDLE * most;
     let mut now = drive.iter().find(|d| clear(d))?.signum();
     let side: Vec<f64> = drive
         .iter()
@@ -237,16 +226,9 @@ mod tests {
 
     #[test]
     fn a_flank_is_kept_while_nothing_drives() {
-        let side = flanks(&[0.0, 1.0, 0.001, -2.0, 0.0], 0.02).unwrap();
+        let side = flanks(&[0.0, 1.0, 0.001, -2.0, 0.0]).unwrap();
         assert_eq!(side, [1.0, 1.0, 1.0, -1.0, -1.0]);
-        assert!(flanks(&[1.0, 2.0, 0.5], 0.02).is_none());
-        assert!(flanks(&[0.0, 0.0], 0.02).is_none());
-    }
-
-    #[test]
-    fn friction_holds_a_flank_until_the_load_is_greater() {
-        let drive = [-1.0, -0.1, 0.1, 0.5, 0.1, -0.1, -0.5];
-        let side = flanks(&drive, 0.2).unwrap();
-        assert_eq!(side, [-1.0, -1.0, -1.0, 1.0, 1.0, 1.0, -1.0]);
+        assert!(flanks(&[1.0, 2.0, 0.5]).is_none());
+        assert!(flanks(&[0.0, 0.0]).is_none());
     }
 }

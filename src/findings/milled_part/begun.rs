@@ -2,11 +2,11 @@
 
 use super::counted::Counted;
 use super::stations::{Row, Station, placed, rows};
-use super::still::{Column, Probe, Simulated, is_still, lacks_first};
+use super::still::{Probe, Simulated, is_still, lacks};
 use super::tried::left;
 use super::uncertain::Known;
 use super::{Case, LEAST, probe, seen};
-use crate::findings::engine::Found;
+use crate::findings::engine::{Found, Nuisance, Statement};
 use crate::ground::problem::Outcome;
 use crate::ground::spatial::dot;
 use crate::ground::stats::{difference, rms};
@@ -168,20 +168,20 @@ impl Case {
         if !self.shows_no_swing {
             return false;
         }
-        let less = self.swing.iter().map(|x| -x).collect();
         let known = self.stated().uncertain.iter();
         let known = known.filter(|(known, _)| *known != Known::Swing);
-        let known = known.map(|(_, n)| (n.column.clone(), n.spread));
-        let blamed = found.blamed.iter().map(|b| (b.part.clone(), f64::INFINITY));
-        let columns = std::iter::once((less, f64::INFINITY)).chain(known);
-        let columns: Vec<Column> = columns.chain(blamed).filter(is_there).collect();
-        let missed = difference(&self.missed, &self.swing);
-        lacks_first(&missed, &columns, &self.spread, Probe::of(&self.test))
+        let blamed = found.blamed.iter().map(|blamed| Nuisance {
+            column: blamed.part.clone(),
+            spread: f64::INFINITY,
+        });
+        let missed = Statement {
+            reading: difference(&self.missed, &self.swing),
+            nuisances: known.map(|k| k.1.clone()).chain(blamed).collect(),
+            ..self.bare()
+        };
+        let less: Vec<f64> = self.swing.iter().map(|x| -x).collect();
+        lacks(&missed, &less, Probe::of(&self.test))
     }
-}
-
-fn is_there(column: &Column) -> bool {
-    column.0.iter().any(|x| *x != 0.0)
 }
 
 impl Milled {

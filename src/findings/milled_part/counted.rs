@@ -2,11 +2,11 @@
 //! little shorter than its corner.
 
 use super::stations::NEAR;
-use crate::ground::spatial::{V3, add, dot, norm, scale, sub};
+use crate::ground::spatial::{V3, add, norm, scale, sub};
 use crate::measurement::milled_part::{At, PartTest};
 use crate::measurement::toolpath::{Shape, Toolpath};
 use crate::process::Way;
-use crate::process::way::Row;
+use crate::process::way::nearest;
 
 /// One point: its length from point to point and where the drawn path is nearest to it, m, and its place, workpiece frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -94,15 +94,9 @@ fn pass(way: &Way, within: [f64; 2], place: V3) -> Option<f64> {
     let rows = way.rows();
     let [from, to] = within.map(|s| rows.partition_point(|row| row.s_m < s));
     let pieces = rows[from.saturating_sub(1)..(to + 1).min(rows.len())].windows(2);
-    let passes = pieces.map(|piece| nearest([&piece[0], &piece[1]], place));
+    let passes = pieces.map(|piece| {
+        let (share, far) = nearest([&piece[0], &piece[1]], place);
+        (piece[0].s_m + share * (piece[1].s_m - piece[0].s_m), far)
+    });
     passes.min_by(|a, b| a.1.total_cmp(&b.1)).map(|pass| pass.0)
-}
-
-/// Where a straight piece of the drawn path is nearest to a point, and how far that is, m.
-fn nearest([a, b]: [&Row; 2], point: V3) -> (f64, f64) {
-    let way = sub(b.tip, a.tip);
-    let share = dot(sub(point, a.tip), way) / dot(way, way).max(f64::MIN_POSITIVE);
-    let share = share.clamp(0.0, 1.0);
-    let far = norm(sub(point, add(a.tip, scale(share, way))));
-    (a.s_m + share * (b.s_m - a.s_m), far)
 }

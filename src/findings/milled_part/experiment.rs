@@ -5,8 +5,7 @@ use super::patterns::PATTERNS;
 use super::uncertain::{Known, missed, uncertain};
 use super::{Case, EFFECTS, Stated};
 use crate::findings::engine::{
-    ALLOWED, Aspects, Blamed, Experiment, Nuisance, Peers, Remaining, Statement, Suspect, held,
-    unblamed,
+    ALLOWED, Alone, Blamed, Experiment, Nuisance, Peers, Remaining, Statement, Suspect, unblamed,
 };
 use crate::findings::physics;
 use crate::findings::table;
@@ -112,20 +111,13 @@ const SHARE: f64 = 0.01;
 
 impl Case {
     /// What is missed, and nobody to blame.
-    fn bare(&self) -> Statement {
+    pub(super) fn bare(&self) -> Statement {
         let stated = self.test.facts.probe_noise.is_some();
-        Statement {
-            reading: self.missed.clone(),
-            noise: Box::new(Uneven {
-                spread: self.spread.clone(),
-                rows: if stated { WORTH } else { 0.0 },
-            }),
-            nuisances: Vec::new(),
-            suspects: Vec::new(),
-            span: Vec::new(),
-            splits: Vec::new(),
-            aspects: Aspects::default(),
-        }
+        let noise = Uneven {
+            spread: self.spread.clone(),
+            rows: if stated { WORTH } else { 0.0 },
+        };
+        Statement::bare(self.missed.clone(), Box::new(noise))
     }
 
     /// Whether what is missed may hold something of a column, datum and coefficients being free: a share of it, and more than chance.
@@ -144,8 +136,8 @@ impl Case {
             nuisances: open.collect(),
             ..self.bare()
         };
-        let [taken, all] = held(&statement, column);
-        taken > 2.0 * CHANCE && taken > SHARE * all
+        let alone = Alone::of(&statement, column);
+        alone.taken > 2.0 * CHANCE && alone.taken > SHARE * alone.all
     }
 
     /// Whether what is merely uncertain leaves scatter within a stated noise, none of it being far off: no spring is worth a trial in time

@@ -4,7 +4,7 @@
 use super::counted::Counted;
 use super::plane::Plane;
 use crate::ground::problem::{Outcome, Problem};
-use crate::ground::spatial::{V3, add, cross, dot, norm, scale, sub, unit};
+use crate::ground::spatial::{V3, add, cross, norm, sub, unit};
 use crate::measurement::milled_part::{At, PartTest, Reading};
 use crate::process::run::Outcome as Milled;
 use crate::process::setup::Setup;
@@ -172,15 +172,9 @@ const TWICE: f64 = 1e-6;
 /// How far a way stays from a place (m), and when it is there (s): between its rows it is straight.
 fn passes(rows: &[way::Row], place: V3, cuts: impl Fn(f64) -> bool) -> Option<(f64, f64)> {
     let nearest = |pair: &[way::Row]| {
-        let [a, b] = [&pair[0], &pair[1]];
-        let along = sub(b.tip, a.tip);
-        let off = sub(place, a.tip);
-        let share = match dot(along, along) {
-            0.0 => 0.0,
-            square => (dot(off, along) / square).clamp(0.0, 1.0),
-        };
-        let far = norm(sub(off, scale(share, along)));
-        (far, a.time_s + share * (b.time_s - a.time_s))
+        let (share, far) = way::nearest([&pair[0], &pair[1]], place);
+        let [a, b] = [pair[0].time_s, pair[1].time_s];
+        (far, a + share * (b - a))
     };
     let all: Vec<(f64, f64)> = rows.windows(2).map(nearest).collect();
     let least = all.iter().map(|a| a.0).fold(f64::INFINITY, f64::min);

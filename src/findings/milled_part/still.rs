@@ -1,11 +1,13 @@
 //! Whether a part shows the swing that its robot is simulated to make. Dampings come from hammer tests in other poses, or from nowhere:
 //! a robot that swings less than its file says leaves a smooth surface.
 
+use super::noise::Uneven;
 use super::probe;
 use super::stations::{Row, Station, spreads};
+use crate::findings::engine::{Alone, Nuisance, Statement};
 use crate::findings::table::{unit_range, waves};
+use crate::ground::stats::{difference, rms};
 use crate::measurement::milled_part::PartTest;
-use nalgebra::{DMatrix, DVector};
 
 /// Waves over the path that hold what causes do, in either direction across the feed, and those times what is simulated without a swing; where
 /// there are few rows fewer of both, so that all that is smooth takes no more than half of the rows.
@@ -64,74 +66,52 @@ pub(super) fn is_still(
 ) -> bool {
     let spread = spreads(stations, rows, probe.spread, 0.0);
     let less = |k: usize| SMOOTH.map(|count| (count * (SMOOTH[0] - k)).div_ceil(SMOOTH[0]));
-    let sets = (0..SMOOTH[0]).map(|k| columns((stations, rows), simulated, less(k)));
-    let few = |columns: &Vec<Vec<f64>>| 2 * columns.len() <= rows.len();
+    let sets = (0..SMOOTH[0]).map(|k| smooth((stations, rows), simulated.alone, less(k)));
+    let few = |smooth: &Vec<Vec<f64>>| 2 * (smooth.len() + 1) <= rows.len();
     let misses = rows.iter().zip(simulated.coupled);
     let misses: Vec<f64> = misses.map(|(row, s)| row.measured - s).collect();
-    let free = |columns: Vec<Vec<f64>>| -> Vec<Column> {
-        let each = columns.into_iter();
-        each.map(|column| (column, f64::INFINITY)).collect()
+    let less = difference(simulated.alone, simulated.coupled);
+    let beside = |smooth: Vec<Vec<f64>>| {
+        let noise = Uneven {
+            spread: spread.clone(),
+            rows: 0.0,
+        };
+        let free = smooth.into_iter().map(|column| Nuisance {
+            column,
+            spread: f64::INFINITY,
+        });
+        Statement {
+            nuisances: free.collect(),
+            ..Statement::bare(misses.clone(), Box::new(noise))
+        }
     };
     sets.filter(few)
-        .any(|columns| lacks_first(&misses, &free(columns), &spread, probe))
+        .any(|smooth| lacks(&beside(smooth), &less, probe))
 }
 
-/// What one of something adds, and how much of it there is before the data (standard deviation).
-pub(super) type Column = (Vec<f64>, f64);
-
-/// Whether what is missed is the first of these columns, and nothing much besides all of them.
-pub(super) fn lacks_first(
-    missed: &[f64],
-    columns: &[Column],
-    spread: &[f64],
-    probe: Probe,
-) -> bool {
-    let white = |c: &[f64]| {
-        let each = c.iter().zip(spread);
-        DVector::from_iterator(c.len(), each.map(|(v, s)| v / s))
-    };
-    let reading = white(missed);
-    let lengths: Vec<f64> = columns.iter().map(|c| length(&c.0, spread)).collect();
-    let each = columns.iter().zip(&lengths);
-    let units: Vec<DVector<f64>> = each.map(|(c, length)| white(&c.0) / *length).collect();
-    let matrix = DMatrix::from_columns(&units);
-    let gram = matrix.tr_mul(&matrix);
-    let mut inner = gram.clone();
-    for (i, (column, length)) in columns.iter().zip(&lengths).enumerate() {
-        inner[(i, i)] += 1e-9 + (column.1 * length).powi(-2);
-    }
-    let Some(root) = inner.cholesky() else {
+/// Whether what is missed is all of a swing (`less`: what its absence adds), and nothing much besides what is uncertain.
+pub(super) fn lacks(missed: &Statement, less: &[f64], probe: Probe) -> bool {
+    let alone = Alone::of(missed, less);
+    let Some([missing, error]) = alone.amount else {
         return false;
     };
-    let inverse = root.inverse();
-    let amounts = &inverse * matrix.tr_mul(&reading);
-    let free = reading.len() as f64 - (&inverse * gram).trace();
-    let left = (&reading - &matrix * &amounts).norm_squared() / free.max(1.0);
-    let unit = lengths[0];
-    let missing = amounts[0] / unit;
-    let error = (left.max(1.0) * inverse[(0, 0)]).sqrt() / unit;
     let [least, most, sure] = MISSING;
+    let error = error * alone.left.max(1.0).sqrt();
     let is_none = missing > least && missing < most && missing - 0.5 > sure * error;
-    is_none && left < probe.calm(unit * unit / missed.len() as f64, spread)
+    let swing = rms(&missed.noise.whiten(less)).powi(2);
+    is_none && alone.left < probe.calm(swing, missed.noise.spread())
 }
 
-fn length(column: &[f64], spread: &[f64]) -> f64 {
-    let each = column.iter().zip(spread);
-    each.map(|(c, s)| (c / s).powi(2)).sum::<f64>().sqrt()
-}
-
-/// First what the swing adds less, then a workpiece that stands elsewhere, and so many waves.
-fn columns(
+/// A workpiece that stands elsewhere, so many waves in either direction, and so many times what is simulated without a swing.
+fn smooth(
     (stations, rows): (&[Station], &[Row]),
-    simulated: &Simulated,
+    alone: &[f64],
     count: [usize; 2],
 ) -> Vec<Vec<f64>> {
-    let each = simulated.alone.iter().zip(simulated.coupled);
-    let swing: Vec<f64> = each.map(|(alone, coupled)| alone - coupled).collect();
     let along: Vec<f64> = rows.iter().map(|r| stations[r.station].s_m).collect();
     let over = unit_range(&along);
-    let mut all = vec![swing];
-    all.extend((0..3).map(|k| rows.iter().map(|row| row.across[k]).collect()));
+    let datum = (0..3).map(|k| rows.iter().map(|row| row.across[k]).collect());
+    let mut all: Vec<Vec<f64>> = datum.collect();
     let level = vec![1.0; rows.len()];
     for wave in waves(&over, count[0]).into_iter().chain([level.clone()]) {
         for wall in [true, false] {
@@ -143,7 +123,7 @@ fn columns(
         }
     }
     for wave in waves(&over, count[1]).into_iter().chain([level]) {
-        let own = wave.iter().zip(simulated.alone);
+        let own = wave.iter().zip(alone);
         all.push(own.map(|(w, s)| w * s).collect());
     }
     all.retain(|c| c.iter().any(|x| *x != 0.0));
@@ -209,20 +189,29 @@ mod tests {
     }
 
     #[test]
-    fn a_column_with_a_prior_takes_no_more_than_it_may() {
+    fn what_may_as_well_be_something_else_is_not_missing() {
         let probe = Probe {
             spread: 1.0,
             is_stated: true,
         };
         let swing: Vec<f64> = (0..40).map(|i| 5.0 * (1.7 * f64::from(i)).sin()).collect();
-        let spread = vec![1.0; 40];
-        let lacks = |like: f64| {
-            let columns = [(swing.clone(), f64::INFINITY), (swing.clone(), like)];
-            lacks_first(&swing, &columns, &spread, probe)
+        let lacking = |spread: f64| {
+            let noise = Uneven {
+                spread: vec![1.0; 40],
+                rows: 0.0,
+            };
+            let like = Nuisance {
+                column: swing.clone(),
+                spread,
+            };
+            let missed = Statement {
+                nuisances: vec![like],
+                ..Statement::bare(swing.clone(), Box::new(noise))
+            };
+            lacks(&missed, &swing, probe)
         };
-        assert!(lacks(0.01));
-        // what may as well be the other says nothing
-        assert!(!lacks(1.0));
+        assert!(lacking(0.01));
+        assert!(!lacking(1.0));
     }
 
     #[test]
