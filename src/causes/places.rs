@@ -14,14 +14,21 @@ pub const UNIT_COMPLIANCE: f64 = 1e-7;
 /// Damping of an added spring, of its stiffness, s: as light as that of the bearings of Table 3.1.
 pub const ADDED_DAMPING: f64 = 4e-4;
 
+/// Name of the relative excess of a compliance.
+pub const EXCESS: &str = "excess";
+/// Its least: no spring is ten times as stiff as it is stated.
+pub const LEAST_EXCESS: f64 = -0.9;
+/// Its largest start: the unit in which it is fitted where it is one of many causes.
+pub const LARGEST_START: f64 = 2.0;
+
 /// The relative excess x of a compliance: c = c₀(1 + x).
 pub const fn excess(meaning: &'static str) -> Amount {
     Amount::new(
-        "excess",
+        EXCESS,
         "1",
         meaning,
-        [-0.9, 20.0],
-        &[-0.6, -0.3, 0.5, 2.0],
+        [LEAST_EXCESS, 20.0],
+        &[-0.6, -0.3, 0.5, LARGEST_START],
     )
 }
 

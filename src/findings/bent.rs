@@ -1,6 +1,7 @@
 //! Causes that add no straight line: tried at several strengths, and told in between by what these say.
 
 use super::engine::{Blamed, Member, Suspect};
+use crate::causes::places::{LARGEST_START, LEAST_EXCESS};
 use rayon::prelude::*;
 
 /// A strength of a cause, in ordinary ones.
@@ -12,8 +13,6 @@ pub(super) struct Strength {
     pub within: Option<[f64; 2]>,
 }
 
-/// The excess of a compliance that is of ordinary strength (`causes::places::excess`).
-const EXCESS: f64 = 2.0;
 /// The strength that is tried first, and the excess that it is: less than half as soft again. A choice, no measurement.
 pub(super) const FIRST: f64 = 0.15;
 /// Strengths at which it is asked whether others are worth a trial: a strong one swings otherwise than a weak one. Two of those that are
@@ -29,7 +28,7 @@ const STIFFER: i32 = 6;
 /// How far the amounts may be from the strength of their columns, as a factor. A choice, no measurement.
 const REACH: f64 = 1.5;
 /// Ordinary strengths that the softest and the stiffest stand for as well: what is found there is milled again.
-const ENDS: [f64; 2] = [-0.45, 10.0];
+const ENDS: [f64; 2] = [LEAST_EXCESS / LARGEST_START, 10.0];
 
 impl Strength {
     /// A small one, which stands for any.
@@ -41,7 +40,7 @@ impl Strength {
     }
 
     fn of(step: i32) -> Self {
-        let value = (STEP.powi(step) - 1.0) / EXCESS;
+        let value = (STEP.powi(step) - 1.0) / LARGEST_START;
         let ends = within(value);
         Self {
             value,
@@ -154,7 +153,7 @@ pub(super) fn sized(
 /// What a strength adds, by what others add: the polynomial through all of them, and nothing at none, of the logarithm of how much
 /// softer they are (Lagrange).
 fn between(nodes: &[f64], tried: &[Vec<f64>], strength: f64) -> Vec<f64> {
-    let place = |strength: f64| (EXCESS * strength).ln_1p();
+    let place = |strength: f64| (LARGEST_START * strength).ln_1p();
     let places: Vec<f64> = nodes.iter().map(|n| place(*n)).collect();
     let x = place(strength);
     let share = |i: usize| -> f64 {

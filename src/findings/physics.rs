@@ -3,7 +3,7 @@
 
 use super::bent::{self, Strength};
 use crate::causes::contract::Cause;
-use crate::causes::places::soften;
+use crate::causes::places::{EXCESS, LARGEST_START, LEAST_EXCESS, soften};
 use crate::causes::{CAUSES, Sight};
 use crate::effects::Family;
 use crate::findings::engine::{Blamed, Member, Nuisance, Suspect};
@@ -87,10 +87,18 @@ fn of(case: &dyn OnRobot, cause: &'static dyn Cause) -> Vec<Suspect> {
             members,
             named: true,
             law_error: 0.0,
-            can_be: |_, _| true,
+            can_be: match card.amounts[0].name {
+                EXCESS => is_no_rigid_spring,
+                _ => |_, _| true,
+            },
         })
     };
     sites.into_par_iter().filter_map(suspect).collect()
+}
+
+/// Whether a compliance that is off by an excess is one that a spring can have: none is rigid.
+fn is_no_rigid_spring(_: &[f64], amounts: &[f64]) -> bool {
+    amounts[0] * LARGEST_START > LEAST_EXCESS
 }
 
 /// One member per form and strength; columns are the difference at an ordinary strength, by what the strength of the member adds. What

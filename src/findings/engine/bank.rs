@@ -86,6 +86,11 @@ impl<'a> Bank<'a> {
         &self.suspects[entry.suspect].members[entry.member]
     }
 
+    /// The members of a suspect.
+    pub(super) fn members_of(&self, suspect: usize) -> impl Iterator<Item = usize> {
+        (0..self.entries.len()).filter(move |m| self.entries[*m].suspect == suspect)
+    }
+
     /// The fit of a set. `None` where an amount has the wrong sign, or nothing is finite.
     pub fn fit(&self, members: &[usize]) -> Option<Fit> {
         let blocks = self.blocks(members);
@@ -227,16 +232,7 @@ impl<'a> Bank<'a> {
             let first = at;
             at += self.entries[*member].columns.len();
             let own = &fit.posterior.mean.as_slice()[first..at];
-            if !self.member(*member).allows(own) {
-                return false;
-            }
-            let Some(weights) = &self.member(*member).positive else {
-                return true;
-            };
-            let own = weights.iter().enumerate();
-            own.map(|(k, w)| w * fit.posterior.mean[first + k])
-                .sum::<f64>()
-                > 0.0
+            self.member(*member).allows(own) && self.member(*member).has_sign(own)
         })
     }
 

@@ -2,10 +2,10 @@
 
 use super::bank::{Bank, Fit};
 use super::beside_rest::less_doubtful;
+use super::blamed::blamed as causes;
 use super::choice::{material, nothing};
 use super::judgement::Judgement;
 use super::leaves::{Leaves, Weighing};
-use super::materiality::raw_parts;
 use super::picked::{Picked, carrying, picked};
 use super::posterior::Posterior;
 use super::rest::{Span, explained};
@@ -122,7 +122,7 @@ pub(super) fn about(
         seen,
         rest,
     } = leaves;
-    let mut blamed = blamed(&bank, &set.fit);
+    let mut blamed = causes(&bank, &set.fit);
     let named = name(
         experiment,
         &bank,
@@ -148,7 +148,7 @@ pub(super) fn about(
     let competed = bank.suspects.iter().any(|s| !s.named);
     let open = competed && answer.verdict != Verdict::Sufficient;
     let leading = leading(&bank, &posterior).filter(|_| open);
-    let in_front = leading.map(|fit| (self::blamed(&bank, &fit), weighing.beside(&fit).1));
+    let in_front = leading.map(|fit| (causes(&bank, &fit), weighing.beside(&fit).1));
     let has_pattern = set.suspects.iter().any(|s| !bank.suspects[*s].named);
     let (mut lead, mut wider) = (blamed.clone(), None);
     match in_front {
@@ -211,37 +211,4 @@ fn evidence_of(bank: &Bank, set: &Scored, judgement: &Judgement) -> (Names, f64)
     let shares: f64 = set.suspects.iter().map(|s| bank.suspects[*s].share).sum();
     let odds = judgement.name * names + judgement.companion * (names - 1.0).max(0.0) - shares;
     (places(bank, set), set.score + odds)
-}
-
-fn blamed(bank: &Bank, fit: &Fit) -> Vec<Blamed> {
-    let mut at = 0;
-    let variance = fit.posterior.noise_variance;
-    let each = fit
-        .members
-        .iter()
-        .zip(raw_parts(bank, fit))
-        .map(|(member, part)| {
-            let (entry, suspect, own) = (
-                &bank.entries[*member],
-                bank.suspect(*member),
-                bank.member(*member),
-            );
-            let (first, count) = (at, own.columns.len());
-            at += count;
-            let covariance = fit
-                .posterior
-                .covariance
-                .view((first, first), (count, count));
-            Blamed {
-                effect: suspect.effect,
-                site: suspect.site.clone(),
-                shape: own.shape.clone(),
-                amounts: (0..count)
-                    .map(|k| fit.posterior.mean[first + k] * entry.scale)
-                    .collect(),
-                covariance: covariance * (variance * entry.scale * entry.scale),
-                part,
-            }
-        });
-    each.collect()
 }

@@ -82,7 +82,12 @@ impl<S: Weighed> Posterior<S> {
 
     /// Odds of one set against another.
     pub fn odds(&self, set: &S, against: &S) -> f64 {
-        (self.temper * (set.score() - against.score())).exp()
+        self.tempered(set.score() - against.score()).exp()
+    }
+
+    /// Logarithm of the odds of what is worth so many nats more.
+    pub fn tempered(&self, more: f64) -> f64 {
+        self.temper * more
     }
 
     /// Who can take the place of one suspect of a set, with the odds against it, best first. Of a set that was not weighed, as what

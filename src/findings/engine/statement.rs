@@ -71,6 +71,15 @@ impl Member {
             .is_none_or(|([least, most], x)| (least..=most).contains(&x))
     }
 
+    /// Whether amounts are of the sign that it has, where it has one.
+    pub fn has_sign(&self, amounts: &[f64]) -> bool {
+        let Some(weights) = &self.positive else {
+            return true;
+        };
+        let own = weights.iter().zip(amounts);
+        own.map(|(weight, x)| weight * x).sum::<f64>() > 0.0
+    }
+
     /// The same with its shape.
     #[must_use]
     pub fn shaped(mut self, shape: &[f64]) -> Self {

@@ -142,7 +142,7 @@ impl Experiment for Toy {
     }
 }
 
-fn steps(rows: usize) -> Causes {
+pub(super) fn steps(rows: usize) -> Causes {
     let of = |f: fn(f64) -> f64| {
         vec![Member::given(
             (0..rows)

@@ -1,6 +1,7 @@
 //! From a chosen set to causes, groups and the verdict.
 
 use super::bank::Bank;
+use super::intervals::intervals;
 use super::judgement::Judgement;
 use super::posterior::Posterior;
 use super::rest::Rest;
@@ -88,7 +89,7 @@ pub fn name(
             probability: rivals.probability(posterior, judgement),
             summary: own.summary,
             alternatives: told.collect(),
-            ci95: Vec::new(),
+            ci95: intervals(experiment, bank, posterior, (set, at), judgement),
             parameters: experiment.parameters(&blamed[at]),
             gain: gains[at],
         });

@@ -1,0 +1,182 @@
+//! 95 % intervals of the parameters of a cause.
+//!
+//! Its amounts are drawn within their doubt, which holds what all that is uncertain and the other causes of the set may have lent
+//! it, and its shape from those that it can have, each by its evidence. What is a number of the shape alone (a time constant, a
+//! frequency) was looked for on a grid: it has no interval.
+
+use super::bank::{Bank, Fit};
+use super::blamed::blamed;
+use super::judgement::Judgement;
+use super::posterior::Posterior;
+use super::search::{Scored, price};
+use super::statement::{Blamed, Experiment};
+use crate::ground::random::Random;
+use crate::ground::stats::{log_sum_exp, quantile};
+use nalgebra::{DMatrix, DVector};
+use std::f64::consts::TAU;
+
+/// Draws: beyond either end of an interval lie twenty-five of them.
+const DRAWS: usize = 1000;
+/// Fewest draws of what the cause can be that make an interval.
+const FEWEST: usize = 200;
+/// Seed of the draws.
+const SEED: u64 = 95;
+
+/// Name, value, unit of each.
+type Parameters = Vec<(&'static str, f64, &'static str)>;
+
+/// A shape that a cause may have.
+struct Form {
+    /// The cause of that shape, with its most probable amounts.
+    blamed: Blamed,
+    /// The member of the bank that it is.
+    member: usize,
+    /// Square root of the covariance of its amounts.
+    root: DMatrix<f64>,
+    /// How many draws it is worth.
+    draws: usize,
+}
+
+/// Intervals of what the suspect at a place of a set is told to be, by name, SI.
+pub(super) fn intervals(
+    experiment: &dyn Experiment,
+    bank: &Bank,
+    posterior: &Posterior,
+    (set, at): (&Scored, usize),
+    judgement: &Judgement,
+) -> Vec<(&'static str, [f64; 2])> {
+    let mut random = Random::new(SEED);
+    let own = blamed(bank, &set.fit).swap_remove(at);
+    let told = experiment.parameters(&own);
+    let alike = |one: &Parameters| one.iter().map(of_what).eq(told.iter().map(of_what));
+    let mut drawn = vec![Vec::new(); told.len()];
+    let mut moves = vec![false; told.len()];
+    for form in forms(bank, posterior, (set, at), judgement) {
+        for _ in 0..form.draws {
+            let one = form.drawn(bank, &mut random);
+            let Some(one) = one.map(|one| experiment.parameters(&one)).filter(alike) else {
+                continue;
+            };
+            for (k, (told, one)) in told.iter().zip(one).enumerate() {
+                moves[k] |= form.blamed.shape == own.shape && one.1 != told.1;
+                drawn[k].push(near(told, one.1));
+            }
+        }
+    }
+    let each = told.iter().zip(&drawn).zip(moves);
+    each.filter(|(_, moves)| *moves)
+        .filter_map(|((told_one, values), _)| {
+            let is_alone = told.iter().filter(|other| other.0 == told_one.0).count() == 1;
+            let ends = [0.025, 0.975].map(|q| quantile(values, q));
+            let holds = (ends[0]..=ends[1]).contains(&told_one.1);
+            let is_told = is_alone && holds && values.len() >= FEWEST;
+            is_told.then_some((told_one.0, ends))
+        })
+        .collect()
+}
+
+/// A value as it is nearest to the one that is told: angles come again after a turn.
+fn near(told: &(&'static str, f64, &'static str), value: f64) -> f64 {
+    match told.2 {
+        "rad" => value - TAU * ((value - told.1) / TAU).round(),
+        _ => value,
+    }
+}
+
+/// Name and unit.
+fn of_what(parameter: &(&'static str, f64, &'static str)) -> (&'static str, &'static str) {
+    (parameter.0, parameter.2)
+}
+
+/// The shapes that a suspect of a set may have beside the others as they are, by their odds.
+fn forms(
+    bank: &Bank,
+    posterior: &Posterior,
+    (set, at): (&Scored, usize),
+    judgement: &Judgement,
+) -> Vec<Form> {
+    let score = |evidence: f64, members: &[usize]| evidence - price(bank, members, judgement);
+    let chosen = score(set.fit.posterior.ln_evidence, &set.fit.members);
+    let with = |member: usize| {
+        let mut members = set.fit.members.clone();
+        members[at] = member;
+        let fit = bank.fit(&members)?;
+        let more = score(fit.posterior.ln_evidence, &members) - chosen;
+        Some((fit, more))
+    };
+    let all: Vec<_> = bank.members_of(set.suspects[at]).filter_map(with).collect();
+    let total = log_sum_exp(all.iter().map(|(_, more)| posterior.tempered(*more)));
+    let form = |(fit, more): (Fit, f64)| {
+        let share = (posterior.tempered(more) - total).exp();
+        let draws = (DRAWS as f64 * share).round() as usize;
+        (draws > 0).then(|| {
+            let member = fit.members[at];
+            Form::of(blamed(bank, &fit).swap_remove(at), member, draws)
+        })
+    };
+    all.into_iter().filter_map(form).collect()
+}
+
+impl Form {
+    fn of(blamed: Blamed, member: usize, draws: usize) -> Self {
+        let root = blamed.covariance.clone().cholesky();
+        let count = blamed.amounts.len();
+        Self {
+            root: root.map_or_else(|| DMatrix::zeros(count, count), |root| root.l()),
+            blamed,
+            member,
+            draws,
+        }
+    }
+
+    /// The cause as it may be as well; none where the draw is of an amount that it cannot have.
+    fn drawn(&self, bank: &Bank, random: &mut Random) -> Option<Blamed> {
+        let mean = DVector::from_column_slice(&self.blamed.amounts);
+        let normal = DVector::from_fn(mean.len(), |_, _| random.normal());
+        let amounts = mean + &self.root * normal;
+        let amounts = amounts.as_slice();
+        let can_be = bank.suspect(self.member).can_be;
+        let is_possible =
+            bank.member(self.member).has_sign(amounts) && can_be(&self.blamed.shape, amounts);
+        is_possible.then(|| Blamed {
+            amounts: amounts.to_vec(),
+            ..self.blamed.clone()
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{Toy, cycle, load, steps};
+    use super::super::{Judgement, diagnose};
+
+    /// How many of 200 intervals of an amount hold it, of how many, and the share of it that they span at most.
+    fn held(toy: impl Fn(u64) -> Toy, effect: &str, amount: f64) -> (usize, usize, f64) {
+        let interval = |seed: u64| {
+            let found = diagnose(&toy(seed), &Judgement::default());
+            let cause = found.answer.causes.into_iter().find(|c| c.effect == effect);
+            cause.and_then(|cause| cause.interval("amount"))
+        };
+        let all: Vec<[f64; 2]> = (0..200).filter_map(interval).collect();
+        let holds = |[low, high]: &&[f64; 2]| (*low..=*high).contains(&amount);
+        let spans = all.iter().map(|[low, high]| (high - low) / amount);
+        let span = spans.fold(0.0, f64::max);
+        (all.iter().filter(holds).count(), all.len(), span)
+    }
+
+    #[test]
+    fn intervals_hold_the_truth_as_often_as_they_say() {
+        let linear = |seed| Toy::new(seed, 90, steps, |i| 9.0 * (1.0 - i as f64 / 90.0));
+        let (holds, all, span) = held(linear, "base", 0.45);
+        assert!(
+            all > 190 && (92 * all..=985 * all / 10).contains(&(100 * holds)),
+            "{holds} of {all}"
+        );
+        assert!(span < 1.0, "{span}");
+        // of a shape that lies between two of the grid
+        let shaped = |seed| Toy::new(seed, 252, cycle, |i| 6.0 * (load(i) / 0.05).tanh());
+        let (holds, all, span) = held(shaped, "backlash", 6.0);
+        assert!(all > 190 && 92 * all <= 100 * holds, "{holds} of {all}");
+        assert!(span < 1.0, "{span}");
+    }
+}
