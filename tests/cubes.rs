@@ -610,28 +610,46 @@ fn a_loose_cube_that_swings_with_its_neighbour_is_named() {
     only(&named(&|_| 1.0, &share), "loose_cube", "fore-high");
 }
 
+/// Noise of displacements, m, of a file of which only some lines are kept.
+fn noise_of(bench: &Bench, kept: impl Fn(&str) -> bool) -> f64 {
+    let robot = kr300();
+    let text = bench.text(&robot);
+    let text: Vec<&str> = text.lines().filter(|line| kept(line)).collect();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("cubes.csv");
+    std::fs::write(&path, text.join("\n") + "\n").unwrap();
+    let test = CubeTest::read(&path).unwrap();
+    Case::new(test, robot).unwrap().noise
+}
+
 /// What all cubes of a test do alike is the frame's where it is known to move: their own noise is what is left.
 #[test]
 fn a_frame_that_is_known_to_move_is_no_noise_of_the_cubes() {
-    let robot = kr300();
     let bench = Bench {
         seed: 5,
         frame_mm: 0.01,
         ..usual()
     };
-    let noise = |left_out: &[&str]| {
-        let text = bench.text(&robot);
-        let kept = |line: &&str| !left_out.iter().any(|fact| line.starts_with(fact));
-        let text: Vec<&str> = text.lines().filter(kept).collect();
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("cubes.csv");
-        std::fs::write(&path, text.join("\n") + "\n").unwrap();
-        let test = CubeTest::read(&path).unwrap();
-        Case::new(test, robot.clone()).unwrap().noise
-    };
-    let known = noise(&["# sensor_noise"]);
+    let states = |line: &str, facts: &[&str]| facts.iter().any(|fact| line.starts_with(fact));
+    let known = noise_of(&bench, |line| !states(line, &["# sensor_noise"]));
     assert!((0.8e-6..1.25e-6).contains(&known), "{known:e}");
-    assert!(noise(&["# sensor_noise", "# frame_std_mm"]) > 5e-6);
+    let unknown = noise_of(&bench, |line| {
+        !states(line, &["# sensor_noise", "# frame_std_mm"])
+    });
+    assert!(unknown > 5e-6);
+}
+
+/// A load that acts in one test alone is followed whatever is read there: that says nothing of the noise.
+#[test]
+fn loads_of_which_one_is_repeated_tell_the_noise() {
+    let repeated = ["1,", "2,", "3,", "5,", "7,", "9,", "11,"];
+    let stays = |line: &str| {
+        let is_test = line.starts_with(|c: char| c.is_ascii_digit());
+        let is_kept = repeated.iter().any(|test| line.starts_with(test));
+        !line.starts_with("# sensor_noise") && (!is_test || is_kept)
+    };
+    let found = noise_of(&usual(), stays);
+    assert!((0.7e-6..1.4e-6).contains(&found), "{found:e}");
 }
 
 #[test]

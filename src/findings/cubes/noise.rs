@@ -11,6 +11,10 @@ use std::collections::BTreeMap;
 const TELLING: usize = 24;
 /// Readings that a noise told by a median is worth, of its own.
 const EFFICIENCY: f64 = 0.37;
+/// Share of the greatest singular value from which a direction of the loads counts.
+const ROUNDING: f64 = 1e-9;
+/// Share of a reading's own noise from which it is told by what the loads leave.
+const FOLLOWED: f64 = 1e-3;
 
 /// Noise of displacements, m, and of rotations, rad, each with the readings it is worth, from measured less
 /// simulated (rotations times `arm`). `None` where too little is left.
@@ -37,9 +41,8 @@ pub(super) fn told(
     }
     let noise = |(kind, (left, freedom)): (usize, (Vec<f64>, f64))| {
         let sizes: Vec<f64> = left.iter().map(|l| l.abs()).collect();
-        let share = (left.len() as f64 / freedom.max(1.0)).sqrt();
         let (unit, free) = if kind == 0 { (1.0, free) } else { (arm, 1.0) };
-        let found = median(&sizes) / 0.6745 * share / unit;
+        let found = median(&sizes) / 0.6745 / unit;
         let worth = free * freedom;
         (worth >= TELLING as f64 && found > 0.0).then_some((found, EFFICIENCY * worth))
     };
@@ -70,8 +73,8 @@ fn without_shifts(rows: &[Row], missed: &[f64]) -> (Vec<f64>, f64) {
     (all.iter().map(less).collect(), share)
 }
 
-/// What one component of one cube does that is in no proportion to forces and moments, and how many of its
-/// numbers are free.
+/// What one component of one cube does that is in no proportion to forces and moments, each of the variance of its own noise, and how
+/// many of its numbers are free.
 fn beyond_loads(test: &CubeTest, rows: &[Row], missed: &[f64], at: &[usize]) -> (Vec<f64>, usize) {
     let load = |i: usize, k: usize| {
         let reading = &test.readings[rows[i].reading];
@@ -83,21 +86,28 @@ fn beyond_loads(test: &CubeTest, rows: &[Row], missed: &[f64], at: &[usize]) -> 
     };
     let acts = |k: &usize| at.iter().any(|i| load(*i, *k) != 0.0);
     let columns: Vec<usize> = (0..6).filter(acts).collect();
-    if at.len() <= columns.len() {
-        return (Vec::new(), 0);
-    }
     if columns.is_empty() {
         // nothing loads them: all that they do is noise
         return (at.iter().map(|i| missed[*i]).collect(), at.len());
     }
     let design = DMatrix::from_fn(at.len(), columns.len(), |i, k| load(at[i], columns[k]));
-    let y = DVector::from_iterator(at.len(), at.iter().map(|i| missed[*i]));
-    let solved = design.clone().svd(true, true).solve(&y, 1e-9);
-    match solved {
-        Ok(x) => (
-            (y - design * x).as_slice().to_vec(),
-            at.len() - columns.len(),
-        ),
-        Err(_) => (Vec::new(), 0),
+    let svd = design.svd(true, false);
+    let Some(own) = svd.u else {
+        return (Vec::new(), 0);
+    };
+    let least = ROUNDING * svd.singular_values.max();
+    let acting = (0..own.ncols()).filter(|k| svd.singular_values[*k] > least);
+    let own = own.select_columns(&acting.collect::<Vec<_>>());
+    if at.len() <= own.ncols() {
+        return (Vec::new(), 0);
     }
+    let y = DVector::from_iterator(at.len(), at.iter().map(|i| missed[*i]));
+    let left = &y - &own * own.tr_mul(&y);
+    // a load of its own is followed whatever is read there
+    let free = |i: usize| 1.0 - own.row(i).norm_squared();
+    let told = (0..at.len()).filter(|i| free(*i) > FOLLOWED);
+    (
+        told.map(|i| left[i] / free(i).sqrt()).collect(),
+        at.len() - own.ncols(),
+    )
 }

@@ -2,7 +2,7 @@
 //! or beyond the last joint.
 
 use super::Case;
-use crate::causes::places::softened;
+use crate::causes::places::{LEAST_EXCESS, softened};
 use crate::findings::engine::{Blamed, Member};
 use crate::findings::physics::OnRobot;
 use crate::findings::table::{Effect, Place};
@@ -34,7 +34,7 @@ const fn effect(
         summary,
         mechanism: name,
         law_error: 0.0,
-        can_be: |_, _| true,
+        can_be: |_, amounts| amounts[0] > LEAST_EXCESS,
         places,
         parameters,
         would_tell: "put a cube on either side of it",
