@@ -81,6 +81,25 @@ fn chatter_is_said() {
     assert!(said.contains("longer `flute_mm`"), "{said}");
 }
 
+/// The part was milled, so that a simulation that runs away is wrong, and springs alone carry the tool.
+#[test]
+fn a_part_is_diagnosed_although_its_simulation_runs_away() {
+    let folder = job();
+    let job = JOB
+        .replace("= 10000.0", "= 800.0")
+        .replace("= 32.0", "= 4.0");
+    std::fs::write(folder.path().join("job.toml"), job).unwrap();
+    let part = "# kind = \"milled-part\"\n# synthetic = true\n# job = \"job.toml\"\ns_mm,dx_mm,dy_mm,dz_mm\n\
+         20,,0.01,\n22,,0.01,\n24,,0.01,\n26,,0.01,\n28,,0.01,\n";
+    std::fs::write(folder.path().join("part.csv"), part).unwrap();
+    let out = ident(folder.path(), &["diagnose", "part.csv", "--dry-run"]);
+    let said = [out.stdout, out.stderr].concat();
+    let said = String::from_utf8_lossy(&said).replace('\n', " ");
+    assert!(out.status.code().is_some_and(|code| code < 2), "{said}");
+    assert!(said.contains("(chatter)"), "{said}");
+    assert!(said.contains("springs alone carry"), "{said}");
+}
+
 /// A robot that bends and swings by more than the tool should cut.
 #[test]
 fn what_bends_or_swings_into_the_part_is_no_chatter() {

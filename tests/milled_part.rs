@@ -367,3 +367,37 @@ fn arc_lengths_from_point_to_point_are_read_as_such() {
         "{by_points} {y}"
     );
 }
+
+/// What ends on the drawn path may count from point to point as well: beside a cut that crosses an earlier one the part tells.
+#[test]
+fn the_part_tells_how_its_file_counts() {
+    let folder = tempfile::tempdir().unwrap();
+    job(folder.path(), OUTLINE, 3000.0, "");
+    let path = folder.path().join("part.csv");
+    let begun = |columns: &str, rows: &[String]| {
+        let head = "# kind = \"milled-part\"\n# synthetic = true\n# job = \"job.toml\"";
+        let rows = rows.join("\n");
+        std::fs::write(
+            &path,
+            format!("{head}\n{columns},dx_mm,dy_mm,dz_mm\n{rows}\n"),
+        )
+        .unwrap();
+        let test = PartTest::read(&path).unwrap();
+        let planned = Planned::read(&folder.path().join("job.toml")).unwrap();
+        Begun::of(test, planned).unwrap().case().unwrap()
+    };
+    // along the last leg, where it leaves the second slot behind and before it leaves the stock
+    let at = |i: i32| format!("30,{},-2,0,,", 38 + i);
+    let by_place = begun("x_mm,y_mm,z_mm", &(0..12).map(at).collect::<Vec<_>>());
+    assert!(by_place.rows.len() > 6);
+    let station = |i: usize| &by_place.stations[by_place.rows[i].station];
+    let told = |s_mm: &dyn Fn(usize) -> f64| {
+        let row = |(i, row): (usize, &ident::findings::milled_part::Row)| {
+            format!("{},{},,", s_mm(i), 1e3 * by_place.still[i] * row.across[0])
+        };
+        let rows: Vec<String> = by_place.rows.iter().enumerate().map(row).collect();
+        begun("s_mm", &rows).counts_by_points
+    };
+    assert!(told(&|i| 136.0 + 1e3 * station(i).tip[1] - 24.0));
+    assert!(!told(&|i| 1e3 * station(i).s_m));
+}

@@ -49,7 +49,7 @@ impl Measured for Case {
             doubts.push(Doubt {
                 rule: "counted",
                 weight: Weight::Note,
-                what: "`s_mm` goes beyond the end of the drawn path, and is taken to count from point to point, without the blends".into(),
+                what: "`s_mm` is taken to count from point to point, without the blends: only so it ends on the path, or what the simulation misses is less ragged so".into(),
                 remedy: "give the arc length of the path as it is drawn",
             });
         }
@@ -149,14 +149,7 @@ impl Measured for Case {
                 "{aside} of {all} probed places lie where the job cuts nothing: they are left out."
             )
         });
-        let unheard = self.swings_unheard.then(|| {
-            "The robot swings, but the job is too long to be milled again and again in time: springs and gaps are told from what they do at rest."
-                .to_string()
-        });
-        let still = self.shows_no_swing.then(|| {
-            "The robot is simulated to swing by its dampings, and the part shows nothing of it: springs alone carry the tool here. Dampings from hammer tests (`ident damping --frf`) would tell whether it swings."
-                .to_string()
-        });
+        let carried = self.carried.remark().map(String::from);
         let alone = (self.stands_out > 0).then(|| {
             format!(
                 "{} of {} probed deviations stand out alone, and count as little as that.",
@@ -164,8 +157,8 @@ impl Measured for Case {
                 self.rows.len()
             )
         });
-        let all = left_out.into_iter().chain(unheard);
-        all.chain(still).chain(alone).collect()
+        let all = left_out.into_iter().chain(carried);
+        all.chain(alone).collect()
     }
 }
 

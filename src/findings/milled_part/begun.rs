@@ -1,7 +1,8 @@
 //! A part and its job, milled as the job says and with springs alone, before it is decided which of them carries the tool in every trial.
 
+use super::carried::Carried;
 use super::counted::Counted;
-use super::stations::{Row, Station, placed, rows};
+use super::stations::{Row, Station, placed, rows, spreads};
 use super::still::{Probe, Simulated, is_still, lacks};
 use super::tried::left;
 use super::uncertain::Known;
@@ -11,8 +12,8 @@ use crate::ground::problem::Outcome;
 use crate::ground::spatial::dot;
 use crate::ground::stats::{difference, rms};
 use crate::measurement::milled_part::PartTest;
-use crate::process::Planned;
 use crate::process::setup::{Setup, Support};
+use crate::process::{self, Planned};
 use std::sync::Arc;
 
 /// Deviations of the probe, rms, from which the swing of the robot shows on the part. A choice, no measurement.
@@ -33,8 +34,10 @@ pub struct Begun {
     pub(super) setup: Setup,
     /// How the file counts its arc length.
     pub(super) counted: Counted,
-    /// Milled as the job says.
+    /// Milled as the job says; by springs alone where that runs away.
     coupled: Milled,
+    /// Whether it does: robot and cut drive one another until the job cannot go on, although the part was milled.
+    runs_away: bool,
     /// What the swing adds to every row of it, m.
     swing: Vec<f64>,
     /// Whether the part plainly shows nothing of that.
@@ -52,19 +55,6 @@ pub(super) struct Milled {
     steps: usize,
 }
 
-/// What carries the tool, and why.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum Carried {
-    /// Springs: the robot hardly swings.
-    BySprings,
-    /// Springs: it is simulated to swing, and the part shows none of it.
-    AtRest,
-    /// Springs: it swings, in a job too long for trials coupled in time.
-    Unheard,
-    /// Robot and cut coupled in time.
-    InTime,
-}
-
 /// What a case is made of.
 pub(super) struct Own {
     /// The job as it is simulated with what carries the tool.
@@ -75,6 +65,28 @@ pub(super) struct Own {
     pub swing: Vec<f64>,
 }
 
+/// Nats by which what is missed must be less ragged before a file counts otherwise than along the drawn path. A choice, no measurement.
+const PLAINLY: f64 = 2.0;
+
+/// How a file counts: as usual, or as it may as well where that plainly fits better. Springs alone tell: a swing that the part may not show
+/// differs from place to place.
+fn likeliest(
+    (usual, other): (Counted, Option<Counted>),
+    test: &PartTest,
+    setup: &Setup,
+) -> Outcome<Counted> {
+    let Some(other) = other else {
+        return Ok(usual);
+    };
+    let (run, _) = setup.run(Support::Static, |_| {})?;
+    let ragged = |counted: &Counted| {
+        let milled = Milled::of((test, counted), setup, &run);
+        milled.map_or(f64::INFINITY, |milled| milled.ragged(test))
+    };
+    let is_other = ragged(&other) < ragged(&usual) - PLAINLY;
+    Ok(if is_other { other } else { usual })
+}
+
 impl Begun {
     /// Of a file and the job that it names.
     ///
@@ -82,17 +94,26 @@ impl Begun {
     /// The job cannot be milled, or the file has a place that is not on its path.
     pub fn of(test: PartTest, planned: Planned) -> Outcome<Self> {
         let setup = planned.setup(None)?;
-        let counted = Counted::of(&test, &planned.toolpath, &setup.way);
-        let coupled = Milled::of((&test, &counted), &setup, Support::Coupled)?;
+        // what no run could be made of is refused, and not taken for a run that could not go on
+        setup.structure(Support::Coupled)?;
+        let run = |support| setup.run(support, |_| {}).map(|run| run.0);
+        let (run, runs_away) = match run(Support::Coupled) {
+            Ok(run) => (run, false),
+            Err(problem) => (run(Support::Static).map_err(|_| problem)?, true),
+        };
+        let ways = Counted::ways(&test, &planned.toolpath, &setup.way);
+        let counted = likeliest(ways, &test, &setup)?;
+        let coupled = Milled::of((&test, &counted), &setup, &run)?;
         let alone = left(&setup, &coupled.stations, Support::Static)?;
         let alone = seen(&coupled.rows, &alone);
         let swing = difference(&coupled.simulated, &alone);
-        let sways = rms(&swing) > SWAYS * probe(&test).max(LEAST);
+        let sways = !runs_away && rms(&swing) > SWAYS * probe(&test).max(LEAST);
         let is_still = sways && coupled.is_still(&alone, &test);
         Ok(Self {
             swing: if sways { swing } else { Vec::new() },
             is_still,
             coupled,
+            runs_away,
             counted,
             setup,
             test: Arc::new(test),
@@ -121,7 +142,8 @@ impl Begun {
     }
 
     fn resting(&self) -> Outcome<Case> {
-        let milled = Milled::of((&self.test, &self.counted), &self.setup, Support::Static)?;
+        let (run, _) = self.setup.run(Support::Static, |_| {})?;
+        let milled = Milled::of((&self.test, &self.counted), &self.setup, &run)?;
         let times = |m: &Milled| m.stations.iter().map(|s| s.time_s).collect::<Vec<_>>();
         let swinging = match times(&milled) == times(&self.coupled) {
             true => self.coupled.simulated.clone(),
@@ -148,6 +170,7 @@ impl Begun {
             return self.resting();
         }
         let carried = match (self.shows(), self.is_short()) {
+            _ if self.runs_away => Carried::Away,
             (true, true) => Carried::InTime,
             (true, false) => Carried::Unheard,
             (false, _) => Carried::BySprings,
@@ -165,7 +188,7 @@ impl Case {
     /// Whether a part that springs alone were taken to carry shows none of the swing beside what was found and all that is uncertain, and
     /// little besides.
     pub fn rests(&self, found: &Found) -> bool {
-        if !self.shows_no_swing {
+        if self.carried != Carried::AtRest {
             return false;
         }
         let known = self.stated().uncertain.iter();
@@ -188,21 +211,44 @@ impl Milled {
     fn of(
         (test, counted): (&PartTest, &Counted),
         setup: &Setup,
-        support: Support,
+        run: &process::run::Outcome,
     ) -> Outcome<Self> {
-        let (milled, _) = setup.run(support, |_| {})?;
-        let stations =
-            placed((test, counted), setup, &milled).map_err(|p| p.in_text(&test.path))?;
+        let stations = placed((test, counted), setup, run).map_err(|p| p.in_text(&test.path))?;
         let rows = rows(&stations);
         let left = rows
             .iter()
             .map(|row| dot(row.across, stations[row.station].deviation));
         Ok(Self {
             simulated: left.collect(),
-            steps: milled.steps,
+            steps: run.steps,
             rows,
             stations,
         })
+    }
+
+    /// How ragged is what it misses, nats: what causes do is mostly smooth from place to place, and a place that is taken for another one is not,
+    /// where the cut changes between them. Wild places count little; one where nothing is cut as much as one that stands out.
+    fn ragged(&self, test: &PartTest) -> f64 {
+        let (stations, rows) = (&self.stations, &self.rows);
+        let spread = spreads(stations, rows, probe(test), 1.0);
+        let cost = |steps: f64| (0.5 * steps * steps).ln_1p();
+        let least = probe(test).max(LEAST);
+        let when = |i: &usize| stations[rows[*i].station].time_s;
+        let missed = |i: usize| rows[i].measured - self.simulated[i];
+        let of = |left: bool| {
+            let mut own: Vec<usize> = (0..rows.len()).filter(|i| rows[*i].left == left).collect();
+            own.sort_by(|a, b| when(a).total_cmp(&when(b)));
+            let step = |pair: &[usize]| {
+                let [a, b] = [pair[0], pair[1]];
+                let spread = spread[a].hypot(spread[b]);
+                cost((missed(b) - missed(a)) / spread) + (spread / least).ln()
+            };
+            own.windows(2).map(step).sum::<f64>()
+        };
+        let each = test.readings.iter().flat_map(|reading| reading.deviation);
+        let measured: Vec<f64> = each.filter(|x| x.is_finite()).collect();
+        let left_out = test.readings.len() - stations.len();
+        of(true) + of(false) + left_out as f64 * cost(rms(&measured) / least)
     }
 
     fn is_still(&self, alone: &[f64], test: &PartTest) -> bool {

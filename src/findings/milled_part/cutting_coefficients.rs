@@ -10,7 +10,7 @@ pub(super) const EFFECT: Effect<Case> = Effect {
     summary: "The material cuts harder or easier than stated.",
     mechanism: "force",
     law_error: 0.0,
-    can_be: |shape, amounts| amounts[0].abs() > ALLOWED * shape[2],
+    can_be: |shape, amounts| amounts[0].abs() > ALLOWED * shape[2] && amounts[0] > least(shape[1]),
     places: |case| vec![Place::new("material", members(case))],
     parameters: |_, blamed| vec![("relative_change", blamed.amounts[0], "1")],
     would_tell: "record the force of the cut (`ident force`)",
@@ -44,6 +44,17 @@ fn members(case: &Case) -> Vec<Member> {
 
 /// Least factor of a coefficient: none pulls.
 const LEAST: f64 = 0.05;
+/// Form of the edge's coefficients, of which a sharp tool has hardly any, and the least change that is told of them.
+const EDGE: f64 = 4.0;
+const NO_EDGE: f64 = -1.2;
+
+/// The least change of the coefficients of a form.
+fn least(form: f64) -> f64 {
+    match form == EDGE {
+        true => NO_EDGE,
+        false => LEAST - 1.0,
+    }
+}
 
 /// Puts the cause into the material; false for others.
 pub(super) fn alter(blamed: &Blamed, setup: &mut Setup) -> bool {
@@ -56,4 +67,19 @@ pub(super) fn alter(blamed: &Blamed, setup: &mut Setup) -> bool {
             .for_each(|k| setup.material.coefficients[*k] *= factor);
     }
     own
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{EDGE, EFFECT};
+
+    /// A change that is no larger than what is stated is none of a cause, and no material pulls at the tool.
+    #[test]
+    fn a_material_that_pulls_is_none() {
+        let can_be = |change: f64| (EFFECT.can_be)(&[-1.0, 0.0, 0.1], &[change]);
+        assert!(can_be(0.5) && can_be(-0.5));
+        assert!(can_be(-0.9) && !can_be(0.1) && !can_be(-1.0));
+        // of a sharp edge nothing is left
+        assert!((EFFECT.can_be)(&[-1.0, EDGE, 0.1], &[-1.0]));
+    }
 }

@@ -4,6 +4,7 @@ mod again;
 mod anew;
 pub mod backlash;
 mod begun;
+mod carried;
 mod corner_lag;
 mod counted;
 mod cutting_coefficients;
@@ -34,7 +35,8 @@ use crate::process::Planned;
 use crate::process::setup::{Setup, Support};
 use crate::robot::Robot;
 pub use begun::Begun;
-use begun::{Carried, Milled, Own};
+use begun::{Milled, Own};
+use carried::Carried;
 use hold::{Hold, holds};
 use stations::{LAW, spreads};
 pub use stations::{Row, Station};
@@ -70,10 +72,8 @@ pub struct Case {
     swing: Vec<f64>,
     /// Whether its job is so short that many trials can be coupled in time.
     is_short: bool,
-    /// Whether the robot swings in a job that is too long for that.
-    pub swings_unheard: bool,
-    /// Whether the robot is simulated to swing, and the part shows none of it: then springs alone carry the tool.
-    pub shows_no_swing: bool,
+    /// What carries the tool.
+    pub carried: Carried,
     /// Whether the file counts its arc length from point to point, without the blends.
     pub counts_by_points: bool,
     /// Where it was probed, in the order of the file; places that are not cut are left out.
@@ -178,8 +178,7 @@ impl Case {
             swing,
             is_short: begun.is_short(),
             counts_by_points: begun.counted.is_by_points(),
-            swings_unheard: carried == Carried::Unheard,
-            shows_no_swing: carried == Carried::AtRest,
+            carried,
             planned: begun.planned.clone(),
             test: begun.test.clone(),
         })
