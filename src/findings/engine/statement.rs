@@ -267,6 +267,10 @@ pub trait Experiment: Sync {
     fn has_rough_laws(&self) -> bool {
         false
     }
+    /// Whether intervals of parameters hold the truth as often as they say, as far as was counted.
+    fn has_sure_intervals(&self) -> bool {
+        true
+    }
     /// Whether what a set leaves scatters from reading to reading and no more: then nothing beyond the set is
     /// asked for. Kinds whose readings have no neighbours cannot say.
     fn is_scatter(&self, _left: &[f64]) -> bool {

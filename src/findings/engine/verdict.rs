@@ -89,7 +89,10 @@ pub fn name(
             probability: rivals.probability(posterior, judgement),
             summary: own.summary,
             alternatives: told.collect(),
-            ci95: intervals(experiment, bank, posterior, (set, at), judgement),
+            ci95: match experiment.has_sure_intervals() {
+                true => intervals(experiment, bank, posterior, (set, at), judgement),
+                false => Vec::new(),
+            },
             parameters: experiment.parameters(&blamed[at]),
             gain: gains[at],
         });
