@@ -17,7 +17,7 @@ use std::f64::consts::TAU;
 
 /// Draws: beyond either end of an interval lie twenty-five of them.
 const DRAWS: usize = 1000;
-/// Fewest draws of what the cause can be that make an interval.
+/// Fewest draws of what the cause can be that make an interval: five beyond either end. A choice, no measurement.
 const FEWEST: usize = 200;
 /// Seed of the draws.
 const SEED: u64 = 95;

