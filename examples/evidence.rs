@@ -172,26 +172,53 @@ fn chapter(suite: &Suite, seed: u64, cases: u64) -> String {
     ];
     let typed: Vec<String> = variables.iter().map(|(k, v)| format!("{k}={v}")).collect();
     let typed = format!("{} cargo {}", typed.join(" "), words.join(" "));
+    variables.push(("RUST_BACKTRACE", "0".into()));
     let run = Command::new("cargo").args(words).envs(variables).output();
-    let said = run.map(|out| String::from_utf8_lossy(&out.stdout).into_owned());
+    // some suites write where the harness keeps nothing back
+    let said = run.map(|out| {
+        [out.stdout, out.stderr]
+            .map(|all| String::from_utf8_lossy(&all).into_owned())
+            .concat()
+    });
     let said = said.unwrap_or_else(|error| format!("could not be run: {error}"));
     format!("\n## {}\n\n`{typed}`\n\n{}", suite.shows, tables(&said))
 }
 
-/// How the harness begins lines of its own, and suites those of single cases.
-const PASSED_OVER: [&str; 6] = ["running ", "test ", "failures:", "successes:", "note:", "#"];
+/// How the harness and cargo begin lines of their own, and suites those of single cases.
+const PASSED_OVER: [&str; 13] = [
+    "running ",
+    "test ",
+    "failures:",
+    "successes:",
+    "note:",
+    "#",
+    "Compiling ",
+    "Finished ",
+    "Running ",
+    "Blocking ",
+    "error: ",
+    "warning: ",
+    "thread '",
+];
 
 /// Rows of matrices as a table, the rates as they stand; single cases and the harness's own lines left out.
 fn tables(said: &str) -> String {
-    let told = |line: &&str| {
+    let told = |line: &str| {
         let head = line.split(':').next().unwrap_or("");
+        let is_own = |own: &&str| line.trim_start().starts_with(*own);
+        let is_name = line.contains("::") && !line.trim().contains(char::is_whitespace);
         !line.trim().is_empty()
-            && !PASSED_OVER.iter().any(|own| line.starts_with(own))
+            && !is_name
+            && !PASSED_OVER.iter().any(is_own)
             && !head.ends_with(char::is_numeric)
     };
+    // what a suite asserts of far more cases than were asked is no evidence
+    let asserted = std::iter::once("").chain(said.lines());
     let (rows, rates): (Vec<&str>, Vec<&str>) = said
         .lines()
-        .filter(told)
+        .zip(asserted)
+        .filter(|(line, before)| told(line) && !before.starts_with("thread '"))
+        .map(|(line, _)| line)
         .partition(|line| line.starts_with("| "));
     let table = match rows.is_empty() {
         true => String::new(),
