@@ -144,6 +144,7 @@ fn of_strength<'a>(
             .iter()
             .all(|k| cause.card().amounts[*k].bounds[0] >= 0.0);
         form.iter().all(&seen).then(|| Member {
+            rare: 0.0,
             columns: form.iter().filter_map(|k| column(*k)).cloned().collect(),
             size: Size::Given(1.0),
             positive: positive.then(|| vec![1.0; form.len()]),

@@ -38,6 +38,7 @@ fn members(case: &Case) -> Vec<Member> {
         .enumerate()
         .map(|(k, c)| Member::given(c.clone(), ORDINARY).shaped(&[k as f64]));
     let all = Member {
+        rare: 0.0,
         within: None,
         columns: columns.clone(),
         size: Size::Given(ORDINARY),

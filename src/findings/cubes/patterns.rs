@@ -88,6 +88,7 @@ fn of_spring(case: &Case, site: &str) -> Option<Member> {
         case.rows.iter().zip(&part).map(row).collect::<Vec<f64>>()
     };
     Some(Member {
+        rare: 0.0,
         within: None,
         columns: vec![
             column(&|t| t.abs().recip()),

@@ -250,6 +250,11 @@ impl<'a> Bank<'a> {
         each.map(|(x, length)| x / length).collect()
     }
 
+    /// Rows that say how large the noise is: infinite where it is certain.
+    pub(super) fn noise_rows(&self) -> f64 {
+        self.reading.rows + self.reading.noise_rows
+    }
+
     /// The whitened reading.
     pub(super) fn whitened(&self) -> &DVector<f64> {
         &self.whitened.0

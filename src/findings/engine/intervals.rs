@@ -19,11 +19,14 @@ use std::f64::consts::TAU;
 const DRAWS: usize = 1000;
 /// Fewest draws of what the cause can be that make an interval: five beyond either end. A choice, no measurement.
 const FEWEST: usize = 200;
+/// No cube root of χ² per degree of freedom is smaller: of five rows one draw of 40 000 is.
+const SMALLEST_ROOT: f64 = 0.1;
 /// Seed of the draws.
 const SEED: u64 = 95;
 
-/// Name, value, unit of each.
-type Parameters = Vec<(&'static str, f64, &'static str)>;
+/// Name, value, unit.
+type Parameter = (&'static str, f64, &'static str);
+type Parameters = Vec<Parameter>;
 
 /// A shape that a cause may have.
 struct Form {
@@ -48,7 +51,7 @@ pub(super) fn intervals(
     let mut random = Random::new(SEED);
     let own = blamed(bank, &set.fit).swap_remove(at);
     let told = experiment.parameters(&own);
-    let alike = |one: &Parameters| one.iter().map(of_what).eq(told.iter().map(of_what));
+    let alike = |one: &Parameters| one.len() == told.len() && one.iter().zip(&told).all(same);
     let mut drawn = vec![Vec::new(); told.len()];
     let mut moves = vec![false; told.len()];
     for form in forms(bank, posterior, (set, at), judgement) {
@@ -76,16 +79,18 @@ pub(super) fn intervals(
 }
 
 /// A value as it is nearest to the one that is told: angles come again after a turn.
-fn near(told: &(&'static str, f64, &'static str), value: f64) -> f64 {
+fn near(told: &Parameter, value: f64) -> f64 {
     match told.2 {
         "rad" => value - TAU * ((value - told.1) / TAU).round(),
         _ => value,
     }
 }
 
-/// Name and unit.
-fn of_what(parameter: &(&'static str, f64, &'static str)) -> (&'static str, &'static str) {
-    (parameter.0, parameter.2)
+/// Whether both are the same parameter. A whole number without a unit says which one (an axis, a tooth, a test): another is no other
+/// value of it.
+fn same((one, told): (&Parameter, &Parameter)) -> bool {
+    let says_which = told.2 == "1" && told.1.fract() == 0.0;
+    (one.0, one.2) == (told.0, told.2) && (!says_which || one.1 == told.1)
 }
 
 /// The shapes that a suspect of a set may have beside the others as they are, by their odds.
@@ -133,7 +138,7 @@ impl Form {
     fn drawn(&self, bank: &Bank, random: &mut Random) -> Option<Blamed> {
         let mean = DVector::from_column_slice(&self.blamed.amounts);
         let normal = DVector::from_fn(mean.len(), |_, _| random.normal());
-        let amounts = mean + &self.root * normal;
+        let amounts = mean + &self.root * normal * noise_drawn(bank.noise_rows(), random);
         let amounts = amounts.as_slice();
         let can_be = bank.suspect(self.member).can_be;
         let is_possible =
@@ -143,6 +148,17 @@ impl Form {
             ..self.blamed.clone()
         })
     }
+}
+
+/// How large the noise may be for what it is said to be, where so many rows say it: amounts have Student's distribution then
+/// (1908). By Wilson and Hilferty (1931), the cube root of χ² per degree of freedom is nearly normal.
+fn noise_drawn(rows: f64, random: &mut Random) -> f64 {
+    if rows.is_infinite() {
+        return 1.0;
+    }
+    let spread = 2.0 / (9.0 * rows);
+    let root = 1.0 - spread + random.normal() * spread.sqrt();
+    root.max(SMALLEST_ROOT).powf(-1.5)
 }
 
 #[cfg(test)]
@@ -178,5 +194,27 @@ mod tests {
         let (holds, all, span) = held(shaped, "backlash", 6.0);
         assert!(all > 190 && 92 * all <= 100 * holds, "{holds} of {all}");
         assert!(span < 1.0, "{span}");
+    }
+
+    #[test]
+    fn the_draws_of_few_rows_are_those_of_student() {
+        let mut random = super::Random::new(7);
+        for (rows, end) in [(5.0, 2.571), (12.0, 2.179), (f64::INFINITY, 1.96)] {
+            let mut draw = || random.normal() * super::noise_drawn(rows, &mut random);
+            let draws: Vec<f64> = (0..40_000).map(|_| draw()).collect();
+            let drawn = super::quantile(&draws, 0.975);
+            assert!(
+                (drawn / end - 1.0).abs() < 0.03,
+                "{rows}: {drawn} for {end}"
+            );
+        }
+    }
+
+    #[test]
+    fn another_axis_is_no_other_value_of_it() {
+        let axis = |number: f64| ("to_axis", number, "1");
+        assert!(super::same((&axis(2.0), &axis(2.0))));
+        assert!(!super::same((&axis(1.0), &axis(2.0))));
+        assert!(super::same((&("share", 0.2, "1"), &("share", 0.3, "1"))));
     }
 }

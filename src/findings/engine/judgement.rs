@@ -20,6 +20,8 @@ pub struct Judgement {
     pub same_mechanism: f64,
     /// Peak of a cause's own part, in noise deviations of one reading, below which it is too small to be named (F).
     pub peak: f64,
+    /// The same of a named cause whose law is exact ([`Suspect::law_error`](super::Suspect::law_error) 0), where a kind tells the two apart.
+    pub exact_peak: Option<f64>,
     /// The share of the readings on which it acts at all that lie below that peak.
     pub peak_above: f64,
     /// Its rms as a share of all that is named, below which it does not matter (F) ...
@@ -160,6 +162,7 @@ impl Default for Judgement {
             amount: 1.0,
             same_mechanism: 10.0,
             peak: 2.0,
+            exact_peak: None,
             peak_above: 0.99,
             share: 0.09,
             share_beside_kin: 0.2,

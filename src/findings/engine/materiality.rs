@@ -70,7 +70,10 @@ impl<'a> Materiality<'a> {
         let rows = (0..part.len()).filter(acts);
         let peaks: Vec<f64> = rows.map(|i| part[i].abs()).collect();
         let noise = fit.posterior.noise_variance.sqrt();
-        quantile(&peaks, judgement.peak_above) >= judgement.peak * noise
+        let suspect = bank.suspect(fit.members[at]);
+        let is_exact = suspect.named && suspect.law_error == 0.0;
+        let exact = judgement.exact_peak.filter(|_| is_exact);
+        quantile(&peaks, judgement.peak_above) >= exact.unwrap_or(judgement.peak) * noise
     }
 
     /// The most that the laws of the others miss of the kind of this one, noise deviations rms.

@@ -165,7 +165,7 @@ pub(super) fn price(bank: &Bank, members: &[usize], judgement: &Judgement) -> f6
             Size::Free => entry.rank.saturating_sub(1) as f64,
             Size::Given(_) | Size::Drawn => 0.0,
         };
-        let shapes = (entry.forms as f64).ln();
+        let shapes = (entry.forms as f64).ln() + bank.member(*m).rare;
         judgement.name - suspect.share + shapes + judgement.amount * free
     };
     let kin = |i: usize| {

@@ -31,6 +31,8 @@ pub struct Member {
     pub within: Option<[f64; 2]>,
     /// What the kind needs to know its shape again (a width, a place, a time constant).
     pub shape: Vec<f64>,
+    /// Nats by which it is less likely than the other shapes of its suspect.
+    pub rare: f64,
 }
 
 impl Member {
@@ -42,6 +44,7 @@ impl Member {
             positive: None,
             within: None,
             shape: Vec::new(),
+            rare: 0.0,
         }
     }
 
@@ -57,6 +60,13 @@ impl Member {
     #[must_use]
     pub fn positive(mut self) -> Self {
         self.positive = Some(vec![1.0; self.columns.len()]);
+        self
+    }
+
+    /// The same, less likely by so many nats.
+    #[must_use]
+    pub fn rare(mut self, nats: f64) -> Self {
+        self.rare = nats;
         self
     }
 
@@ -267,8 +277,8 @@ pub trait Experiment: Sync {
     fn has_rough_laws(&self) -> bool {
         false
     }
-    /// Whether intervals of parameters hold the truth as often as they say, as far as was counted.
-    fn has_sure_intervals(&self) -> bool {
+    /// Whether intervals of the parameters of an effect hold the truth as often as they say, as far as was counted.
+    fn has_sure_intervals(&self, _effect: &str) -> bool {
         true
     }
     /// Whether what a set leaves scatters from reading to reading and no more: then nothing beyond the set is

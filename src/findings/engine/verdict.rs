@@ -89,7 +89,7 @@ pub fn name(
             probability: rivals.probability(posterior, judgement),
             summary: own.summary,
             alternatives: told.collect(),
-            ci95: match experiment.has_sure_intervals() {
+            ci95: match experiment.has_sure_intervals(own.effect) {
                 true => intervals(experiment, bank, posterior, (set, at), judgement),
                 false => Vec::new(),
             },

@@ -62,11 +62,13 @@ impl Measured for Case {
     }
 
     /// A cut repeats itself with every revolution of the spindle: what is smaller than the noise of one reading is
-    /// plain in so many. Another width shows on a narrow part of the turn. What scatters far beyond the noise is none.
+    /// plain in so many, and a zero of the sensor, which is the same in all cuts, in those of all. Another width shows on a narrow part of the turn. What scatters far beyond the noise is none.
     fn judgement(&self) -> Judgement {
         let usual = Judgement::default();
+        let cuts = self.cuts().len() as f64;
         Judgement {
             peak: PEAK / self.revolutions().max(1.0).sqrt(),
+            exact_peak: Some(PEAK / (self.revolutions() * cuts).max(1.0).sqrt()),
             peak_above: 0.995,
             share: LEAST_SHARE,
             negligible: LAW * self.force_rms(),

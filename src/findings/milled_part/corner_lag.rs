@@ -34,8 +34,8 @@ const LENGTHS: [f64; 6] = [0.5e-3, 1e-3, 2e-3, 4e-3, 8e-3, 16e-3];
 const WAYS: [f64; 5] = [0.15e-3, 0.3e-3, 0.6e-3, 1.2e-3, 2.4e-3];
 const TIMES: [f64; 9] = [5e-3, 7e-3, 10e-3, 14e-3, 20e-3, 28e-3, 40e-3, 56e-3, 80e-3];
 /// How much farther from its corners than asked for it may blend, m.
-const FARTHER: [f64; 9] = [
-    0.25e-3, 0.5e-3, 0.75e-3, 1e-3, 1.5e-3, 2e-3, 2.5e-3, 3e-3, 4e-3,
+const FARTHER: [f64; 12] = [
+    0.25e-3, 0.5e-3, 0.75e-3, 1e-3, 1.5e-3, 2e-3, 2.5e-3, 3e-3, 4e-3, 6e-3, 8e-3, 12e-3,
 ];
 /// The same, what is ordinary of both.
 const USUAL: [f64; 2] = [20e-3, 2e-3];

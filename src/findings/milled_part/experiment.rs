@@ -66,7 +66,7 @@ impl Experiment for Case {
     }
 
     /// Of 16 on parts by a stranger 11 held it: what is told of two causes is mostly half of it, and takes the part of the other.
-    fn has_sure_intervals(&self) -> bool {
+    fn has_sure_intervals(&self, _effect: &str) -> bool {
         false
     }
 

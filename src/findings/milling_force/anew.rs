@@ -41,7 +41,7 @@ struct Anew {
 /// The statement about some causes, with the suspects that are asked for.
 pub(super) fn about(case: &Case, blamed: &[Blamed], asked: impl Fn(&str) -> bool) -> Statement {
     let anew = Anew::of(case, blamed);
-    let mut statement = anew.all.statement();
+    let mut statement = anew.all.statement_beside(blamed);
     let reading = &mut statement.reading;
     add_to(reading, &anew.beside, 1.0);
     add_to(reading, &anew.followed, 1.0);

@@ -88,6 +88,7 @@ fn stirred(case: &Case, line: &Line) -> Option<Member> {
     let tried = each.filter(|hz| *hz > 0.0);
     let found = Sought::of(case, tried, columns, (f64::NEG_INFINITY, &nearer));
     found.map(|found| Member {
+        rare: 0.0,
         within: None,
         columns: found.columns,
         size: Size::Free,
@@ -112,6 +113,7 @@ fn tremors(case: &Case, highest: &Line) -> Vec<Member> {
     let mut each: Vec<Member> = others.filter(alike).collect();
     each.insert(0, first.clone());
     let every = (each.len() > 1).then(|| Member {
+        rare: 0.0,
         within: None,
         columns: each.iter().flat_map(|m| m.columns.clone()).collect(),
         size: Size::Free,
@@ -141,6 +143,7 @@ fn member(case: &Case, cuts: &[usize], hz: f64, axes: usize) -> Member {
         _ => 0.0,
     };
     Member {
+        rare: 0.0,
         within: None,
         columns,
         size: Size::Free,

@@ -32,6 +32,9 @@ const APART: usize = 3;
 const PLACES: usize = 72;
 const IN_A_PLACE: usize = 4;
 
+/// Effects whose amounts change the forces along no straight line.
+const BENT: [&str; 3] = ["width_of_cut", "depth_of_cut", "chipped_tooth"];
+
 impl Experiment for Case {
     fn unit(&self) -> &'static str {
         "N"
@@ -54,7 +57,7 @@ impl Experiment for Case {
                     table::patterns(PATTERNS, self),
                 ]
                 .concat(),
-                ..self.statement()
+                ..self.statement_beside(&[])
             },
             _ => super::anew::about(self, about, |_| true),
         }
@@ -67,6 +70,13 @@ impl Experiment for Case {
         names: &[(&'static str, String)],
     ) -> Statement {
         super::anew::about(self, about, |effect| names.iter().any(|n| n.0 == effect))
+    }
+
+    /// What is no straight line is told by its chord: on cuts by a stranger widths were a quarter off beside intervals of three per cent. Two
+    /// teeth show of a runout what lies along them, and of what lies across less than its law misses.
+    fn has_sure_intervals(&self, effect: &str) -> bool {
+        let hides = effect == runout::EFFECT.name && self.places().teeth == 2;
+        !hides && !BENT.contains(&effect)
     }
 
     fn parameters(&self, blamed: &Blamed) -> Vec<(&'static str, f64, &'static str)> {
@@ -122,12 +132,12 @@ impl Case {
         rms(&self.column(|c, i, k| self.simulated(c, i)[k]))
     }
 
-    /// The statement without anybody to blame.
-    pub(super) fn statement(&self) -> Statement {
+    /// The statement without anybody to blame, about causes that were found.
+    pub(super) fn statement_beside(&self, found: &[Blamed]) -> Statement {
         Statement {
             reading: self.reading(),
             noise: self.noise_of_rows(),
-            nuisances: self.nuisances(),
+            nuisances: self.nuisances(found),
             suspects: Vec::new(),
             span: self.span(),
             splits: self.splits(),
@@ -147,8 +157,11 @@ impl Case {
         }
     }
 
-    fn nuisances(&self) -> Vec<Nuisance> {
-        let loose = self.loose().into_iter();
+    fn nuisances(&self, found: &[Blamed]) -> Vec<Nuisance> {
+        // a runout that was found is all that there is: no share of it is everybody's
+        let runs_out = found.iter().any(|b| b.effect == runout::EFFECT.name);
+        let is_free = |l: &Loose| !(runs_out && runout::is_its(l));
+        let loose = self.loose().into_iter().filter(is_free);
         let column = |l: &Loose| self.along(&l.direction(self.places()));
         loose
             .map(|l| Nuisance {

@@ -1,7 +1,7 @@
 //! The tool runs out of centre.
 
 use super::Case;
-use super::aim::is_wild;
+use super::aim::{Aim, Loose, is_wild};
 use super::case::CutSamples;
 use super::coefficients::moved;
 use super::setting::PROCESS;
@@ -89,17 +89,21 @@ struct Way {
 /// The way to where a runout fits best, and its slope across.
 fn whole(case: &Case) -> Member {
     let slopes = Way::slopes(case, 0.0);
-    let amounts = case.aim().amounts(&slopes.columns);
+    let aim = &aim(case);
+    let amounts = aim.amounts(&slopes.columns);
     let mut ways = vec![slopes];
     if amounts[0].hypot(amounts[1]) > STRAIGHT * feed_per_tooth(case) / UNIT {
-        ways.extend([0.0, amounts[1].atan2(amounts[0])].map(|angle| Way::along(case, angle)));
+        ways.extend(
+            [0.0, amounts[1].atan2(amounts[0])].map(|angle| Way::along((case, aim), angle)),
+        );
     }
     let better = |a: (f64, Way), b: (f64, Way)| if b.0 > a.0 { b } else { a };
-    let arrived = ways.into_iter().map(|way| way.arrived(case));
+    let arrived = ways.into_iter().map(|way| way.arrived((case, aim)));
     let best = arrived.reduce(better).map(|best| best.1);
     let way = best.unwrap_or_else(|| Way::slopes(case, 0.0));
     let directions = [0.0, QUARTER].map(|by| towards(case, way.angle + by));
     Member {
+        rare: 0.0,
         within: None,
         columns: way.columns,
         size: Size::Free,
@@ -108,6 +112,19 @@ fn whole(case: &Case) -> Member {
             .chain(directions.into_iter().flatten())
             .collect(),
     }
+}
+
+/// What it is compared with beside what is uncertain: but for the runout that every tool has, or that is stated. A force is no straight
+/// line over it, and what is not would tell the two apart.
+fn aim(case: &Case) -> Aim {
+    let others = case.loose().into_iter().filter(|loose| !is_its(loose));
+    Aim::new(case, others.collect())
+}
+
+/// Whether a direction that is uncertain is its own.
+pub(super) fn is_its(loose: &Loose) -> bool {
+    let mut along = loose.along.iter();
+    along.any(|(place, _)| (RUNOUT..RUNOUT + 2).contains(place))
 }
 
 /// One unit of runout at an angle ahead of tooth 1.
@@ -133,24 +150,23 @@ impl Way {
     }
 
     /// The way to where it fits best along an angle, to either side.
-    fn along(case: &Case, angle: f64) -> Self {
-        let way = case.aim().secant(case, &towards(case, angle), MOST, &[]);
-        let size = case.aim().amounts(std::slice::from_ref(&way))[0].clamp(-MOST, MOST);
+    fn along((case, aim): (&Case, &Aim), angle: f64) -> Self {
+        let way = aim.secant(case, &towards(case, angle), MOST, &[]);
+        let size = aim.amounts(std::slice::from_ref(&way))[0].clamp(-MOST, MOST);
         let (angle, known) = match size < 0.0 {
             true => (angle + 2.0 * QUARTER, way.iter().map(|x| -x).collect()),
             false => (angle, way),
         };
         match size.abs() < NOTHING {
             true => Self::slopes(case, angle),
-            false => Self::slopes(case, angle).reaching(case, size.abs(), &known),
+            false => Self::slopes(case, angle).reaching((case, aim), size.abs(), &known),
         }
     }
 
     /// The way to a size at this angle, and the slope across there; `known`: the way as known so far.
-    fn reaching(&self, case: &Case, size: f64, known: &[f64]) -> Self {
-        let reached = |angle: f64, known: &[f64]| {
-            case.aim().reached(case, &towards(case, angle), size, known)
-        };
+    fn reaching(&self, (case, aim): (&Case, &Aim), size: f64, known: &[f64]) -> Self {
+        let reached =
+            |angle: f64, known: &[f64]| aim.reached(case, &towards(case, angle), size, known);
         let way = reached(self.angle, known);
         let across = match size > STRAIGHT * feed_per_tooth(case) / UNIT {
             true => {
@@ -167,11 +183,11 @@ impl Way {
     }
 
     /// The best of the ways there, with what it lowers the misfit by, nats.
-    fn arrived(mut self, case: &Case) -> (f64, Self) {
+    fn arrived(mut self, (case, aim): (&Case, &Aim)) -> (f64, Self) {
         let mut best = None;
         let mut before = 0.0;
         for _ in 0..ROUNDS {
-            let (amounts, gain) = case.aim().fitted(&self.columns);
+            let (amounts, gain) = aim.fitted(&self.columns);
             if best.as_ref().is_none_or(|(most, _)| gain > *most) {
                 best = Some((gain, self.clone()));
             }
@@ -185,7 +201,7 @@ impl Way {
             let known = self.columns[0].iter().zip(&self.columns[1]).map(turned);
             let known: Vec<f64> = known.collect();
             let slopes = Self::slopes(case, self.angle + turn);
-            let way = slopes.reaching(case, size, &known);
+            let way = slopes.reaching((case, aim), size, &known);
             if is_wild(&way.columns[0], &slopes.columns[0]) {
                 break;
             }

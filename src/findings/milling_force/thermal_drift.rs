@@ -56,6 +56,7 @@ fn member(case: &Case, constants: &[f64], axes: &[usize]) -> Member {
         .iter()
         .flat_map(|own| constants.iter().map(move |c| one(*c, *own)));
     Member {
+        rare: 0.0,
         within: None,
         columns: each.collect(),
         size: Size::Free,
