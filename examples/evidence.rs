@@ -185,7 +185,7 @@ fn chapter(suite: &Suite, seed: u64, cases: u64) -> String {
 }
 
 /// How the harness and cargo begin lines of their own, and suites those of single cases.
-const PASSED_OVER: [&str; 13] = [
+const PASSED_OVER: [&str; 16] = [
     "running ",
     "test ",
     "failures:",
@@ -196,6 +196,9 @@ const PASSED_OVER: [&str; 13] = [
     "Finished ",
     "Running ",
     "Blocking ",
+    "Downloading ",
+    "Updating ",
+    "Locking ",
     "error: ",
     "warning: ",
     "thread '",
@@ -213,12 +216,15 @@ fn tables(said: &str) -> String {
             && !head.ends_with(char::is_numeric)
     };
     // what a suite asserts of far more cases than were asked is no evidence
-    let asserted = std::iter::once("").chain(said.lines());
+    let mut asserts = false;
+    let is_free = |line: &&str| {
+        asserts = (asserts || line.starts_with("thread '")) && !line.starts_with("note:");
+        !asserts
+    };
     let (rows, rates): (Vec<&str>, Vec<&str>) = said
         .lines()
-        .zip(asserted)
-        .filter(|(line, before)| told(line) && !before.starts_with("thread '"))
-        .map(|(line, _)| line)
+        .filter(is_free)
+        .filter(|line| told(line))
         .partition(|line| line.starts_with("| "));
     let table = match rows.is_empty() {
         true => String::new(),

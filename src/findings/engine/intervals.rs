@@ -1,8 +1,8 @@
 //! 95 % intervals of the parameters of a cause.
 //!
 //! Its amounts are drawn within their doubt, which holds what all that is uncertain and the other causes of the set may have lent
-//! it, and its shape from those that it can have, each by its evidence. What is a number of the shape alone (a time constant, a
-//! frequency) was looked for on a grid: it has no interval.
+//! it, and within the share of them that its law may miss; its shape is drawn from those that it can have, each by its evidence.
+//! What is a number of the shape alone (a time constant, a frequency) was looked for on a grid: it has no interval.
 
 use super::bank::{Bank, Fit};
 use super::blamed::blamed;
@@ -11,7 +11,7 @@ use super::posterior::Posterior;
 use super::search::{Scored, price};
 use super::statement::{Blamed, Experiment};
 use crate::ground::random::Random;
-use crate::ground::stats::{log_sum_exp, quantile};
+use crate::ground::stats::{Z95, log_sum_exp, quantile};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 
@@ -86,10 +86,21 @@ fn near(told: &Parameter, value: f64) -> f64 {
     }
 }
 
-/// Whether both are the same parameter. A whole number without a unit says which one (an axis, a tooth, a test): another is no other
-/// value of it.
+/// Names of parameters that say which one it is: another is no other value of it.
+const WHICH: [&str; 8] = [
+    "axis",
+    "from_axis",
+    "to_axis",
+    "cut",
+    "test",
+    "hits",
+    "harmonic",
+    "per_turn_of_the_link",
+];
+
+/// Whether both are the same parameter.
 fn same((one, told): (&Parameter, &Parameter)) -> bool {
-    let says_which = told.2 == "1" && told.1.fract() == 0.0;
+    let says_which = WHICH.contains(&told.0);
     (one.0, one.2) == (told.0, told.2) && (!says_which || one.1 == told.1)
 }
 
@@ -139,10 +150,12 @@ impl Form {
         let mean = DVector::from_column_slice(&self.blamed.amounts);
         let normal = DVector::from_fn(mean.len(), |_, _| random.normal());
         let amounts = mean + &self.root * normal * noise_drawn(bank.noise_rows(), random);
+        let suspect = bank.suspect(self.member);
+        let missed = suspect.law_error / Z95 * random.normal();
+        let amounts = amounts * (1.0 + missed);
         let amounts = amounts.as_slice();
-        let can_be = bank.suspect(self.member).can_be;
-        let is_possible =
-            bank.member(self.member).has_sign(amounts) && can_be(&self.blamed.shape, amounts);
+        let is_possible = bank.member(self.member).has_sign(amounts)
+            && (suspect.can_be)(&self.blamed.shape, amounts);
         is_possible.then(|| Blamed {
             amounts: amounts.to_vec(),
             ..self.blamed.clone()

@@ -94,7 +94,10 @@ impl Anew {
         let mut followed = vec![0.0; places.len()];
         for _ in 0..ROUNDS {
             let nothing = vec![0.0; case.column(|_, _, _| 0.0).len()];
-            let uncertain = all.aim().uncertain(&all, 0.0, &nothing);
+            let uncertain = match runout::is_all(case, blamed) {
+                true => runout::aim(&all).uncertain(&all, 0.0, &nothing),
+                false => all.aim().uncertain(&all, 0.0, &nothing),
+            };
             for c in 0..places.cuts {
                 let (at, most) = (places.phase(c), FARTHEST * all.turn(c));
                 turned[at] = (turned[at] + uncertain[at]).clamp(-most, most);

@@ -73,7 +73,7 @@ impl Experiment for Case {
     }
 
     /// What is no straight line is told by its chord: on cuts by a stranger widths were a quarter off beside intervals of three per cent. Two
-    /// teeth show of a runout what lies along them, and of what lies across less than its law misses.
+    /// teeth show of a runout what lies along them; what lies across, a twentieth of that in one of these cuts, is less than its law misses.
     fn has_sure_intervals(&self, effect: &str) -> bool {
         let hides = effect == runout::EFFECT.name && self.places().teeth == 2;
         !hides && !BENT.contains(&effect)
@@ -158,9 +158,8 @@ impl Case {
     }
 
     fn nuisances(&self, found: &[Blamed]) -> Vec<Nuisance> {
-        // a runout that was found is all that there is: no share of it is everybody's
-        let runs_out = found.iter().any(|b| b.effect == runout::EFFECT.name);
-        let is_free = |l: &Loose| !(runs_out && runout::is_its(l));
+        let is_all = runout::is_all(self, found);
+        let is_free = |l: &Loose| !(is_all && runout::is_its(l));
         let loose = self.loose().into_iter().filter(is_free);
         let column = |l: &Loose| self.along(&l.direction(self.places()));
         loose

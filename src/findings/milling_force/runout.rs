@@ -6,7 +6,7 @@ use super::case::CutSamples;
 use super::coefficients::moved;
 use super::setting::PROCESS;
 use crate::experiments::milling_force::RUNOUT;
-use crate::findings::engine::Member;
+use crate::findings::engine::{Blamed, Member};
 use crate::findings::table::{Effect, Place};
 use crate::inference::gaussian::Size;
 use std::f64::consts::FRAC_PI_2 as QUARTER;
@@ -114,11 +114,18 @@ fn whole(case: &Case) -> Member {
     }
 }
 
-/// What it is compared with beside what is uncertain: but for the runout that every tool has, or that is stated. A force is no straight
-/// line over it, and what is not would tell the two apart.
-fn aim(case: &Case) -> Aim {
-    let others = case.loose().into_iter().filter(|loose| !is_its(loose));
-    Aim::new(case, others.collect())
+/// What it is compared with beside what is uncertain: where nobody states one, but for the runout that every tool has. The force is no
+/// straight line over it, and what is not would tell the two apart.
+pub(super) fn aim(case: &Case) -> Aim {
+    let is_stated = case.file().facts.runout_m.is_some();
+    let is_other = |loose: &Loose| is_stated || !is_its(loose);
+    Aim::new(case, case.loose().into_iter().filter(is_other).collect())
+}
+
+/// Whether a runout that was found is all that there is: nobody states one, and no share of it is everybody's.
+pub(super) fn is_all(case: &Case, found: &[Blamed]) -> bool {
+    let is_stated = case.file().facts.runout_m.is_some();
+    !is_stated && found.iter().any(|b| b.effect == EFFECT.name)
 }
 
 /// Whether a direction that is uncertain is its own.
