@@ -144,12 +144,12 @@ fn of_strength<'a>(
             .iter()
             .all(|k| cause.card().amounts[*k].bounds[0] >= 0.0);
         form.iter().all(&seen).then(|| Member {
-            rare: 0.0,
             columns: form.iter().filter_map(|k| column(*k)).cloned().collect(),
             size: Size::Given(1.0),
             positive: positive.then(|| vec![1.0; form.len()]),
             within: strength.within,
             shape: strength.shape(index as f64),
+            ..Member::free(Vec::new())
         })
     };
     let likely: Vec<bool> = cause.shares().iter().map(|s| *s >= LEAST).collect();

@@ -128,12 +128,10 @@ pub fn each_and_all(count: usize, column: impl Fn(usize) -> Vec<f64>) -> Vec<Mem
 /// Columns as one flexible member, their amounts drawn together about zero; none where there is no column.
 pub fn flexible(columns: Vec<Vec<f64>>) -> Vec<Member> {
     let member = Member {
-        rare: 0.0,
-        within: None,
         columns,
         size: Size::Drawn,
-        positive: None,
         shape: Vec::new(),
+        ..Member::free(Vec::new())
     };
     let acts = member.columns.iter().flatten().any(|x| *x != 0.0);
     acts.then_some(member).into_iter().collect()

@@ -38,12 +38,10 @@ fn members(case: &Case) -> Vec<Member> {
         .enumerate()
         .map(|(k, c)| Member::given(c.clone(), ORDINARY).shaped(&[k as f64]));
     let all = Member {
-        rare: 0.0,
-        within: None,
         columns: columns.clone(),
         size: Size::Given(ORDINARY),
-        positive: None,
         shape: vec![3.0],
+        ..Member::free(Vec::new())
     };
     single.chain([all]).collect()
 }

@@ -88,16 +88,14 @@ fn of_spring(case: &Case, site: &str) -> Option<Member> {
         case.rows.iter().zip(&part).map(row).collect::<Vec<f64>>()
     };
     Some(Member {
-        rare: 0.0,
-        within: None,
         columns: vec![
             column(&|t| t.abs().recip()),
             column(&|t| t.signum()),
             column(&|t| t.abs()),
         ],
         size: Size::Free,
-        positive: None,
         shape: vec![0.0],
+        ..Member::free(Vec::new())
     })
 }
 

@@ -280,3 +280,31 @@ fn kin_are_weighed_where_they_have_arrived_and_strangers_by_their_straight_lines
     assert!(by_lines <= 4, "{by_lines}");
     assert_eq!(groups(Peers::Kin, false), by_lines);
 }
+
+/// Of two shapes that do the same the rarer one is none.
+#[test]
+fn what_is_rare_stands_behind_what_does_the_same() {
+    let twins = |rows: usize| {
+        let column = || Member::free((0..rows).map(|i| f64::from(i > rows / 3)).collect());
+        vec![
+            ("plain", vec![column()]),
+            ("seldom", vec![column().rare(20.0)]),
+        ]
+    };
+    let toy = Toy::new(5, 120, twins, |i| if i > 40 { 6.0 } else { 0.0 });
+    assert_eq!(toy.names(), (vec!["plain"], Verdict::Explained));
+}
+
+#[test]
+fn what_is_exact_may_be_smaller_where_a_kind_says_so() {
+    let level = |rows: usize| vec![("level", vec![Member::free(vec![1.0; rows])])];
+    let toy = Toy::new(3, 400, level, |_| 0.9);
+    let told = |exact_peak: Option<f64>| {
+        let judgement = Judgement {
+            exact_peak,
+            ..Judgement::default()
+        };
+        diagnose(&toy, &judgement).answer.causes.len()
+    };
+    assert_eq!((told(None), told(Some(0.3))), (0, 1));
+}

@@ -62,7 +62,8 @@ impl Measured for Case {
     }
 
     /// A cut repeats itself with every revolution of the spindle: what is smaller than the noise of one reading is
-    /// plain in so many, and a zero of the sensor, which is the same in all cuts, in those of all. Another width shows on a narrow part of the turn. What scatters far beyond the noise is none.
+    /// plain in so many, and a zero of the sensor, which is the same in all cuts, in those of all. Another width shows on a narrow part of
+    /// the turn. What scatters far beyond the noise is none.
     fn judgement(&self) -> Judgement {
         let usual = Judgement::default();
         let cuts = self.cuts().len() as f64;

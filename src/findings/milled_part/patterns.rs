@@ -93,11 +93,9 @@ fn drawn(columns: Vec<Vec<f64>>) -> Option<Member> {
     let acts = |c: &Vec<f64>| c.iter().any(|x| x.abs() > 1e-9);
     let columns: Vec<Vec<f64>> = columns.into_iter().filter(acts).collect();
     (!columns.is_empty()).then_some(Member {
-        rare: 0.0,
-        within: None,
         columns,
         size: Size::Drawn,
-        positive: None,
         shape: vec![-1.0],
+        ..Member::free(Vec::new())
     })
 }

@@ -87,11 +87,9 @@ fn bend(case: &Case, axes: &[usize]) -> Member {
     let mut columns = vec![column(&|x| x * x), column(&|x| x * x.abs())];
     columns.extend(LIMITS.map(|limit| column(&beyond(limit))));
     Member {
-        rare: 0.0,
-        within: None,
         columns,
         size: Size::Free,
-        positive: None,
         shape: vec![axes.len() as f64],
+        ..Member::free(Vec::new())
     }
 }

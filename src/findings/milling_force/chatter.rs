@@ -88,12 +88,10 @@ fn stirred(case: &Case, line: &Line) -> Option<Member> {
     let tried = each.filter(|hz| *hz > 0.0);
     let found = Sought::of(case, tried, columns, (f64::NEG_INFINITY, &nearer));
     found.map(|found| Member {
-        rare: 0.0,
-        within: None,
         columns: found.columns,
         size: Size::Free,
-        positive: None,
         shape: vec![SENSOR, (line.cut + 1) as f64, found.at, TREMOR],
+        ..Member::free(Vec::new())
     })
 }
 
@@ -113,14 +111,12 @@ fn tremors(case: &Case, highest: &Line) -> Vec<Member> {
     let mut each: Vec<Member> = others.filter(alike).collect();
     each.insert(0, first.clone());
     let every = (each.len() > 1).then(|| Member {
-        rare: 0.0,
-        within: None,
         columns: each.iter().flat_map(|m| m.columns.clone()).collect(),
         size: Size::Free,
-        positive: None,
         shape: std::iter::once(SENSOR)
             .chain(each.iter().flat_map(|m| m.shape[1..].to_vec()))
             .collect(),
+        ..Member::free(Vec::new())
     });
     std::iter::once(first).chain(every).collect()
 }
@@ -143,12 +139,10 @@ fn member(case: &Case, cuts: &[usize], hz: f64, axes: usize) -> Member {
         _ => 0.0,
     };
     Member {
-        rare: 0.0,
-        within: None,
         columns,
         size: Size::Free,
-        positive: None,
         shape: vec![SENSOR, number, hz, axes as f64],
+        ..Member::free(Vec::new())
     }
 }
 

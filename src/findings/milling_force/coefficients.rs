@@ -59,14 +59,12 @@ const MOST: f64 = 3.0;
 /// A cause of the process along directions of the vector.
 pub(super) fn member(case: &Case, directions: &[Vec<f64>]) -> Member {
     Member {
-        rare: 0.0,
-        within: None,
         columns: directions.iter().map(|d| case.along(d)).collect(),
         size: Size::Free,
-        positive: None,
         shape: std::iter::once(PROCESS)
             .chain(directions.iter().flatten().copied())
             .collect(),
+        ..Member::free(Vec::new())
     }
 }
 

@@ -132,7 +132,7 @@ impl Case {
         rms(&self.column(|c, i, k| self.simulated(c, i)[k]))
     }
 
-    /// The statement without anybody to blame, about causes that were found.
+    /// The statement without anybody to blame, beside causes that were found.
     pub(super) fn statement_beside(&self, found: &[Blamed]) -> Statement {
         Statement {
             reading: self.reading(),

@@ -103,14 +103,12 @@ fn whole(case: &Case) -> Member {
     let way = best.unwrap_or_else(|| Way::slopes(case, 0.0));
     let directions = [0.0, QUARTER].map(|by| towards(case, way.angle + by));
     Member {
-        rare: 0.0,
-        within: None,
         columns: way.columns,
         size: Size::Free,
-        positive: None,
         shape: std::iter::once(PROCESS)
             .chain(directions.into_iter().flatten())
             .collect(),
+        ..Member::free(Vec::new())
     }
 }
 

@@ -30,14 +30,12 @@ pub(super) const EFFECT: Effect<Case> = Effect {
 fn member(case: &Case, axes: &[usize]) -> Member {
     let one = |own: &usize| case.column(|_, _, k| f64::from(u8::from(k == *own)));
     Member {
-        rare: 0.0,
-        within: None,
         columns: axes.iter().map(one).collect(),
         size: Size::Free,
-        positive: None,
         shape: [SENSOR]
             .into_iter()
             .chain(axes.iter().map(|k| *k as f64))
             .collect(),
+        ..Member::free(Vec::new())
     }
 }

@@ -56,14 +56,12 @@ fn member(case: &Case, constants: &[f64], axes: &[usize]) -> Member {
         .iter()
         .flat_map(|own| constants.iter().map(move |c| one(*c, *own)));
     Member {
-        rare: 0.0,
-        within: None,
         columns: each.collect(),
         size: Size::Free,
-        positive: None,
         shape: [SENSOR, constants[0], constants.len() as f64]
             .into_iter()
             .chain(axes.iter().map(|k| *k as f64))
             .collect(),
+        ..Member::free(Vec::new())
     }
 }
