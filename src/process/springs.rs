@@ -9,7 +9,7 @@ use super::structure::{Bout, Structure, Tick};
 use super::way::Moment;
 use crate::cutting::cutter::Cutter;
 use crate::ground::problem::Outcome;
-use crate::ground::spatial::{M3, V3, add, rotate, sub};
+use crate::ground::spatial::{M3, V3, add, dot, rotate, scale, sub};
 
 /// The robot as a spring at the tool that changes with the pose.
 #[derive(Debug, Clone)]
@@ -27,6 +27,8 @@ pub struct Springs {
     slack_at_first: V3,
     pose: Vec<f64>,
     deviation: V3,
+    /// The last step of it, m.
+    gone: V3,
 }
 
 /// Joint motion beyond which the compliance is computed anew, rad.
@@ -50,6 +52,7 @@ impl Springs {
             sag: [0.0; 3],
             pose: start.joints.clone(),
             deviation: [0.0; 3],
+            gone: [0.0; 3],
             carrier,
             held,
         })
@@ -83,6 +86,18 @@ impl Springs {
     }
 }
 
+/// A step from where the tool stood to where it would stand: half of it where it turns back as far as the last one went. Width and depth of the cut
+/// follow the tool a tooth late, and the way back and forth would grow where the robot is soft; a tool at rest stands where it would.
+fn calmed(step: V3, last: V3) -> V3 {
+    match dot(step, last) < -TURNS * dot(last, last) {
+        true => scale(0.5, step),
+        false => step,
+    }
+}
+
+/// Share of the last step from which on a step back is half one.
+const TURNS: f64 = 0.25;
+
 impl Structure for Springs {
     fn deviation(&self) -> V3 {
         self.deviation
@@ -103,7 +118,8 @@ impl Structure for Springs {
             Ok((place, add(load.force, answered)))
         };
         let (place, force, slack) = self.loose.settle(&self.held, self.slack, solved)?;
-        self.deviation = place;
+        self.gone = calmed(sub(place, before), self.gone);
+        self.deviation = add(before, self.gone);
         self.rest(slack, force);
         Ok(Bout {
             force,
@@ -129,5 +145,28 @@ impl Structure for Springs {
 
     fn steps_per_tick(&self, _: &Cutter) -> usize {
         1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::calmed;
+
+    #[test]
+    fn a_step_that_turns_back_is_halved() {
+        let last = [2e-6, 0.0, 1e-6];
+        let back = [-1.9e-6, 0.0, -1e-6];
+        assert_eq!(calmed(back, last), [-0.95e-6, 0.0, -0.5e-6]);
+        assert_eq!(calmed([1e-6, 0.0, 0.0], last), [1e-6, 0.0, 0.0]);
+        let little = [-0.2e-6, 0.0, 0.0];
+        assert_eq!(calmed(little, last), little);
+        // one that grows from step to step dies out
+        let (mut at, mut gone) = ([1e-6, 0.0, 0.0], [0.0; 3]);
+        for _ in 0..40 {
+            let step = [-2.4 * at[0], 0.0, 0.0];
+            gone = calmed(step, gone);
+            at[0] += gone[0];
+        }
+        assert!(at[0].abs() < 1e-9, "{}", at[0]);
     }
 }
