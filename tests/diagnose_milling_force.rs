@@ -356,3 +356,19 @@ fn a_width_by_straight_teeth_is_named() {
     let named: Vec<&str> = found.answer.causes.iter().map(|c| c.effect).collect();
     assert_eq!(named, ["width_of_cut"], "{:?}", found.answer.verdict);
 }
+
+/// What changes the forces along no straight line is told by where it fits best: the chord to it, by which it is found, is up to a quarter
+/// off in cuts by strangers.
+#[test]
+fn a_width_is_told_by_where_it_fits_best() {
+    let mut bench = Bench::new(3);
+    bench.done[2..].iter_mut().for_each(|p| p.width += 0.7);
+    let found = bench.found(|_| ());
+    let cause = &found.answer.causes[0];
+    let told = cause.parameters.iter().find(|p| p.0 == "width_error");
+    let value = told.unwrap().1;
+    let [low, high] = cause.interval("width_error").unwrap();
+    assert!((value / 0.7e-3 - 1.0).abs() < 0.1, "{value}");
+    assert!(low <= 0.7e-3 && 0.7e-3 <= high, "{low} to {high}");
+    assert!(high - low < 0.35e-3, "{low} to {high}");
+}

@@ -1,5 +1,6 @@
 //! The whole way: from a kind's statement to its answer.
 
+use super::arrival::arrived;
 use super::bank::{Bank, Fit};
 use super::beside_rest::less_doubtful;
 use super::blamed::blamed as causes;
@@ -62,7 +63,7 @@ pub fn diagnose(experiment: &dyn Experiment, judgement: &Judgement) -> Found {
         true => found,
         false => rounds::settled(experiment, (first, found), judgement),
     };
-    less_doubtful(experiment, found, judgement)
+    arrived(experiment, less_doubtful(experiment, found, judgement))
 }
 
 /// The statement without suspects that change nothing here: they have no column to be compared by.

@@ -4,6 +4,7 @@
 //! it, and within the share of them that its law may miss; its shape is drawn from those that it can have, each by its evidence.
 //! What is a number of the shape alone (a time constant, a frequency) was looked for on a grid: it has no interval.
 
+use super::arrival::Arrival;
 use super::bank::{Bank, Fit};
 use super::blamed::blamed;
 use super::judgement::Judgement;
@@ -28,14 +29,21 @@ const SEED: u64 = 95;
 type Parameter = (&'static str, f64, &'static str);
 type Parameters = Vec<Parameter>;
 
+/// Whether amounts are possible.
+type Asked<'a> = Box<dyn Fn(&[f64]) -> bool + 'a>;
+
 /// A shape that a cause may have.
-struct Form {
+struct Form<'a> {
     /// The cause of that shape, with its most probable amounts.
     blamed: Blamed,
-    /// The member of the bank that it is.
-    member: usize,
     /// Square root of the covariance of its amounts.
     root: DMatrix<f64>,
+    /// Share of them by which its law may miss.
+    law_error: f64,
+    /// Rows that the noise is known by.
+    rows: f64,
+    /// Whether it can be of these amounts.
+    can_be: Asked<'a>,
     /// How many draws it is worth.
     draws: usize,
 }
@@ -48,15 +56,43 @@ pub(super) fn intervals(
     (set, at): (&Scored, usize),
     judgement: &Judgement,
 ) -> Vec<(&'static str, [f64; 2])> {
-    let mut random = Random::new(SEED);
     let own = blamed(bank, &set.fit).swap_remove(at);
-    let told = experiment.parameters(&own);
+    held(
+        experiment,
+        &own,
+        forms(bank, posterior, (set, at), judgement),
+    )
+}
+
+/// Intervals of a cause where it fits best: it has the shape that it was found in.
+pub(super) fn of_arrival(
+    experiment: &dyn Experiment,
+    arrival: &Arrival,
+) -> Vec<(&'static str, [f64; 2])> {
+    let shape = &arrival.blamed.shape;
+    let form = Form {
+        law_error: arrival.law_error,
+        rows: arrival.rows,
+        can_be: Box::new(|amounts| (arrival.can_be)(shape, amounts)),
+        ..Form::of(arrival.blamed.clone(), DRAWS)
+    };
+    held(experiment, &arrival.blamed, vec![form])
+}
+
+/// What nineteen of twenty draws of these forms lie within, by name.
+fn held(
+    experiment: &dyn Experiment,
+    own: &Blamed,
+    forms: Vec<Form>,
+) -> Vec<(&'static str, [f64; 2])> {
+    let mut random = Random::new(SEED);
+    let told = experiment.parameters(own);
     let alike = |one: &Parameters| one.len() == told.len() && one.iter().zip(&told).all(same);
     let mut drawn = vec![Vec::new(); told.len()];
     let mut moves = vec![false; told.len()];
-    for form in forms(bank, posterior, (set, at), judgement) {
+    for form in forms {
         for _ in 0..form.draws {
-            let one = form.drawn(bank, &mut random);
+            let one = form.drawn(&mut random);
             let Some(one) = one.map(|one| experiment.parameters(&one)).filter(alike) else {
                 continue;
             };
@@ -105,12 +141,12 @@ fn same((one, told): (&Parameter, &Parameter)) -> bool {
 }
 
 /// The shapes that a suspect of a set may have beside the others as they are, by their odds.
-fn forms(
-    bank: &Bank,
+fn forms<'a>(
+    bank: &'a Bank,
     posterior: &Posterior,
     (set, at): (&Scored, usize),
     judgement: &Judgement,
-) -> Vec<Form> {
+) -> Vec<Form<'a>> {
     let score = |evidence: f64, members: &[usize]| evidence - price(bank, members, judgement);
     let chosen = score(set.fit.posterior.ln_evidence, &set.fit.members);
     let with = |member: usize| {
@@ -126,37 +162,45 @@ fn forms(
         let share = (posterior.tempered(more) - total).exp();
         let draws = (DRAWS as f64 * share).round() as usize;
         (draws > 0).then(|| {
-            let member = fit.members[at];
-            Form::of(blamed(bank, &fit).swap_remove(at), member, draws)
+            let (member, suspect) = (bank.member(fit.members[at]), bank.suspect(fit.members[at]));
+            let shape = member.shape.clone();
+            Form {
+                law_error: suspect.law_error,
+                rows: bank.noise_rows(),
+                can_be: Box::new(move |amounts| {
+                    member.has_sign(amounts) && (suspect.can_be)(&shape, amounts)
+                }),
+                ..Form::of(blamed(bank, &fit).swap_remove(at), draws)
+            }
         })
     };
     all.into_iter().filter_map(form).collect()
 }
 
-impl Form {
-    fn of(blamed: Blamed, member: usize, draws: usize) -> Self {
+impl Form<'_> {
+    /// Of a cause whose law is right, and whose noise and amounts may be any.
+    fn of(blamed: Blamed, draws: usize) -> Self {
         let root = blamed.covariance.clone().cholesky();
         let count = blamed.amounts.len();
         Self {
             root: root.map_or_else(|| DMatrix::zeros(count, count), |root| root.l()),
             blamed,
-            member,
+            law_error: 0.0,
+            rows: f64::INFINITY,
+            can_be: Box::new(|_| true),
             draws,
         }
     }
 
     /// The cause as it may be as well; none where the draw is of an amount that it cannot have.
-    fn drawn(&self, bank: &Bank, random: &mut Random) -> Option<Blamed> {
+    fn drawn(&self, random: &mut Random) -> Option<Blamed> {
         let mean = DVector::from_column_slice(&self.blamed.amounts);
         let normal = DVector::from_fn(mean.len(), |_, _| random.normal());
-        let amounts = mean + &self.root * normal * noise_drawn(bank.noise_rows(), random);
-        let suspect = bank.suspect(self.member);
-        let missed = suspect.law_error / Z95 * random.normal();
+        let amounts = mean + &self.root * normal * noise_drawn(self.rows, random);
+        let missed = self.law_error / Z95 * random.normal();
         let amounts = amounts * (1.0 + missed);
         let amounts = amounts.as_slice();
-        let is_possible = bank.member(self.member).has_sign(amounts)
-            && (suspect.can_be)(&self.blamed.shape, amounts);
-        is_possible.then(|| Blamed {
+        (self.can_be)(amounts).then(|| Blamed {
             amounts: amounts.to_vec(),
             ..self.blamed.clone()
         })

@@ -17,10 +17,11 @@
 //! 8. `beside_rest`: names that what is left makes doubtful.
 //!
 //! Kinds that are not linear go this way again and again (`rounds`), as long as what was found is bent (`bend`), and their rivals too
-//! (`peers`).
+//! (`peers`), and what is bent is told by where it fits best (`arrival`).
 //!
 //! Every number that decides stands in [`Judgement`], with its reason.
 
+mod arrival;
 mod aspect;
 pub mod bank;
 mod bend;
@@ -51,6 +52,7 @@ pub mod verdict;
 #[cfg(test)]
 mod tests;
 
+pub use arrival::Arrival;
 pub use aspect::Aspects;
 pub use diagnosis::{Found, diagnose};
 pub use judgement::Judgement;

@@ -1,5 +1,6 @@
 //! What a kind of measurement brings to its diagnosis.
 
+use super::arrival::Arrival;
 use super::aspect::Aspects;
 use super::noise::Noise;
 use crate::inference::gaussian::Size;
@@ -285,6 +286,10 @@ pub trait Experiment: Sync {
     /// asked for. Kinds whose readings have no neighbours cannot say.
     fn is_scatter(&self, _left: &[f64]) -> bool {
         false
+    }
+    /// Causes that are told by where they fit best beside all others that were found. None: as the last statement has them.
+    fn arrived(&self, _found: &[Blamed]) -> Vec<Arrival> {
+        Vec::new()
     }
     /// The parameters of a named cause: name, value SI, unit.
     fn parameters(&self, blamed: &Blamed) -> Vec<(&'static str, f64, &'static str)>;

@@ -67,7 +67,7 @@ fn add_to(sum: &mut [f64], part: &[f64], factor: f64) {
 }
 
 /// What a cause makes of forces, if that is all it does.
-fn map(blamed: &Blamed) -> Option<M3> {
+pub(super) fn map(blamed: &Blamed) -> Option<M3> {
     [force_gain::map, cross_talk::map]
         .iter()
         .find_map(|of| of(blamed))
@@ -264,7 +264,7 @@ fn combined(case: &Case, turned: &[f64], blamed: &[Blamed], but: &str) -> Case {
 }
 
 /// What causes add that are neither of the process nor done to forces.
-fn beside(case: &Case, blamed: &[Blamed], but: &str) -> Vec<f64> {
+pub(super) fn beside(case: &Case, blamed: &[Blamed], but: &str) -> Vec<f64> {
     let mut sum = case.column(|_, _, _| 0.0);
     for cause in blamed.iter().filter(|b| b.effect != but && !is_in_place(b)) {
         add_to(&mut sum, &cause.part, 1.0);

@@ -1,13 +1,14 @@
 //! The statement of a milling-force file for the engine.
 
 use super::aim::Loose;
+use super::arrived::BENT;
 use super::noise::Coloured;
 use super::patterns::PATTERNS;
 use super::{Case, EFFECTS, runout};
 use crate::cutting::wave::Side;
 use crate::experiments::milling_force::RUNOUT;
 use crate::findings::engine::{
-    Aspects, Blamed, Experiment, Noise, Nuisance, Peers, Remaining, Statement, White,
+    Arrival, Aspects, Blamed, Experiment, Noise, Nuisance, Peers, Remaining, Statement, White,
 };
 use crate::findings::table;
 use crate::fit::cut_force::{BANDWIDTH_STD, BORDER_SHARE};
@@ -31,9 +32,6 @@ const APART: usize = 3;
 /// Places of a turn at which forces are one pattern, and the fewest samples of one: a choice, no other values were tried.
 const PLACES: usize = 72;
 const IN_A_PLACE: usize = 4;
-
-/// Effects whose amounts change the forces along no straight line.
-const BENT: [&str; 3] = ["width_of_cut", "depth_of_cut", "chipped_tooth"];
 
 impl Experiment for Case {
     fn unit(&self) -> &'static str {
@@ -72,11 +70,13 @@ impl Experiment for Case {
         super::anew::about(self, about, |effect| names.iter().any(|n| n.0 == effect))
     }
 
-    /// What is no straight line is told by its chord: on cuts by a stranger widths were a quarter off beside intervals of three per cent. Two
-    /// teeth show of a runout what lies along them; what lies across, a twentieth of that in one of these cuts, is less than its law misses.
+    /// A chord to what is no straight line may be a quarter off (widths of cuts by a stranger), unless it arrives; of runouts the two-toothed.
     fn has_sure_intervals(&self, effect: &str) -> bool {
-        let hides = effect == runout::EFFECT.name && self.places().teeth == 2;
-        !hides && !BENT.contains(&effect)
+        !BENT.contains(&effect) || effect == runout::EFFECT.name && self.places().teeth > 2
+    }
+
+    fn arrived(&self, found: &[Blamed]) -> Vec<Arrival> {
+        super::arrived::arrived(self, found)
     }
 
     fn parameters(&self, blamed: &Blamed) -> Vec<(&'static str, f64, &'static str)> {
@@ -145,7 +145,8 @@ impl Case {
         }
     }
 
-    fn noise_of_rows(&self) -> Box<dyn Noise> {
+    /// The noise of the readings.
+    pub(super) fn noise_of_rows(&self) -> Box<dyn Noise> {
         let (spread, rows) = (self.spread(), self.worth());
         match self.filter() {
             Some(filter) => Box::new(Coloured {
@@ -158,16 +159,21 @@ impl Case {
     }
 
     fn nuisances(&self, found: &[Blamed]) -> Vec<Nuisance> {
-        let is_all = runout::is_all(self, found);
-        let is_free = |l: &Loose| !(is_all && runout::is_its(l));
-        let loose = self.loose().into_iter().filter(is_free);
         let column = |l: &Loose| self.along(&l.direction(self.places()));
+        let loose = self.loose_beside(found).into_iter();
         loose
             .map(|l| Nuisance {
                 column: column(&l),
                 spread: l.spread,
             })
             .collect()
+    }
+
+    /// What is uncertain beside causes that were found: where nobody states a runout, one that was found is all there is.
+    pub(super) fn loose_beside(&self, found: &[Blamed]) -> Vec<Loose> {
+        let is_all = runout::is_all(self, found);
+        let is_free = |l: &Loose| !(is_all && runout::is_its(l));
+        self.loose().into_iter().filter(is_free).collect()
     }
 
     /// The angle of tooth 1 of every cut, and what is stated only so well.

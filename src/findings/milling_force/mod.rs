@@ -2,6 +2,7 @@
 
 mod aim;
 mod anew;
+mod arrived;
 mod case;
 mod channels;
 mod chatter;
