@@ -7,7 +7,7 @@ use super::posterior::Posterior;
 use super::rest::Rest;
 use super::rivals::{Rivals, runners_up};
 use super::search::Scored;
-use super::statement::{Blamed, Experiment};
+use super::statement::{Blamed, Experiment, Suspect};
 use crate::findings::answer::{Cause, Group, Verdict};
 use crate::findings::gain::Gain;
 
@@ -70,7 +70,9 @@ pub fn name(
         if !is_named(*suspect) {
             continue;
         }
-        let rivals = Rivals::of(posterior, set, *suspect, is_named, judgement);
+        let is_other = |s: usize| !are_nested(&bank.suspects[s], &bank.suspects[*suspect]);
+        let may_be = |s: usize| is_named(s) && is_other(s);
+        let rivals = Rivals::of(posterior, set, *suspect, may_be, judgement);
         if !rivals.open.is_empty() {
             let probability = rivals.probability(posterior, judgement);
             let members = std::iter::once(*suspect).chain(rivals.open);
@@ -98,6 +100,17 @@ pub fn name(
         });
     }
     named.sorted()
+}
+
+/// Whether the place of one is a part of that of the other and both are the same effect, as of a sensor and one of its axes: the cause is then the
+/// same, and where it sits is told by the more probable of the two.
+fn are_nested(one: &Suspect, other: &Suspect) -> bool {
+    let is_part = |part: &str, whole: &str| {
+        let rest = part.strip_prefix(whole);
+        rest.is_some_and(|rest| rest.starts_with('-'))
+    };
+    let sites = (&one.site, &other.site);
+    one.effect == other.effect && (is_part(sites.0, sites.1) || is_part(sites.1, sites.0))
 }
 
 /// The verdict.
