@@ -97,6 +97,7 @@ mod robot_picture;
 mod robot_pinocchio;
 mod robot_swing;
 mod screw;
+mod stepped_loads;
 mod stiffness;
 mod strange_cycles;
 mod stranger;

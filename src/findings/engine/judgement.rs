@@ -22,6 +22,9 @@ pub struct Judgement {
     pub peak: f64,
     /// The same of a named cause whose law is exact ([`Suspect::law_error`](super::Suspect::law_error) 0), where a kind tells the two apart.
     pub exact_peak: Option<f64>,
+    /// Nats that a cause which is smaller than that must be worth beside the others to be named all the same, where a kind asks: many readings
+    /// show what none of them does.
+    pub faint_nats: f64,
     /// The share of the readings on which it acts at all that lie below that peak.
     pub peak_above: f64,
     /// Its rms as a share of all that is named, below which it does not matter (F) ...
@@ -163,6 +166,7 @@ impl Default for Judgement {
             same_mechanism: 10.0,
             peak: 2.0,
             exact_peak: None,
+            faint_nats: f64::INFINITY,
             peak_above: 0.99,
             share: 0.09,
             share_beside_kin: 0.2,

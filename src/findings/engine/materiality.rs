@@ -73,7 +73,19 @@ impl<'a> Materiality<'a> {
         let suspect = bank.suspect(fit.members[at]);
         let is_exact = suspect.named && suspect.law_error == 0.0;
         let exact = judgement.exact_peak.filter(|_| is_exact);
-        quantile(&peaks, judgement.peak_above) >= exact.unwrap_or(judgement.peak) * noise
+        let peak = quantile(&peaks, judgement.peak_above);
+        peak >= exact.unwrap_or(judgement.peak) * noise
+            || suspect.named && self.worth(fit, at) >= judgement.faint_nats
+    }
+
+    /// Nats that a cause of a set is worth beside the others.
+    fn worth(&self, fit: &Fit, at: usize) -> f64 {
+        let mut others = fit.members.clone();
+        others.remove(at);
+        let without = self.bank.fit(&others);
+        without.map_or(0.0, |without| {
+            fit.posterior.ln_evidence - without.posterior.ln_evidence
+        })
     }
 
     /// The most that the laws of the others miss of the kind of this one, noise deviations rms.

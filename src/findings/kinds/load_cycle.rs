@@ -4,13 +4,13 @@ use super::present::{Base, Origin, of_fit, of_robot};
 use super::{Diagnosed, Source};
 use crate::experiments::load_cycle::Curves;
 use crate::findings::Answer;
-use crate::findings::load_cycle::{Diagnosis, Settings, diagnose};
+use crate::findings::load_cycle::{Diagnosis, Settings, diagnose, judgement};
 use crate::fit::store::StoredFit;
 use crate::ground::problem::Outcome;
 use crate::measurement::load_cycle::LoadCycle;
 use crate::sheet::chart::{Axis, Chart, Panel, Series};
 use crate::sheet::number::prefix;
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
 use std::path::Path;
 
 struct CycleDiagnosis {
@@ -96,7 +96,8 @@ impl Diagnosed for CycleDiagnosis {
     fn more(&self) -> Map<String, Value> {
         let origin = self.origin.as_ref();
         let of = |o: &Origin| ("present".to_string(), o.json());
-        origin.map(of).into_iter().collect()
+        let judged = ("judgement".to_string(), json!(judgement()));
+        origin.map(of).into_iter().chain([judged]).collect()
     }
 
     fn before_and_after(&self) -> Vec<Chart> {

@@ -1,15 +1,16 @@
 //! A record of load cycles as the engine takes it.
 
+use super::evidence::evidence;
 use super::families::{View, suspects};
 use super::noise::{Coloured, TINTS, above_neighbours, rough};
 use super::not_noise::is_no_noise;
 use super::patterns::{patterns, told};
+use super::read_load;
 use super::span::{coarse_span, span};
 use super::structure;
 use super::unseen::{Split, folds};
 use crate::effects::Effect;
 use crate::findings::engine::bank::Bank;
-use crate::findings::engine::rest::Span;
 use crate::findings::engine::search::{Scored, search};
 use crate::findings::engine::{
     Aspects, Blamed, Experiment, Judgement, Member, Nuisance, Remaining, Statement, Suspect,
@@ -29,10 +30,14 @@ pub struct Record<'a> {
     pub noise: Coloured,
     span: Vec<Vec<f64>>,
     coarse: Vec<Vec<f64>>,
+    /// What is uncertain although nothing is wrong ...
+    nuisances: Vec<Nuisance>,
+    /// ... and what is besides if the load is rounded.
+    rounding: Vec<Nuisance>,
+    /// Whether it is.
+    pub is_rounded: bool,
 }
 
-/// Sizes of structure that may stand beside colour, noise deviations, and its price, nats.
-const STRUCTURED: ([f64; 3], f64) = ([1.5, 6.0, 25.0], 8.0);
 /// What is left may be so many times the scatter of neighbours and is nothing else: half a deviation beside it.
 const SCATTER: f64 = 1.12;
 /// Deviations of a data sheet, and scatters of neighbours, beyond which what is left is no noise whatever its colour: sheets are right
@@ -44,20 +49,27 @@ const LEADING: usize = 4;
 const ROUNDS: usize = 2;
 
 impl<'a> Record<'a> {
-    /// Of reduced data: `stated` is the data sheet's deviation of a reading, where it is known.
+    /// Of reduced data; `is_shifted`: whether the load is read at other times than the deflection.
     pub fn new(
         data: &'a Observation,
-        (unit, stated): (&'static str, Option<f64>),
+        (unit, is_shifted): (&'static str, bool),
         library: &[&'static dyn Effect],
         site: &dyn Fn(&'static str) -> String,
     ) -> Self {
         let view = View::of(data);
         let elastic = elastic(data);
         let left: Vec<f64> = difference(&data.reading, &elastic);
-        let first = stated.unwrap_or(0.0).max(rough(&left));
+        let first = rough(&left);
         let digits = 1e-9 * data.scene.deflection_scale;
         let cosine = Arc::new(crate::signal::cosine::Cosine::new(data.rows()));
+        let scale = data.scene.deflection_scale;
+        let jumps = is_shifted.then(|| read_load::between(&view, scale));
         let mut record = Self {
+            nuisances: std::iter::once(free(&view.u))
+                .chain(jumps.into_iter().flatten())
+                .collect(),
+            rounding: read_load::rounding(&view, scale),
+            is_rounded: false,
             suspects: suspects(library, (data, &view), site)
                 .into_iter()
                 .chain(patterns(&view, &data.reading))
@@ -93,6 +105,7 @@ impl<'a> Record<'a> {
     fn learn_noise(&mut self) {
         for _ in 0..ROUNDS {
             let before = self.noise.tint();
+            let can_round = !self.rounding.is_empty();
             let (leading, bases) = self.leading();
             let each = bases.iter().flat_map(|at| {
                 let residual = self.residual(&leading[*at]);
@@ -101,13 +114,22 @@ impl<'a> Record<'a> {
                 let noises = TINTS
                     .iter()
                     .map(|tint| plain.tinted(*tint).with_lines(&residual, &self.view));
-                noises
-                    .map(|noise| (evidence(&mut waves, &noise, &leading), noise))
+                let rounded = [false, true].into_iter().take(1 + usize::from(can_round));
+                let pairs = noises.flat_map(|n| rounded.clone().map(move |r| (n.clone(), r)));
+                pairs
+                    .map(|(n, rounded)| {
+                        let least = if rounded {
+                            usize::MAX
+                        } else {
+                            self.nuisances.len()
+                        };
+                        (evidence((&mut waves, least), &n, &leading), n, rounded)
+                    })
                     .collect::<Vec<_>>()
             });
             let best = each.max_by(|a, b| a.0.total_cmp(&b.0));
-            if let Some((_, noise)) = best {
-                self.noise = noise;
+            if let Some((_, noise, is_rounded)) = best {
+                (self.noise, self.is_rounded) = (noise, is_rounded);
             }
             if self.noise.tint() == before {
                 break;
@@ -145,6 +167,7 @@ impl<'a> Record<'a> {
     fn in_waves(&self, noise: &Coloured, sets: &[(Vec<Member>, f64)]) -> Statement {
         let members = sets.iter().flat_map(|set| &set.0);
         let mut all = self.stated(noise, members.map(anonymous).collect());
+        all.nuisances = [&self.nuisances[..], &self.rounding].concat();
         all.span.clone_from(&self.coarse);
         let members = all.suspects.iter_mut().flat_map(|s| &mut s.members);
         let nuisances = all.nuisances.iter_mut().map(|n| &mut n.column);
@@ -175,34 +198,16 @@ impl<'a> Record<'a> {
         Statement {
             reading: self.data.reading.clone(),
             noise: Box::new(noise.clone()),
-            nuisances: vec![free(&self.view.u)],
+            nuisances: match self.is_rounded {
+                true => [&self.nuisances[..], &self.rounding].concat(),
+                false => self.nuisances.clone(),
+            },
             suspects,
             span: Vec::new(),
             splits: Vec::new(),
             aspects: Aspects::default(),
         }
     }
-}
-
-/// Greatest evidence of some sets under a noise, their prices paid; structure of unknown make may stand beside the first
-/// and the empty one, or it would be taken for colour. `waves`: the sets as [`Record::in_waves`] has them.
-fn evidence(waves: &mut Statement, noise: &Coloured, sets: &[(Vec<Member>, f64)]) -> f64 {
-    waves.noise = Box::new(noise.of_waves());
-    let (generic, bank) = (Span::of(waves), Bank::new(waves));
-    let last = sets.len().saturating_sub(1);
-    let mut first = 0;
-    let mut best = f64::NEG_INFINITY;
-    for (k, (members, price)) in sets.iter().enumerate() {
-        let own: Vec<usize> = (first..first + members.len()).collect();
-        first += members.len();
-        let Some(fit) = bank.fit(&own) else { continue };
-        let span = generic.as_ref().filter(|_| k == 0 || k == last);
-        let structured = span.map_or(f64::NEG_INFINITY, |span| {
-            span.greatest(&bank, &fit, &STRUCTURED.0) - STRUCTURED.1
-        });
-        best = best.max(fit.posterior.ln_evidence.max(structured) - price);
-    }
-    best - noise.ln_size()
 }
 
 /// A column of which nothing is known.
