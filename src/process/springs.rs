@@ -86,7 +86,7 @@ impl Springs {
     }
 }
 
-/// A step from where the tool stood to where it would stand: half of it where it turns back as far as the last one went. Width and depth of the cut
+/// A step from where the tool stood to where it would stand: half of it where it turns back by a good part of the last one. Width and depth of the cut
 /// follow the tool a tooth late, and the way back and forth would grow where the robot is soft; a tool at rest stands where it would.
 fn calmed(step: V3, last: V3) -> V3 {
     match dot(step, last) < -TURNS * dot(last, last) {
@@ -118,8 +118,11 @@ impl Structure for Springs {
             Ok((place, add(load.force, answered)))
         };
         let (place, force, slack) = self.loose.settle(&self.held, self.slack, solved)?;
-        self.gone = calmed(sub(place, before), self.gone);
+        let step = sub(place, before);
+        self.gone = calmed(step, self.gone);
         self.deviation = add(before, self.gone);
+        // what the cut answers where the tool comes to stand
+        let force = add(force, rotate(&load.slope, sub(self.gone, step)));
         self.rest(slack, force);
         Ok(Bout {
             force,

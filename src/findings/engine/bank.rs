@@ -237,7 +237,7 @@ impl<'a> Bank<'a> {
     }
 
     /// See [`Nuisances::room`].
-    pub(super) fn room(&self) -> f64 {
+    pub fn room(&self) -> f64 {
         self.nuisances.room()
     }
 

@@ -75,7 +75,9 @@ impl<'a> Materiality<'a> {
         let exact = judgement.exact_peak.filter(|_| is_exact);
         let peak = quantile(&peaks, judgement.peak_above);
         peak >= exact.unwrap_or(judgement.peak) * noise
-            || suspect.named && self.worth(fit, at) >= judgement.faint_nats
+            || suspect.named
+                && judgement.faint_nats.is_finite()
+                && self.worth(fit, at) >= judgement.faint_nats
     }
 
     /// Nats that a cause of a set is worth beside the others.

@@ -7,22 +7,23 @@ use crate::findings::engine::{Member, Statement};
 
 /// Sizes of structure that may stand beside colour, noise deviations, and its price, nats.
 const STRUCTURED: ([f64; 3], f64) = ([1.5, 6.0, 25.0], 8.0);
-/// Greatest evidence of some sets under a noise, their prices paid; structure of unknown make may stand beside the first
-/// and the empty one, or it would be taken for colour. `waves`: the sets as [`Record::in_waves`] has them, and how many of the nuisances there are.
+
+/// Greatest evidence of some sets under a noise, their prices paid, and what its nuisances take up; structure of unknown make may stand beside the
+/// first and the empty one, or it would be taken for colour. `waves`: the sets as [`Record::in_waves`](super::statement::Record) has them, and how many of the
+/// nuisances are kept.
 pub(super) fn evidence(
-    (waves, uncertain): (&mut Statement, usize),
+    (waves, kept): (&mut Statement, usize),
     noise: &Coloured,
     sets: &[(Vec<Member>, f64)],
-) -> f64 {
+) -> (f64, f64) {
     waves.noise = Box::new(noise.of_waves());
-    let kept = uncertain.min(waves.nuisances.len());
-    let others = waves.nuisances.split_off(kept);
+    let others = waves.nuisances.split_off(kept.min(waves.nuisances.len()));
     let best = evidence_of(waves, noise, sets);
     waves.nuisances.extend(others);
     best
 }
 
-fn evidence_of(waves: &Statement, noise: &Coloured, sets: &[(Vec<Member>, f64)]) -> f64 {
+fn evidence_of(waves: &Statement, noise: &Coloured, sets: &[(Vec<Member>, f64)]) -> (f64, f64) {
     let (generic, bank) = (Span::of(waves), Bank::new(waves));
     let last = sets.len().saturating_sub(1);
     let mut first = 0;
@@ -37,5 +38,5 @@ fn evidence_of(waves: &Statement, noise: &Coloured, sets: &[(Vec<Member>, f64)])
         });
         best = best.max(fit.posterior.ln_evidence.max(structured) - price);
     }
-    best - noise.ln_size()
+    (best - noise.ln_size(), bank.room())
 }

@@ -104,8 +104,7 @@ impl<'a> Record<'a> {
     /// Noise and causes in turn: each is chosen beside the other.
     fn learn_noise(&mut self) {
         for _ in 0..ROUNDS {
-            let before = self.noise.tint();
-            let can_round = !self.rounding.is_empty();
+            let before = (self.noise.tint(), self.is_rounded);
             let (leading, bases) = self.leading();
             let each = bases.iter().flat_map(|at| {
                 let residual = self.residual(&leading[*at]);
@@ -114,27 +113,34 @@ impl<'a> Record<'a> {
                 let noises = TINTS
                     .iter()
                     .map(|tint| plain.tinted(*tint).with_lines(&residual, &self.view));
-                let rounded = [false, true].into_iter().take(1 + usize::from(can_round));
-                let pairs = noises.flat_map(|n| rounded.clone().map(move |r| (n.clone(), r)));
-                pairs
-                    .map(|(n, rounded)| {
-                        let least = if rounded {
-                            usize::MAX
-                        } else {
-                            self.nuisances.len()
-                        };
-                        (evidence((&mut waves, least), &n, &leading), n, rounded)
-                    })
+                noises
+                    .flat_map(|n| self.weighed(&mut waves, n, &leading))
                     .collect::<Vec<_>>()
             });
             let best = each.max_by(|a, b| a.0.total_cmp(&b.0));
             if let Some((_, noise, is_rounded)) = best {
                 (self.noise, self.is_rounded) = (noise, is_rounded);
             }
-            if self.noise.tint() == before {
+            if (self.noise.tint(), self.is_rounded) == before {
                 break;
             }
         }
+    }
+
+    /// A noise with its evidence as the load is, and as if it were rounded, which pays for what every stand may be off by.
+    fn weighed(
+        &self,
+        waves: &mut Statement,
+        noise: Coloured,
+        leading: &[(Vec<Member>, f64)],
+    ) -> Vec<(f64, Coloured, bool)> {
+        let mut each = |kept: usize| evidence((waves, kept), &noise, leading);
+        let (plain, room) = each(self.nuisances.len());
+        let rounded = (!self.rounding.is_empty()).then(|| each(usize::MAX));
+        let rounded = rounded.map(|(best, more)| (best - (more - room), noise.clone(), true));
+        std::iter::once((plain, noise, false))
+            .chain(rounded)
+            .collect()
     }
 
     /// The members of the sets that lead under the present noise, with their price, the empty one last; and beside which of them
