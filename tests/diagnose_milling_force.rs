@@ -357,18 +357,14 @@ fn a_width_by_straight_teeth_is_named() {
     assert_eq!(named, ["width_of_cut"], "{:?}", found.answer.verdict);
 }
 
-/// What changes the forces along no straight line is told by where it fits best: the chord to it, by which it is found, is up to a quarter
-/// off in cuts by strangers.
+/// What changes the forces along no straight line is told with an interval that holds it.
 #[test]
-fn a_width_is_told_by_where_it_fits_best() {
-    let mut bench = Bench::new(3);
-    bench.done[2..].iter_mut().for_each(|p| p.width += 0.7);
+fn a_runout_is_told_within_its_interval() {
+    let mut bench = Bench::new(4);
+    bench.cutter.runout = 14e-6;
     let found = bench.found(|_| ());
     let cause = &found.answer.causes[0];
-    let told = cause.parameters.iter().find(|p| p.0 == "width_error");
-    let value = told.unwrap().1;
-    let [low, high] = cause.interval("width_error").unwrap();
-    assert!((value / 0.7e-3 - 1.0).abs() < 0.1, "{value}");
-    assert!(low <= 0.7e-3 && 0.7e-3 <= high, "{low} to {high}");
-    assert!(high - low < 0.35e-3, "{low} to {high}");
+    let [low, high] = cause.interval("runout").unwrap();
+    assert!(low <= 14e-6 && 14e-6 <= high, "{low} to {high}");
+    assert!(high - low < 5e-6, "{low} to {high}");
 }

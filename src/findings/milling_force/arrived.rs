@@ -54,8 +54,6 @@ struct Stand {
     amounts: Vec<f64>,
     case: Case,
     left: DVector<f64>,
-    /// Units of the amounts in the descent.
-    units: DVector<f64>,
 }
 
 /// The bent ones of the causes that were found, where they fit best beside all others. None: nothing is bent, or a sensor rings, whose
@@ -164,7 +162,6 @@ impl<'a> Arriving<'a> {
             let case = self.case.moved(&by, sensor, beside(self.case, &causes, ""));
             let left = DVector::from_vec(self.noise.whiten(&case.reading()));
             Stand {
-                units: DVector::from_element(amounts.len(), 1.0),
                 amounts,
                 case,
                 left,
@@ -257,18 +254,9 @@ impl Landscape for Arriving<'_> {
         place.left.norm_squared() + priors.sum::<f64>()
     }
 
-    /// In unknowns of which one changes what is left by one.
     fn linear(&self, place: &mut Stand) -> Option<Linear> {
         let (normal, slope) = self.normal(place);
-        place.units = normal
-            .diagonal()
-            .map(|n| if n > 0.0 { n.sqrt().recip() } else { 0.0 });
-        Some(Linear {
-            normal: DMatrix::from_fn(normal.nrows(), normal.ncols(), |i, j| {
-                normal[(i, j)] * place.units[i] * place.units[j]
-            }),
-            slope: slope.component_mul(&place.units),
-        })
+        Some(Linear { normal, slope })
     }
 
     fn held(&self, _at: &Stand, i: usize, _slope: f64) -> bool {
@@ -276,7 +264,6 @@ impl Landscape for Arriving<'_> {
     }
 
     fn step(&self, from: &Stand, step: &DVector<f64>) -> Option<Stand> {
-        let step = step.component_mul(&from.units);
         let amounts = from.amounts.iter().zip(step.iter());
         self.stand(amounts.map(|(a, s)| a + s).collect())
     }
