@@ -7,7 +7,7 @@ use ident::ground::spatial::{IDENTITY, M3, V3, dot, norm, rotate, scale, sub};
 use ident::motion::elastic;
 use ident::process::pose::Carrier;
 use ident::process::rigid::Rigid;
-use ident::process::run::{Outcome, Settings, mill};
+use ident::process::run::{Cut, Outcome, Settings, mill};
 use ident::process::springs::Springs;
 use ident::process::structure::Structure;
 use ident::process::swinging::Swinging;
@@ -29,6 +29,12 @@ fn robot(stiffer: f64) -> Robot {
     robot
 }
 
+/// The joints at rest, rad.
+fn way_joints() -> Vec<f64> {
+    let degrees = [0.0, -60.0, 80.0, 0.0, 70.0, 0.0];
+    degrees.map(f64::to_radians).to_vec()
+}
+
 /// Along x at 3000 mm/min through a block from 0 to 40 mm, 2 mm deep, the joints at rest.
 fn way() -> Way {
     let row = |i: usize| {
@@ -38,9 +44,7 @@ fn way() -> Way {
             s_m: x + 0.010,
             tip: [x, 0.0, -2.0 * MM],
             axis: [0.0, 0.0, 1.0],
-            joints: [0.0, -60.0, 80.0, 0.0, 70.0, 0.0]
-                .map(f64::to_radians)
-                .to_vec(),
+            joints: way_joints(),
         }
     };
     Way::new((0..60).map(row).collect()).unwrap()
@@ -144,6 +148,61 @@ fn springs_stand_where_compliance_and_force_put_them() {
     let (force, deviation) = middle(&out);
     close(deviation, rotate(&compliance(), force), 5e-3);
     assert!(norm(deviation) > 0.05 * MM);
+}
+
+/// Along −x at 630 mm/min on the side of a block from 0 to 30 mm, 2.6 mm wide, by three teeth of 10 mm.
+fn aside(stiffer: f64) -> Outcome {
+    let row = |i: usize| {
+        let way = 0.0105 * 0.012 * i as f64;
+        Row {
+            time_s: 0.012 * i as f64,
+            s_m: way,
+            tip: [0.036 - way, -2.4 * MM, -2.3 * MM],
+            axis: [0.0, 0.0, 1.0],
+            joints: way_joints(),
+        }
+    };
+    let way = Way::new((0..330).map(row).collect()).unwrap();
+    let tool = Tool {
+        flute_m: 30.0 * MM,
+        ..Tool::square(5.0 * MM, 3, FRAC_PI_6)
+    };
+    let fineness = Fineness::usual(&tool);
+    let stock = Stock::block(
+        [0.0, 0.0, -12.0 * MM],
+        [30.0 * MM, 20.0 * MM, 0.0],
+        fineness.spacing_m,
+    );
+    let material = Material::linear_edge([767.0, 168.8, 222.0, 27.7, 26.6, 0.7]);
+    let mut cutter = Cutter::new(&tool, &material, stock.unwrap(), fineness, [0.0, 0.0, 1.0]);
+    let mut springs = Springs::new(carrier(stiffer), &way.at(0.0)).unwrap();
+    let settings = Settings {
+        spindle_rad_s: 8500.0 / 60.0 * TAU,
+    };
+    mill(&way, &mut cutter, &mut springs, &settings, |_| {}).unwrap()
+}
+
+/// Width and depth of the cut follow the tool a tooth late: a soft robot must come to rest all the same, and take less the softer it is.
+#[test]
+fn springs_come_to_rest_however_soft() {
+    let mut taken = f64::INFINITY;
+    for stiffer in [1.0, 0.5, 0.25, 0.12] {
+        let out = aside(stiffer);
+        assert!(
+            out.removed_m3 < taken,
+            "{stiffer}: {} after {taken}",
+            out.removed_m3
+        );
+        taken = out.removed_m3;
+        let inside = |c: &&Cut| (0.010..0.020).contains(&c.tip[0]);
+        let forces: Vec<V3> = out.course.iter().filter(inside).map(|c| c.force).collect();
+        let step = |w: &[V3]| norm(sub(w[1], w[0])) / norm(w[0]);
+        let most = forces.windows(2).map(step).fold(0.0, f64::max);
+        assert!(
+            most < 0.03,
+            "{stiffer}: forces jump by {most:.3} of themselves"
+        );
+    }
 }
 
 #[test]

@@ -95,7 +95,7 @@ fn calmed(step: V3, last: V3) -> V3 {
     }
 }
 
-/// Share of the last step from which on a step back is half one.
+/// Share of the last step from which on a step back is half one. A choice; a step that comes back by a quarter dies out by itself.
 const TURNS: f64 = 0.25;
 
 impl Structure for Springs {

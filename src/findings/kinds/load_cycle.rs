@@ -4,7 +4,8 @@ use super::present::{Base, Origin, of_fit, of_robot};
 use super::{Diagnosed, Source};
 use crate::experiments::load_cycle::Curves;
 use crate::findings::Answer;
-use crate::findings::load_cycle::{Diagnosis, Settings, diagnose, judgement};
+use crate::findings::engine::Judgement;
+use crate::findings::load_cycle::{Diagnosis, Settings, diagnose};
 use crate::fit::store::StoredFit;
 use crate::ground::problem::Outcome;
 use crate::measurement::load_cycle::LoadCycle;
@@ -96,8 +97,9 @@ impl Diagnosed for CycleDiagnosis {
     fn more(&self) -> Map<String, Value> {
         let origin = self.origin.as_ref();
         let of = |o: &Origin| ("present".to_string(), o.json());
-        let judged = ("judgement".to_string(), json!(judgement()));
-        origin.map(of).into_iter().chain([judged]).collect()
+        let judged = |j: &Judgement| ("judgement".to_string(), json!(j));
+        let judged = self.found.judgement.as_ref().map(judged);
+        origin.map(of).into_iter().chain(judged).collect()
     }
 
     fn before_and_after(&self) -> Vec<Chart> {

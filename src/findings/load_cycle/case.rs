@@ -47,6 +47,8 @@ pub(super) struct Case<'a> {
     pub(super) step: Option<f64>,
     /// Whether what is left does what no noise does.
     pub(super) restless: bool,
+    /// The numbers that decided.
+    pub(super) judgement: Judgement,
     library: Vec<&'static dyn Effect>,
 }
 
@@ -56,9 +58,9 @@ impl<'a> Case<'a> {
         let data = Observation::of(file, settings.rows);
         let place = |cause: &'static str| site(file, cause);
         let unit = file.port.deflection_unit();
-        let shifted = file.facts.sensor_delay != 0.0;
-        let record = Record::new(&data, (unit, shifted), &settings.library, &place);
-        let (found, restless) = judged(file, &data, &record);
+        let record = Record::new(&data, unit, &settings.library, &place);
+        let judgement = asked(&record);
+        let (found, restless) = judged(file, &data, (&record, &judgement));
         let shown = found.answer.discrepancy.noise_rms;
         let factor = shown / rms(&record.noise.spread);
         let colour = record.noise.colour(factor);
@@ -67,8 +69,8 @@ impl<'a> Case<'a> {
             .or_else(|| lattice::plain_step(&file.deflection));
         let is_rounding = step.is_some_and(|step| rms(&found.left) < HIDES * step);
         let is_left = (restless || found.answer.is_open()) && !is_rounding;
-        let found = match is_left && found.answer.named() >= judgement().several {
-            true => found.without_names(&record, &judgement()),
+        let found = match is_left && found.answer.named() >= judgement.several {
+            true => found.without_names(&record, &judgement),
             false => found,
         };
         drop(record);
@@ -83,6 +85,7 @@ impl<'a> Case<'a> {
             present: settings.present.clone(),
             step,
             restless,
+            judgement,
             library: settings.library.clone(),
         }
     }
@@ -158,31 +161,28 @@ impl<'a> Case<'a> {
     }
 }
 
-/// The numbers that decide. What is smaller than the noise of one reading shows in many, where it is worth so many nats: on 100 load cycles by a
-/// stranger 28 of 38 single causes and 14 of 24 pairs were named (22 and 11 without), all 22 clean ones left alone; with 20 nats two more
-/// files had a name that was not true.
-pub fn judgement() -> Judgement {
+/// The numbers that decide for a record. What is smaller than the noise of one reading shows in many, where it is worth so many nats: on 100 load
+/// cycles by a stranger 28 of 38 single causes and 14 of 24 pairs were named (22 and 11 without), all 22 clean ones left alone; with 20 nats two more
+/// files had a name that was not true. Where the load is read in coarse steps, what it is between two of them is not known to less than
+/// a faint cause makes.
+fn asked(record: &Record) -> Judgement {
     Judgement {
-        faint_nats: 25.0,
+        faint_nats: if record.is_rounded {
+            f64::INFINITY
+        } else {
+            25.0
+        },
         ..Judgement::default()
     }
 }
 
-/// The numbers that decide for a record. Where the load is read in coarse steps, what it is between two of them is not known to less than a
-/// faint cause makes.
-fn asked(record: &Record) -> Judgement {
-    match record.is_rounded {
-        true => Judgement {
-            faint_nats: f64::INFINITY,
-            ..judgement()
-        },
-        false => judgement(),
-    }
-}
-
 /// What the engine finds, and whether it leaves what no noise makes.
-fn judged(file: &LoadCycle, data: &Observation, record: &Record) -> (Found, bool) {
-    let mut found = diagnose(record, &asked(record));
+fn judged(
+    file: &LoadCycle,
+    data: &Observation,
+    (record, judgement): (&Record, &Judgement),
+) -> (Found, bool) {
+    let mut found = diagnose(record, judgement);
     let seen = &mut found.answer.unexplained.description;
     if seen == JUMPS {
         *seen = record.jumps();

@@ -50,6 +50,7 @@ impl Case<'_> {
             simulated,
             extended,
             imposed: false,
+            judgement: Some(self.judgement),
             data: self.data,
         }
     }

@@ -5,6 +5,7 @@ use super::imposed::diagnose_imposed;
 use super::present::Present;
 use crate::effects::{Composite, EFFECTS, Effect};
 use crate::findings::answer::Answer;
+use crate::findings::engine::Judgement;
 use crate::fit::imposed::is_imposed;
 use crate::fit::observation::Observation;
 use crate::fit::suitability::load_cycle::doubts;
@@ -26,6 +27,8 @@ pub struct Diagnosis {
     pub extended: Vec<f64>,
     /// Whether the displacement was imposed: `data` then holds it as the load, and predicts force.
     pub imposed: bool,
+    /// The numbers that decided; none: another program, which has none of them.
+    pub judgement: Option<Judgement>,
 }
 
 impl std::ops::Deref for Diagnosis {

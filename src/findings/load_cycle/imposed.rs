@@ -151,6 +151,7 @@ fn conclude(
         model: chosen.model.clone(),
         p: chosen.p.clone(),
         imposed: true,
+        judgement: None,
         data,
     }
 }

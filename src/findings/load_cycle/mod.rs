@@ -29,6 +29,5 @@ mod statement;
 pub mod structure;
 pub mod unseen;
 
-pub use case::judgement;
 pub use diagnosis::{Diagnosis, Settings, diagnose};
 pub use present::Present;

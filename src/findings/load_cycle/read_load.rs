@@ -1,5 +1,4 @@
-//! What the reading of a load that goes in steps leaves open: how it was rounded, which is the same as long as it stands, and
-//! where it is between two rows.
+//! What the reading of a load that goes in steps leaves open: how it was rounded, which is the same as long as it stands.
 
 use super::families::View;
 use crate::findings::engine::Nuisance;
@@ -13,10 +12,6 @@ const MOST: usize = 120;
 /// Steps of a lattice that the load goes from one long stand to the next on average, at the least: weights that are known go one, and nothing is
 /// rounded. Long is half of what nine of ten do not exceed. Choices; whether it is rounded is told by the evidence.
 const WAY: f64 = 1.2;
-/// Change of the load from row to row, over the largest, that is no noise of its reading.
-const JUMP: f64 = 0.02;
-/// Deviation of what is rounded, steps: 1/√12.
-const ROUNDED: f64 = 0.288_675;
 
 /// Rows from which to which the load stands.
 struct Stand {
@@ -56,28 +51,10 @@ pub(super) fn rounding(view: &View, scale: f64) -> Vec<Nuisance> {
     let Some(step) = least_of(&gaps(&loads)).filter(|step| mean(&ways) > WAY * step) else {
         return Vec::new();
     };
+    // Widrow and Kollár 2008
+    let spread = step * scale / 12.0_f64.sqrt();
     let own = long.into_iter();
-    own.map(|s| during(view, &s.rows, ROUNDED * step * scale))
-        .collect()
-}
-
-/// Rows in which a load jumps that is read later than the deflection by what is no whole number of rows: it was on the one side or on the other.
-pub(super) fn between(view: &View, scale: f64) -> Vec<Nuisance> {
-    let u = &view.u;
-    let way = |i: usize| (u[i] - u[i - 1], u[i + 1] - u[i]);
-    let is_between = |i: &usize| {
-        let (from, to) = way(*i);
-        from.abs().min(to.abs()) > JUMP && from * to > 0.0
-    };
-    let jumps: Vec<usize> = (1..view.rows().saturating_sub(1))
-        .filter(is_between)
-        .collect();
-    if !view.stepped || jumps.len() > MOST {
-        return Vec::new();
-    }
-    let own = jumps.into_iter();
-    own.map(|i| during(view, &(i..i + 1), (u[i + 1] - u[i - 1]).abs() * scale))
-        .collect()
+    own.map(|s| during(view, &s.rows, spread)).collect()
 }
 
 /// One amount in some rows.
@@ -89,7 +66,7 @@ fn during(view: &View, rows: &std::ops::Range<usize>, spread: f64) -> Nuisance {
 
 #[cfg(test)]
 mod tests {
-    use super::{between, rounding};
+    use super::rounding;
     use crate::findings::load_cycle::families::View;
     use crate::fit::observation::Observation;
 
@@ -126,14 +103,5 @@ mod tests {
         assert!(rounding(&view(&stair(&weights, 12)), 1.0).is_empty());
         let ramp: Vec<f64> = (0..200).map(|i| (f64::from(i) / 20.0).sin()).collect();
         assert!(rounding(&view(&ramp), 1.0).is_empty());
-    }
-
-    #[test]
-    fn a_row_between_two_loads_is_on_either_side() {
-        let mut load = stair(&[0.0, 100.0, 0.0, -100.0], 15);
-        load[15] = 40.0;
-        let found = between(&view(&load), 1.0);
-        assert_eq!(found.len(), 1);
-        assert!(found[0].column[15] == 1.0 && (found[0].spread - 1.0).abs() < 1e-9);
     }
 }

@@ -30,9 +30,7 @@ pub struct Record<'a> {
     pub noise: Coloured,
     span: Vec<Vec<f64>>,
     coarse: Vec<Vec<f64>>,
-    /// What is uncertain although nothing is wrong ...
-    nuisances: Vec<Nuisance>,
-    /// ... and what is besides if the load is rounded.
+    /// What is uncertain beside the spring if the load is rounded.
     rounding: Vec<Nuisance>,
     /// Whether it is.
     pub is_rounded: bool,
@@ -45,14 +43,16 @@ const SCATTER: f64 = 1.12;
 const BEYOND: (f64, f64) = (5.0, 2.0);
 /// Sets whose evidence chooses the noise.
 const LEADING: usize = 4;
+/// Nuisances that every statement has: the spring.
+const SPRING: usize = 1;
 /// Rounds in which noise and causes are sought in turn.
 const ROUNDS: usize = 2;
 
 impl<'a> Record<'a> {
-    /// Of reduced data; `is_shifted`: whether the load is read at other times than the deflection.
+    /// Of reduced data.
     pub fn new(
         data: &'a Observation,
-        (unit, is_shifted): (&'static str, bool),
+        unit: &'static str,
         library: &[&'static dyn Effect],
         site: &dyn Fn(&'static str) -> String,
     ) -> Self {
@@ -63,11 +63,7 @@ impl<'a> Record<'a> {
         let digits = 1e-9 * data.scene.deflection_scale;
         let cosine = Arc::new(crate::signal::cosine::Cosine::new(data.rows()));
         let scale = data.scene.deflection_scale;
-        let jumps = is_shifted.then(|| read_load::between(&view, scale));
         let mut record = Self {
-            nuisances: std::iter::once(free(&view.u))
-                .chain(jumps.into_iter().flatten())
-                .collect(),
             rounding: read_load::rounding(&view, scale),
             is_rounded: false,
             suspects: suspects(library, (data, &view), site)
@@ -135,7 +131,7 @@ impl<'a> Record<'a> {
         leading: &[(Vec<Member>, f64)],
     ) -> Vec<(f64, Coloured, bool)> {
         let mut each = |kept: usize| evidence((waves, kept), &noise, leading);
-        let (plain, room) = each(self.nuisances.len());
+        let (plain, room) = each(SPRING);
         let rounded = (!self.rounding.is_empty()).then(|| each(usize::MAX));
         let rounded = rounded.map(|(best, more)| (best - (more - room), noise.clone(), true));
         std::iter::once((plain, noise, false))
@@ -173,7 +169,8 @@ impl<'a> Record<'a> {
     fn in_waves(&self, noise: &Coloured, sets: &[(Vec<Member>, f64)]) -> Statement {
         let members = sets.iter().flat_map(|set| &set.0);
         let mut all = self.stated(noise, members.map(anonymous).collect());
-        all.nuisances = [&self.nuisances[..], &self.rounding].concat();
+        all.nuisances.truncate(SPRING);
+        all.nuisances.extend_from_slice(&self.rounding);
         all.span.clone_from(&self.coarse);
         let members = all.suspects.iter_mut().flat_map(|s| &mut s.members);
         let nuisances = all.nuisances.iter_mut().map(|n| &mut n.column);
@@ -205,8 +202,8 @@ impl<'a> Record<'a> {
             reading: self.data.reading.clone(),
             noise: Box::new(noise.clone()),
             nuisances: match self.is_rounded {
-                true => [&self.nuisances[..], &self.rounding].concat(),
-                false => self.nuisances.clone(),
+                true => [&[free(&self.view.u)], &self.rounding[..]].concat(),
+                false => vec![free(&self.view.u)],
             },
             suspects,
             span: Vec::new(),

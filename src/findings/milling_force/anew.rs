@@ -62,7 +62,7 @@ pub(super) fn about(case: &Case, blamed: &[Blamed], asked: impl Fn(&str) -> bool
     }
 }
 
-fn add_to(sum: &mut [f64], part: &[f64], factor: f64) {
+pub(super) fn add_to(sum: &mut [f64], part: &[f64], factor: f64) {
     sum.iter_mut().zip(part).for_each(|(s, p)| *s += factor * p);
 }
 
@@ -248,7 +248,7 @@ fn over(mut column: Vec<f64>, amount: f64) -> Vec<f64> {
 }
 
 /// The case with all causes in place but those of an effect.
-fn combined(case: &Case, turned: &[f64], blamed: &[Blamed], but: &str) -> Case {
+pub(super) fn combined(case: &Case, turned: &[f64], blamed: &[Blamed], but: &str) -> Case {
     let mut by = turned.to_vec();
     let mut sensor = case.sensor();
     for cause in blamed.iter().filter(|b| b.effect != but) {
@@ -264,7 +264,7 @@ fn combined(case: &Case, turned: &[f64], blamed: &[Blamed], but: &str) -> Case {
 }
 
 /// What causes add that are neither of the process nor done to forces.
-pub(super) fn beside(case: &Case, blamed: &[Blamed], but: &str) -> Vec<f64> {
+fn beside(case: &Case, blamed: &[Blamed], but: &str) -> Vec<f64> {
     let mut sum = case.column(|_, _, _| 0.0);
     for cause in blamed.iter().filter(|b| b.effect != but && !is_in_place(b)) {
         add_to(&mut sum, &cause.part, 1.0);

@@ -2,14 +2,14 @@
 //! uncertain, together, by the slopes of the forces where they stand.
 
 use super::aim::Loose;
-use super::anew::{beside, map};
-use super::coefficients::moved;
+use super::anew::{add_to, combined, map};
 use super::setting::PROCESS;
 use super::{Case, EFFECTS, chipped_tooth, engagement, runout, sensor_resonance};
 use crate::findings::engine::{Arrival, Blamed, Noise};
 use crate::ground::products::gram;
-use crate::ground::spatial::{M3, add, rotate};
+use crate::ground::spatial::{M3, rotate};
 use crate::inference::descent::{Landscape, Linear, Stop, descend};
+use crate::inference::gaussian::Reading;
 use nalgebra::{DMatrix, DVector, Matrix3};
 
 /// Effects whose amounts change the forces along no straight line.
@@ -54,6 +54,8 @@ struct Stand {
     amounts: Vec<f64>,
     case: Case,
     left: DVector<f64>,
+    /// Units of the amounts in the descent.
+    units: DVector<f64>,
 }
 
 /// The bent ones of the causes that were found, where they fit best beside all others. None: nothing is bent, or a sensor rings, whose
@@ -150,18 +152,10 @@ impl<'a> Arriving<'a> {
                     add_to(&mut by, direction, *amount);
                 }
             }
-            let mut sensor = self.case.sensor();
-            for cause in &causes {
-                if cause.shape[0] == PROCESS {
-                    add_to(&mut by, &moved(self.case, cause), 1.0);
-                }
-                if let Some(map) = map(cause) {
-                    (0..3).for_each(|k| sensor.map[k] = add(sensor.map[k], map[k]));
-                }
-            }
-            let case = self.case.moved(&by, sensor, beside(self.case, &causes, ""));
+            let case = combined(self.case, &by, &causes, "");
             let left = DVector::from_vec(self.noise.whiten(&case.reading()));
             Stand {
+                units: DVector::from_element(amounts.len(), 1.0),
                 amounts,
                 case,
                 left,
@@ -210,11 +204,12 @@ impl<'a> Arriving<'a> {
     fn covariance(&self, end: &Stand) -> Option<DMatrix<f64>> {
         let (normal, _) = self.normal(end);
         let inverse = normal.cholesky()?.inverse();
-        let (rows, known) = (end.left.len() as f64, self.noise.rows());
-        let variance = match known.is_finite() {
-            true => (known + end.left.norm_squared()) / (known + rows),
-            false => 1.0,
+        let reading = Reading {
+            square: end.left.norm_squared(),
+            rows: end.left.len() as f64,
+            noise_rows: self.noise.rows(),
         };
+        let variance = reading.noise_variance(reading.square);
         Some(inverse * variance)
     }
 
@@ -254,9 +249,18 @@ impl Landscape for Arriving<'_> {
         place.left.norm_squared() + priors.sum::<f64>()
     }
 
+    /// In unknowns of which one changes what is left by one.
     fn linear(&self, place: &mut Stand) -> Option<Linear> {
         let (normal, slope) = self.normal(place);
-        Some(Linear { normal, slope })
+        place.units = normal
+            .diagonal()
+            .map(|n| if n > 0.0 { n.sqrt().recip() } else { 0.0 });
+        Some(Linear {
+            normal: DMatrix::from_fn(normal.nrows(), normal.ncols(), |i, j| {
+                normal[(i, j)] * place.units[i] * place.units[j]
+            }),
+            slope: slope.component_mul(&place.units),
+        })
     }
 
     fn held(&self, _at: &Stand, i: usize, _slope: f64) -> bool {
@@ -264,6 +268,7 @@ impl Landscape for Arriving<'_> {
     }
 
     fn step(&self, from: &Stand, step: &DVector<f64>) -> Option<Stand> {
+        let step = step.component_mul(&from.units);
         let amounts = from.amounts.iter().zip(step.iter());
         self.stand(amounts.map(|(a, s)| a + s).collect())
     }
@@ -287,8 +292,4 @@ fn mapped(case: &Case, map: &M3) -> Vec<f64> {
     let map = Matrix3::from_fn(|i, j| map[i][j]) * back;
     let map = [0, 1, 2].map(|i| [0, 1, 2].map(|j| map[(i, j)]));
     case.column(|c, i, k| rotate(&map, case.simulated(c, i))[k])
-}
-
-fn add_to(sum: &mut [f64], part: &[f64], factor: f64) {
-    sum.iter_mut().zip(part).for_each(|(s, p)| *s += factor * p);
 }
