@@ -1,12 +1,10 @@
 //! The foundation gives way.
 
 use super::contract::{Amount, Blame, Card, Cause, Sight};
-use super::places::{Said, add_axes, added, added_spring, drive_compliance};
-use super::turns::{Axis, Names, SIX, TURNS, axes, said_matrix, shared, sizes};
+use super::places::{Said, add_axes, add_shift, added, added_spring, drive_compliance};
+use super::turns::{Names, SIX, TURNS, axes, said_matrix, shared, sizes};
 use crate::effects::Family;
-use crate::ground::spatial::{normals, scale};
 use crate::robot::Robot;
-use crate::robot::model::ElasticAxis;
 
 /// See the card.
 pub struct BaseCompliance;
@@ -89,8 +87,7 @@ const SHIFTS: Names = Names {
     softest: ["softest_along_x", "softest_along_y", "softest_along_z"],
 };
 
-/// A shift is a turn about an axis this far away, m: a robot file knows turns only, and over the
-/// reach of a robot the difference is below a tenth of a percent.
+/// A shift is a turn about an axis this far away, m: over the reach of a robot the difference is below a tenth of a percent.
 const FAR: f64 = 5000.0;
 
 impl Cause for BaseCompliance {
@@ -136,9 +133,11 @@ impl Cause for BaseCompliance {
     fn alter(&self, robot: &mut Robot, site: &str, amounts: &[f64]) {
         let (turns, shifts) = amounts.split_at(SIX.min(amounts.len()));
         add_axes(robot, site, 0, [0.0; 3], turns);
-        for (k, own) in axes(shifts).into_iter().enumerate() {
+        for (k, (along, amount)) in axes(shifts).into_iter().enumerate() {
             let name = format!("{site}-along-{}", ["x", "y", "z"][k]);
-            add_shift(robot, &name, own);
+            if let Some(spring) = added_spring(amount) {
+                add_shift(robot, &name, (0, [0.0; 3], FAR), (along, spring));
+            }
         }
     }
 
@@ -152,22 +151,4 @@ impl Cause for BaseCompliance {
             .chain(along)
             .collect()
     }
-}
-
-/// Adds a shift along a direction: a turn about an axis across it, far away.
-fn add_shift(robot: &mut Robot, name: &str, (along, amount): Axis) {
-    let (axis, across) = normals(along);
-    let Some(mut spring) = added_spring(amount) else {
-        return;
-    };
-    spring.stiffness *= FAR * FAR;
-    spring.damping *= FAR * FAR;
-    robot.elastic.push(ElasticAxis {
-        name: name.to_string(),
-        after: 0,
-        axis,
-        point: scale(FAR, across),
-        spring,
-        body: None,
-    });
 }

@@ -185,6 +185,16 @@ pub trait Cause: Sync {
         Vec::new()
     }
 
+    /// Whether a search scales an amount of a place with the cause; else it says how the cause acts, however large that is.
+    fn is_size(&self, _index: usize) -> bool {
+        true
+    }
+
+    /// Whether nobody may name it: it is sought lest another be named in its place, and told as unknown.
+    fn is_outside(&self) -> bool {
+        false
+    }
+
     /// The amount that tells which share of the part's own body lies behind it, where one does: no size of the cause, but a thing of its
     /// place.
     fn behind(&self) -> Option<usize> {

@@ -2,7 +2,7 @@
 //!
 //! One cause is one file: add it, one `mod` line and one line in [`CAUSES`], and every experiment that
 //! would show it seeks it, `ident effects` explains it, and the extended robot carries it. Nothing else
-//! in the program knows a cause by its name.
+//! in the program knows a cause by its name. What no contract has a name for stands in [`OUTSIDE`].
 
 pub mod contract;
 pub mod places;
@@ -17,6 +17,7 @@ mod double_hit;
 mod drive_stiffness;
 mod exponential_window;
 mod force_gain;
+mod hung_body;
 mod joint_damping;
 mod link_compliance;
 mod load_misalignment;
@@ -28,6 +29,7 @@ mod time_skew;
 mod tool_compliance;
 
 pub use contract::{Amount, Blame, Card, Cause, Sight};
+pub use hung_body::HUNG;
 
 /// Every cause: physics first, then the instruments.
 pub const CAUSES: &[&dyn Cause] = &[
@@ -50,6 +52,9 @@ pub const CAUSES: &[&dyn Cause] = &[
     &exponential_window::ExponentialWindow,
     &double_hit::DoubleHit,
 ];
+
+/// What no contract has a name for, and what would be named in its place if nobody sought it.
+pub const OUTSIDE: &[&dyn Cause] = &[&hung_body::HungBody];
 
 /// The causes that one experiment would show.
 pub fn seen_by(sight: Sight) -> impl Iterator<Item = &'static dyn Cause> {

@@ -2,7 +2,7 @@
 
 use super::contract::Amount;
 use super::turns::axes;
-use crate::ground::spatial::{IDENTITY, M3, V3, dot, norm, sub};
+use crate::ground::spatial::{IDENTITY, M3, V3, add, dot, norm, normals, scale, sub};
 use crate::robot::model::ElasticAxis;
 use crate::robot::{Robot, Spring};
 
@@ -139,6 +139,27 @@ pub fn add_axes_along(
             body: None,
         });
     }
+}
+
+/// Adds a shift along a unit vector by a spring (N/m, N·s/m), behind the body that joint `after` moves, of points near `point`: a turn
+/// about an axis across it, `far` away (m): a robot file knows turns only.
+pub fn add_shift(
+    robot: &mut Robot,
+    name: &str,
+    (after, point, far): (usize, V3, f64),
+    (along, mut spring): (V3, Spring),
+) {
+    let (axis, across) = normals(along);
+    spring.stiffness *= far * far;
+    spring.damping *= far * far;
+    robot.elastic.push(ElasticAxis {
+        name: name.to_string(),
+        after,
+        axis,
+        point: add(point, scale(far, across)),
+        spring,
+        body: None,
+    });
 }
 
 /// The name, with a number behind it if the robot has such an axis already.

@@ -3,6 +3,7 @@
 use super::adequacy::Adequacy;
 use super::data::{Data, Grid};
 use super::diagnosis::{Diagnosis, UNIT};
+use super::hanging::hanging;
 use super::linearity::{Linearity, linearity};
 use super::map::{Fit, fit, ln_odds, singular};
 use super::point::Point;
@@ -16,7 +17,7 @@ use crate::experiments::hammer_frf::{HammerFrf, Settings};
 use crate::findings::answer::{Answer, Discrepancy, Structure, Verdict};
 use crate::findings::belief::Belief;
 use crate::findings::engine::judgement::Judgement;
-use crate::findings::engine::posterior::Posterior;
+use crate::findings::engine::posterior::{Posterior, Weighed};
 use crate::findings::engine::rest::Rest;
 use crate::findings::engine::verdict::{Named, verdict};
 use crate::ground::problem::Outcome;
@@ -31,6 +32,19 @@ const FOLDS: usize = 2;
 /// left without it: drift below the lowest mode weighs much and is little. A tenth of the variance that [`judgement`](super::diagnosis::judgement)
 /// leaves open.
 const LITTLE: f64 = 0.005;
+
+/// Steps of the fit of a set without what has no name.
+const STEPS: usize = 8;
+
+/// The chosen set.
+struct Told {
+    /// As it was chosen.
+    whole: Fit,
+    /// With what has a name alone.
+    named: Fit,
+    /// What would hang at the tool in the place of a cause, in words.
+    rival: Option<String>,
+}
 
 /// Everything that the steps of a diagnosis share.
 pub(super) struct Case<'a> {
@@ -50,28 +64,30 @@ impl Case<'_> {
         let posterior = Posterior::of(sets, self.judgement.temper);
         let best = posterior.sets.first().map_or(&nothing, |s| &s.0);
         let (chosen, mut named) = self.name(&posterior, best)?;
-        let chosen = chosen.fit;
+        let rival = self.hung_rival(&posterior, &chosen);
+        let chosen = self.told(chosen.fit, rival)?;
         let double = doubled::cause(
             &self.machine,
             record,
             &self.settings,
             self.grid,
             &self.frf,
-            &chosen,
+            &chosen.whole,
         );
         named.causes.extend(double);
-        let adequacy = Adequacy::of(&self.sharp, &chosen.residual);
+        let adequacy = Adequacy::of(&self.sharp, &chosen.named.residual);
         let level = linearity(&self.frf, self.grid);
         self.answer(&posterior, &chosen, named, &adequacy, level)
     }
 
     /// The posterior with the instruments summed out.
     fn belief(&self, posterior: &Posterior<Set>) -> Belief {
-        let sees = self.suspects.iter().filter(|s| s.is_physical());
+        let sees = self.suspects.iter();
+        let sees = sees.filter(|s| s.is_physical() && s.is_named());
         let weighed = posterior.sets.iter().map(|(set, p)| {
             let mut robot = self.machine.robot.clone();
             let each = set.fit.point.each().into_iter();
-            let physical = each.filter(|(suspect, _)| suspect.is_physical());
+            let physical = each.filter(|(suspect, _)| suspect.is_physical() && suspect.is_named());
             let causes = physical.map(|(suspect, amounts)| {
                 suspect.cause.alter(&mut robot, &suspect.site, &amounts);
                 suspect.place()
@@ -117,24 +133,25 @@ impl Case<'_> {
     fn answer(
         self,
         posterior: &Posterior<Set>,
-        chosen: &Fit,
+        chosen: &Told,
         named: Named,
         adequacy: &Adequacy,
         level: Option<Linearity>,
     ) -> Outcome<Diagnosis> {
         let before = discrepancy::simulated(&self.machine, &self.sharp, &Point::nothing())?;
-        let after = discrepancy::simulated(&self.machine, &self.sharp, &chosen.point)?;
+        let after = discrepancy::simulated(&self.machine, &self.sharp, &chosen.named.point)?;
         let (rms, place) = discrepancy::between(&self.sharp, &before);
         let (left_rms, _) = discrepancy::between(&self.sharp, &after);
         let noise = discrepancy::noise(&self.sharp);
         let share = ((left_rms.powi(2) - noise.powi(2)) / rms.powi(2)).clamp(0.0, 1.0);
         let bent = level.as_ref().filter(|level| level.broken());
         let spread = &self.machine.known.laboratory.instrument;
-        let strayed = strayed(&chosen.point.theta, spread);
+        let whole = &chosen.whole.point;
+        let strayed = strayed(&whole.theta, spread).or_else(|| hanging(whole));
         let left = adequacy.left() || bent.is_some() || strayed.is_some();
         let explained = match strayed {
             Some(_) => 0.0,
-            None => self.explained(posterior, chosen, left_rms)?,
+            None => self.explained(posterior, &chosen.named, left_rms)?,
         };
         let rest = Rest {
             nats: -adequacy.p_value.max(f64::MIN_POSITIVE).ln(),
@@ -143,15 +160,18 @@ impl Case<'_> {
             scatter: None,
         };
         let verdict = verdict(&named, &rest, &self.judgement);
-        let description = match (bent, strayed, adequacy.left()) {
+        let description = match (bent, strayed, adequacy.left(), &chosen.rival) {
             (Some(level), ..) => level.description(),
-            (None, Some(strayed), _) => strayed,
-            (None, None, true) => adequacy.description(),
-            (None, None, false) => "nothing above the noise".into(),
+            (None, Some(strayed), ..) => strayed,
+            (None, None, true, _) => adequacy.description(),
+            (None, None, false, Some(rival)) => {
+                format!("nothing above the noise; but all of it may be {rival}")
+            }
+            (None, None, false, None) => "nothing above the noise".into(),
         };
         let unknown = verdict == Verdict::UnknownCause;
         let named = if unknown { Named::default() } else { named };
-        let extended = extended::robot(&self.machine, chosen, &named.causes);
+        let extended = extended::robot(&self.machine, &chosen.named, &named.causes);
         let candidates = posterior.sets.iter().take(8);
         let candidates = candidates.map(|(Set { fit, .. }, p)| {
             let names = fit.point.set.iter();
@@ -193,6 +213,38 @@ impl Case<'_> {
             extended,
             frf: self.frf,
             level,
+        })
+    }
+
+    /// What would hang at the tool if a cause of the set did not act, where the data cannot rule that out.
+    fn hung_rival(&self, posterior: &Posterior<Set>, chosen: &Set) -> Option<String> {
+        let outside = |s: &usize| !self.suspects[*s].is_named();
+        let open = chosen
+            .suspects()
+            .iter()
+            .flat_map(|at| posterior.stand_ins(chosen, *at));
+        let (rival, _) = open
+            .into_iter()
+            .find(|(s, odds)| outside(s) && *odds > self.judgement.ambiguous)?;
+        let mut sets = posterior.sets.iter().map(|s| &s.0);
+        let set = sets.find(|set| set.suspects().contains(&rival))?;
+        hanging(&set.fit.point)
+    }
+
+    /// What is told of a chosen fit: what has no name is left out, and the rest fitted anew.
+    fn told(&self, whole: Fit, rival: Option<String>) -> Outcome<Told> {
+        let is_named = whole.point.set.iter().all(Suspect::is_named);
+        let named = match is_named {
+            true => whole.clone(),
+            false => {
+                let point = whole.point.with_only(Suspect::is_named);
+                fit(&self.machine, &self.sharp, point, STEPS)?
+            }
+        };
+        Ok(Told {
+            whole,
+            named,
+            rival,
         })
     }
 

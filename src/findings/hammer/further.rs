@@ -2,7 +2,7 @@
 
 use super::map::Fit;
 use super::point::Point;
-use super::search::BASES;
+use super::search::{BASES, HOPE, same_set};
 use super::suspect::{Suspect, same};
 use super::unseen::without;
 
@@ -38,9 +38,27 @@ fn leading(fits: &[Fit], count: usize) -> Vec<&Fit> {
     leading
 }
 
-/// The best sets with a cause that gives way about any axis, from where it ended along those of the frame.
-pub(super) fn widened(fits: &[Fit]) -> Vec<Point> {
-    best(fits, BASES).flat_map(|f| f.point.widened()).collect()
+/// The best sets with a cause that gives way about any axis, from where it ended along those of the frame: of every set of causes that may
+/// still turn out best the best of those that lie along it. Per form all its starts.
+pub(super) fn widened(fits: &[Fit]) -> Vec<Vec<Point>> {
+    let mut leading: Vec<&Fit> = Vec::new();
+    let straight = worthwhile(fits).filter(|f| !f.point.widened().is_empty());
+    for fit in straight {
+        if !leading.iter().any(|f| same_set(&f.point, &fit.point)) {
+            leading.push(fit);
+        }
+    }
+    let leading = leading.into_iter().take(BASES);
+    leading.flat_map(|f| f.point.widened()).collect()
+}
+
+/// Those that a cause more free could still make the best, best first.
+fn worthwhile(fits: &[Fit]) -> impl Iterator<Item = &Fit> {
+    let least = fits.iter().map(|f| f.evidence);
+    let least = least.fold(f64::INFINITY, f64::min);
+    let top = best(fits, 1).next().map_or(0.0, |f| f.evidence);
+    let from = top - HOPE.0 - HOPE.1 * (top - least);
+    best(fits, fits.len()).filter(move |f| f.evidence > from)
 }
 
 /// The other good sets from where the best ended.

@@ -7,6 +7,7 @@
 
 pub mod adequacy;
 pub mod case;
+mod chord;
 pub mod data;
 pub mod diagnosis;
 pub mod discrepancy;
@@ -14,6 +15,8 @@ pub mod doubled;
 mod doubt;
 pub mod extended;
 mod further;
+mod hanging;
+mod leaning;
 pub mod linearity;
 pub mod machine;
 pub mod map;

@@ -35,7 +35,8 @@ impl Case<'_> {
             };
             let Some(useless) = useless else {
                 let mut named = Named::default();
-                for (own, gain) in causes.into_iter().zip(gains) {
+                let told = causes.into_iter().zip(gains);
+                for (own, gain) in told.filter(|(own, _)| own.1.is_named()) {
                     self.sort_in(posterior, &chosen, own, gain, &mut named);
                 }
                 return Ok((chosen, named.sorted()));
@@ -97,8 +98,8 @@ impl Case<'_> {
         gain: Gain,
         named: &mut Named,
     ) {
-        let all = |_: usize| true;
-        let rivals = Rivals::of(posterior, chosen, at, all, &self.judgement);
+        let named_ones = |s: usize| self.suspects[s].is_named();
+        let rivals = Rivals::of(posterior, chosen, at, named_ones, &self.judgement);
         let probability = posterior.inclusion(at).min(self.judgement.certain);
         let probability = probability.min(gain.probability());
         if let Some(rival) = rivals.open.first() {
@@ -108,7 +109,7 @@ impl Case<'_> {
             named.group((places, probability), would_tell, gain);
             return;
         }
-        let others = runners_up(posterior, chosen, at, all).into_iter();
+        let others = runners_up(posterior, chosen, at, named_ones).into_iter();
         let others = others.map(|(s, p)| {
             let (effect, site) = self.suspects[s].place();
             (effect, site, p)

@@ -68,16 +68,18 @@ impl Point {
         point
     }
 
-    /// The same with one cause free to give way about any axis.
-    pub fn widened(&self) -> Vec<Self> {
+    /// The same with one cause free to give way about any axis: per form all its starts.
+    pub fn widened(&self) -> Vec<Vec<Self>> {
         let own = self.own();
-        let wide = |at: usize| {
-            let (suspect, amounts) = &own[at];
-            let (wide, roots) = suspect.widened(amounts)?;
+        let wide = |(suspect, amounts): &(&Suspect, Vec<f64>)| {
             let others = self.with_only(|other| !same(other, suspect));
-            Some(others.and(&wide, &roots))
+            let forms = suspect.widened(amounts).into_iter();
+            let start = move |(wide, roots): (Suspect, Vec<Vec<f64>>)| -> Vec<Self> {
+                roots.iter().map(|own| others.and(&wide, own)).collect()
+            };
+            forms.map(start)
         };
-        (0..own.len()).filter_map(wide).collect()
+        own.iter().flat_map(wide).collect()
     }
 
     /// The same with one cause at its other places.
@@ -122,7 +124,10 @@ impl Point {
     /// The robot with the physical causes in it.
     pub fn robot(&self, robot: &Robot) -> Robot {
         let mut robot = robot.clone();
-        for (suspect, amounts) in self.each() {
+        // what hangs at the tool hangs at all that is named
+        let (named, outside): (Vec<_>, Vec<_>) =
+            self.each().into_iter().partition(|(own, _)| own.is_named());
+        for (suspect, amounts) in named.into_iter().chain(outside) {
             suspect.cause.alter(&mut robot, &suspect.site, &amounts);
         }
         robot

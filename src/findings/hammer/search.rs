@@ -1,14 +1,14 @@
 //! The search for sets of causes: every single one from all its starts on broad peaks, pairs where a
 //! single one leaves something that another would explain, then the best sets on sharp peaks.
 
+use super::chord::{Chord, promise};
 use super::data::Data;
 use super::further::{followed, moved, nearby, parts, widened};
-use super::map::{self, Fit, Way, fit, measured, weights};
+use super::map::{self, Fit, Way, fit};
 use super::point::Point;
-use super::prediction::{Machine, stack};
+use super::prediction::Machine;
 use super::suspect::{Suspect, same};
 use crate::ground::problem::Outcome;
-use nalgebra::DVector;
 use rayon::prelude::*;
 
 /// Steps of a descent: while starts compete, on broad peaks, on sharp ones.
@@ -19,18 +19,16 @@ const TRIED: usize = 40;
 const KEPT: usize = 24;
 pub(super) const BASES: usize = 4;
 const PARTNERS: usize = 6;
-/// A start this near shows the tangent.
-const NEAR: f64 = 0.05;
+/// Starts of a cause from which it is tried by descent.
+const STARTS: usize = 6;
 /// Rounds in which the best set is continued on sharp peaks, and causes of a set at most.
 const ROUNDS: usize = 2;
 const LARGEST: usize = 2;
 /// Nats that a partner must promise to be tried.
 const PROMISE: f64 = 3.0;
-/// How far a partner may be from its start for the straight line to count, in starts.
-const REACH: f64 = 2.0;
 /// Sets on broad peaks go on to sharp ones within these nats of the best, or this share of what the
 /// best explains.
-const HOPE: (f64, f64) = (30.0, 0.15);
+pub(super) const HOPE: (f64, f64) = (30.0, 0.15);
 
 /// Everything that was compared, on sharp peaks; the empty set first.
 pub struct Found {
@@ -82,19 +80,37 @@ fn sought(machine: &Machine, suspects: &[Suspect], sharp: &Data, points: Vec<Poi
         }
         fits.extend(sharpened(machine, sharp, more, STEPS[2]));
     }
-    for (points, steps) in [
-        (parts as fn(&[Fit]) -> Vec<Point>, STEPS[2]),
+    let lead = |fits: &mut Vec<Fit>, ways: &[(Lead, usize)]| {
+        for (points, steps) in ways {
+            let points = points(fits);
+            fits.extend(sharpened(machine, sharp, points, *steps));
+        }
+    };
+    let near: [(Lead, usize); 4] = [
+        (parts, STEPS[2]),
         (moved, STEPS[2]),
         (nearby, STEPS[1]),
         (nearby, STEPS[1]),
-        (widened, STEPS[2]),
-        (followed, STEPS[2]),
-        (parts, STEPS[2]),
-    ] {
-        let points = points(&fits);
-        fits.extend(sharpened(machine, sharp, points, steps));
-    }
+    ];
+    lead(&mut fits, &near);
+    let wide = widened(&fits).into_par_iter();
+    let wide: Vec<Option<Fit>> = wide
+        .map(|starts| lowest_of(machine, sharp, starts))
+        .collect();
+    fits.extend(wide.into_iter().flatten());
+    lead(&mut fits, &[(followed, STEPS[2]), (parts, STEPS[2])]);
     Found { fits }
+}
+
+/// Where good sets lead to.
+type Lead = fn(&[Fit]) -> Vec<Point>;
+
+/// Of several starts of a set the one that is lowest after the first steps, fitted.
+fn lowest_of(machine: &Machine, sharp: &Data, starts: Vec<Point>) -> Option<Fit> {
+    let begun = starts
+        .into_iter()
+        .filter_map(|start| map::begin(machine, sharp, start, STEPS[0]).ok());
+    lowest(begun)?.further(STEPS[2]).finish().ok()
 }
 
 fn sharpened(machine: &Machine, sharp: &Data, points: Vec<Point>, steps: usize) -> Vec<Fit> {
@@ -116,7 +132,8 @@ fn continued(machine: &Machine, suspects: &[Suspect], sharp: &Data, fits: &[Fit]
     partners.filter(new).collect()
 }
 
-fn same_set(a: &Point, b: &Point) -> bool {
+/// Whether two sets have the same causes.
+pub(super) fn same_set(a: &Point, b: &Point) -> bool {
     let held = |s: &Suspect| b.set.iter().any(|other| same(s, other));
     a.set.len() == b.set.len() && a.set.iter().all(held)
 }
@@ -158,18 +175,34 @@ pub fn sort(fits: &mut [Fit]) {
     fits.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
 }
 
-/// The first steps of a cause from all its starts, and from nearly nothing with the nuisances of the
+/// The first steps of a cause from those of its starts that promise most, and from nearly nothing with the nuisances of the
 /// empty set.
 fn begin(machine: &Machine, data: &Data, nothing: &Fit, suspect: &Suspect) -> Option<Fit> {
     let from = |theta: &Point, start: &[f64]| {
         map::begin(machine, data, theta.and(suspect, start), STEPS[0]).ok()
     };
     let clean = Point::nothing();
-    let starts = suspect.starts();
+    let starts = promising(machine, data, nothing, suspect);
     let fresh = starts.iter().filter_map(|start| from(&clean, start));
     let small = suspect.times(starts.first()?, 0.02);
     let near = from(&nothing.point, &small);
     lowest(fresh.chain(near))?.finish().ok()
+}
+
+/// The starts of a cause; of more than a few those that promise most.
+fn promising(machine: &Machine, data: &Data, nothing: &Fit, suspect: &Suspect) -> Vec<Vec<f64>> {
+    let starts = suspect.starts();
+    if starts.len() <= STARTS {
+        return starts;
+    }
+    let chord = Chord::of(machine, data, nothing, suspect);
+    let rated = starts
+        .into_iter()
+        .filter_map(|start| Some((chord.to(&start, 1.0)?.0, start)));
+    let mut rated: Vec<(f64, Vec<f64>)> = rated.collect();
+    rated.sort_by(|a, b| b.0.total_cmp(&a.0));
+    rated.truncate(STARTS);
+    rated.into_iter().map(|(_, start)| start).collect()
 }
 
 fn lowest<'a>(ways: impl Iterator<Item = Way<'a>>) -> Option<Way<'a>> {
@@ -210,53 +243,12 @@ fn partners(machine: &Machine, suspects: &[Suspect], data: &Data, base: &Fit) ->
     let tried = others.filter_map(|s| promise(machine, data, base, s));
     let mut promised: Vec<(f64, Point)> = tried.filter(|(nats, _)| *nats > PROMISE).collect();
     promised.sort_by(|a, b| b.0.total_cmp(&a.0));
-    promised.truncate(PARTNERS);
-    promised.into_iter().map(|(_, point)| point).collect()
-}
-
-/// Nats that `suspect` promises beside what is found, along the straight line to its best start.
-pub fn promise(
-    machine: &Machine,
-    data: &Data,
-    base: &Fit,
-    suspect: &Suspect,
-) -> Option<(f64, Point)> {
-    let weights = weights(data);
-    let now: Vec<f64> = (0..weights.len())
-        .map(|i| weights[i])
-        .zip(measured(data))
-        .zip(base.residual.iter())
-        .map(|((w, m), r)| m * w - r)
-        .collect();
-    let along = |start: &Vec<f64>, share: f64| {
-        let scaled = suspect.times(start, share);
-        let point = base.point.and(suspect, &scaled);
-        let nuisance = machine.nuisance(&point).ok()?;
-        let mut full = point.clone();
-        full.theta.resize(nuisance.len(), 0.0);
-        let mut rows = Vec::with_capacity(weights.len());
-        let shown = machine.predict(&nuisance, &full, data).ok()?;
-        stack(data, &shown, &mut rows);
-        let column = rows.iter().zip(&weights).zip(&now);
-        let column = column.map(|((p, w), now)| p * w - now);
-        let column = DVector::from_iterator(weights.len(), column);
-        let (nats, times) = base.promise(&column, REACH / share);
-        let amounts = suspect.times(&scaled, times);
-        Some((nats, base.point.and(suspect, &within(suspect, &amounts))))
-    };
-    let starts = suspect.starts();
-    let near = suspect.tangents().into_iter();
-    let near = near.filter_map(|start| along(&start, NEAR));
-    let tried = starts.iter().filter_map(|start| along(start, 1.0));
-    tried.chain(near).max_by(|a, b| a.0.total_cmp(&b.0))
-}
-
-/// Amounts inside their bounds, and not quite nothing.
-fn within(suspect: &Suspect, amounts: &[f64]) -> Vec<f64> {
-    let bounds = suspect.bounds().into_iter();
-    let inside = |([low, high], a): ([f64; 2], &f64)| match a.abs() < NEAR {
-        true => NEAR.clamp(low, high),
-        false => a.clamp(low, high),
-    };
-    bounds.zip(amounts).map(inside).collect()
+    let mut best: Vec<Point> = Vec::new();
+    for (_, point) in promised {
+        // of the forms of a cause the one that promises most
+        if best.len() < PARTNERS && !best.iter().any(|known| same_set(known, &point)) {
+            best.push(point);
+        }
+    }
+    best
 }

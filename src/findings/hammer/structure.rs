@@ -1,10 +1,11 @@
 //! A robot at the pose of the test as matrices.
 
+use crate::causes::HUNG;
 use crate::ground::problem::Outcome;
 use crate::ground::spatial::V3;
 use crate::motion::linear::gravity_stiffness;
 use crate::motion::swing::State;
-use crate::motion::uncertain::bodies::{self, Spread};
+use crate::motion::uncertain::bodies::{self, Spread, triangle};
 use crate::motion::{self, Linear, Work, linearise};
 use crate::robot::Robot;
 use crate::robot::model::Tool;
@@ -50,6 +51,10 @@ impl Structure {
         let weight = gravity_stiffness(&chain, &work);
         let both = linear.stiffness.iter_mut().zip(&weight);
         both.for_each(|(k, w)| *k += w);
+        // the tool stands before what hangs at it
+        if let Some(hung) = linear.names.iter().position(|name| name == HUNG) {
+            (linear.tool[hung], linear.turn[hung]) = ([0.0; 3], [0.0; 3]);
+        }
         let rest = self.rest.clone();
         Ok(Self { linear, rest })
     }
@@ -92,6 +97,14 @@ impl Structure {
     /// # Errors
     /// Nothing elastic.
     pub fn bodies(&self, robot: &Robot, spread: &Spread) -> Outcome<DMatrix<f64>> {
-        bodies::directions(robot, &self.angles(&motion::elastic(robot).names), spread)
+        let names = motion::elastic(robot).names;
+        let mut all = bodies::directions(robot, &self.angles(&names), spread)?;
+        // of the tool, not of what hangs at it
+        if let Some(hung) = self.linear.names.iter().position(|name| name == HUNG) {
+            let own = triangle(self.linear.n).enumerate();
+            own.filter(|(_, (i, j))| *i == hung || *j == hung)
+                .for_each(|(place, _)| all.column_mut(place).fill(0.0));
+        }
+        Ok(all)
     }
 }

@@ -1,5 +1,6 @@
 //! A cause at a place of one robot, its amounts counted in spreads.
 
+use super::leaning;
 use super::seat::{Between, SHARES_BEHIND, STEPS, Seat};
 use crate::causes::turns::{LOWER, SIX, squared};
 use crate::causes::{self, Amount, Cause, Sight};
@@ -10,9 +11,8 @@ use crate::robot::Robot;
 
 /// Where an amount that cannot be negative starts to exist, in spreads.
 const LEAST: f64 = 1e-3;
-
-/// Root of a compliance that nothing speaks for yet.
-const FAINT: f64 = 0.2;
+/// Nats by which what has no name must explain more than what has one: within them the data tell neither from the other.
+const OUTSIDE: f64 = 4.0;
 
 /// A cause at a place.
 #[derive(Clone)]
@@ -86,14 +86,14 @@ impl Suspect {
 
     /// Logarithm of how many forms and places it was chosen among.
     pub fn choices(&self) -> f64 {
-        let count = self.cause.card().amounts.len();
-        let places = count / self.cause.heard().max(1);
+        let places = self.cause.card().amounts.len() / self.cause.heard().max(1);
         let forms = forms(self.cause, &self.site).len();
         let nearby = match self.cause.behind() {
             Some(_) => SHARES_BEHIND.len() * (1 + STEPS.len() * self.cause.next_to(0).len()),
             None => 1,
         };
-        ((places * forms * nearby) as f64).ln()
+        let outside = OUTSIDE * f64::from(u8::from(!self.is_named()));
+        ((places * forms * nearby) as f64).ln() + outside
     }
 
     /// The same cause at the other places that it may have at its site.
@@ -123,20 +123,19 @@ impl Suspect {
         }))
     }
 
-    /// The same cause at the same place, free to give way about any axis, from where its unknowns are `own`; `None`
-    /// where it is so already.
-    pub fn widened(&self, own: &[f64]) -> Option<(Self, Vec<f64>)> {
-        let wide = Self {
-            heard: self.cause.heard(),
+    /// The same cause at the same place, free to turn about any axis and then to shift along any too, from where its unknowns are `own`:
+    /// per form the starts of `leaning`. None where it is so already.
+    pub fn widened(&self, own: &[f64]) -> Vec<(Self, Vec<Vec<f64>>)> {
+        if self.is_whole() {
+            return Vec::new();
+        }
+        let wide = forms(self.cause, &self.site).into_iter().map(|form| Self {
+            heard: form.heard,
             ..self.clone()
-        };
-        (!self.is_whole() && wide.is_whole()).then(|| {
-            let along = |k: usize| if k % SIX < 3 { FAINT } else { 0.0 };
-            let mut roots: Vec<f64> = (0..wide.heard).map(along).collect();
-            let known = roots.iter_mut().zip(own);
-            known.for_each(|(root, amount)| *root = amount.sqrt().max(FAINT));
-            (wide, roots)
-        })
+        });
+        wide.filter(Self::is_whole)
+            .map(|wide| (wide.clone(), leaning::roots(wide.heard, own)))
+            .collect()
     }
 
     /// Spread of each amount: the prior's standard deviation, as far as its starts reach; one for a whole matrix.
@@ -180,12 +179,12 @@ impl Suspect {
 
     /// Unknowns that make so many times the amounts of these.
     pub fn times(&self, own: &[f64], times: f64) -> Vec<f64> {
-        let times = if self.is_whole() {
-            times.max(0.0).sqrt()
-        } else {
-            times
+        let times = match self.is_whole() {
+            true => times.max(0.0).sqrt(),
+            false => times,
         };
-        own.iter().map(|x| x * times).collect()
+        let scaled = |(k, x)| if self.cause.is_size(k) { x * times } else { x };
+        own.iter().copied().enumerate().map(scaled).collect()
     }
 
     /// Unknowns with one amount alone, and with two and what they share, of the size of its first start.
@@ -193,7 +192,11 @@ impl Suspect {
         let first = self.starts().into_iter().next().unwrap_or_default();
         let alone = |k: usize| {
             let own = first.iter().enumerate();
-            own.map(|(i, s)| if i == k { *s } else { 0.0 }).collect()
+            own.map(|(i, s)| match i == k || !self.cause.is_size(i) {
+                true => *s,
+                false => 0.0,
+            })
+            .collect()
         };
         let both = |(k, side): (usize, f64)| {
             let (start, (_, column)) = (k - k % SIX, LOWER[k % SIX]);
@@ -202,8 +205,9 @@ impl Suspect {
             (own[start + column], own[k]) = (half, side * half);
             own
         };
+        let sizes = (0..first.len()).filter(|k| self.cause.is_size(*k));
         let (single, shared): (Vec<usize>, Vec<usize>) =
-            (0..first.len()).partition(|k| !self.cause.is_shared(*k));
+            sizes.partition(|k| !self.cause.is_shared(*k));
         let sides = shared.into_iter().flat_map(|k| [(k, 1.0), (k, -1.0)]);
         single
             .into_iter()
@@ -223,15 +227,22 @@ impl Suspect {
         (self.name(), self.site.clone())
     }
 
+    /// Whether it may be named.
+    pub fn is_named(&self) -> bool {
+        !self.cause.is_outside()
+    }
+
     /// Whether it changes the robot.
     pub fn is_physical(&self) -> bool {
         self.cause.card().family == Family::Physics
     }
 }
 
-/// Every cause at every place of this robot that a hammer test with these outputs would show.
+/// Every cause at every place of this robot that a hammer test with these outputs would show, and what nobody may name.
 pub fn suspects(robot: &Robot, outputs: &[String]) -> Vec<Suspect> {
-    let all = causes::seen_by(Sight::Hammer).filter(|c| !c.card().amounts.is_empty());
+    let outside = causes::OUTSIDE.iter().copied();
+    let all = causes::seen_by(Sight::Hammer).chain(outside);
+    let all = all.filter(|c| !c.card().amounts.is_empty());
     let places = all.flat_map(|cause| {
         let sites = cause.sites(robot).into_iter();
         sites.flat_map(move |site| forms(cause, &site))
@@ -243,7 +254,7 @@ pub fn suspects(robot: &Robot, outputs: &[String]) -> Vec<Suspect> {
     places.filter(measured).collect()
 }
 
-/// The narrow form of a cause whose amounts are matrices, their axes those of the frame, and the whole.
+/// Of matrices: their axes those of the frame; the first one; all of them.
 fn forms(cause: &'static dyn Cause, site: &str) -> Vec<Suspect> {
     let form = |heard| Suspect {
         cause,
@@ -253,7 +264,11 @@ fn forms(cause: &'static dyn Cause, site: &str) -> Vec<Suspect> {
         behind: 0,
         heard,
     };
-    let mut heard = vec![cause.straight(), cause.heard()];
+    let first = match cause.straight() < cause.heard() {
+        true => SIX.min(cause.heard()),
+        false => cause.heard(),
+    };
+    let mut heard = vec![cause.straight(), first, cause.heard()];
     heard.dedup();
     heard.into_iter().map(form).collect()
 }

@@ -86,3 +86,46 @@ fn slopes_of_amounts_are_those_of_what_is_predicted() {
         assert_eq!(off(bodies), Vec::<String>::new());
     }
 }
+
+/// What hangs at the tool pushes back with its apparent mass: of a point mass that slides along one direction on a spring, and goes along with the tool across
+/// it.
+#[test]
+fn a_hung_body_is_an_apparent_mass_at_the_tool() {
+    let robot = load(builtin::BUILTINS[0].0, None).unwrap().robot;
+    let joints = [0.3, -1.2, 1.7, 0.5, 0.8, 0.2];
+    let known = Known {
+        stiffness: 0.05,
+        damping: 0.25,
+        laboratory: uncertain::Known::stated(hammer_known::Known::default()),
+    };
+    let data = lines();
+    let machine = Machine::new(&robot, &joints, known, &data).unwrap();
+    let all = suspects(&robot, &["x", "y", "z"].map(String::from));
+    let hung = all.iter().find(|s| !s.is_named()).unwrap();
+    let shown = |point: Point| {
+        let nuisance = machine.nuisance(&point).unwrap();
+        let theta = vec![0.0; nuisance.len()];
+        let point = Point { theta, ..point };
+        let values = machine.predict(&nuisance, &point, &data).unwrap();
+        let matrix = |a: &Accelerance| nalgebra::Matrix3::from_fn(|i, j| a[i][j]);
+        values.iter().map(matrix).collect::<Vec<_>>()
+    };
+    let start = hung.starts().remove(7);
+    let point = Point::nothing().and(hung, &start);
+    let (mass, frequency) = (3.0, point.each()[0].1[3]);
+    let omega = TAU * frequency;
+    let (bare, with) = (shown(Point::nothing()), shown(point));
+    // the direction turns with the joints: it is what makes the apparent mass smallest
+    for ((bare, with), s) in bare.iter().zip(&with).zip(&data.s) {
+        let apparent = with.try_inverse().unwrap() - bare.try_inverse().unwrap();
+        let spring = mass * omega * (C64::from(omega) + s * 0.04);
+        let along = mass * spring / (spring + mass * s * s);
+        let trace = apparent.trace() - (along + 2.0 * mass);
+        // its weight turns with what it hangs at, which is no apparent mass: 3 kg · 9.81 m/s² over a fifth of a metre, N/m
+        let weight = 150.0 / s.norm_sqr();
+        let least = 1e-4 * (along.norm() + mass) + weight;
+        assert!(trace.norm() < least, "{s}: {trace}");
+        let determinant = apparent.determinant() / (along * mass * mass) - 1.0;
+        assert!(determinant.norm() < 1e-3 + weight, "{s}: {determinant}");
+    }
+}
