@@ -60,7 +60,7 @@ impl<'a> Case<'a> {
         let unit = file.port.deflection_unit();
         let record = Record::new(&data, unit, &settings.library, &place);
         let judgement = asked(&record);
-        let (found, restless) = judged(file, &data, (&record, &judgement));
+        let (mut found, restless) = judged(file, &data, (&record, &judgement));
         let shown = found.answer.discrepancy.noise_rms;
         let factor = shown / rms(&record.noise.spread);
         let colour = record.noise.colour(factor);
@@ -68,7 +68,10 @@ impl<'a> Case<'a> {
             .filter(|s| *s > COARSE * colour.floor() && *s < SEEN * shown)
             .or_else(|| lattice::plain_step(&file.deflection));
         let is_rounding = step.is_some_and(|step| rms(&found.left) < HIDES * step);
-        let is_left = (restless || found.answer.is_open()) && !is_rounding;
+        let is_left = (restless.is_some() || found.answer.is_open()) && !is_rounding;
+        if let Some(words) = restless.filter(|_| is_left && !found.answer.is_open()) {
+            found.answer.unexplained.description = words.into();
+        }
         let found = match is_left && found.answer.named() >= judgement.several {
             true => found.without_names(&record, &judgement),
             false => found,
@@ -84,7 +87,7 @@ impl<'a> Case<'a> {
             plain,
             present: settings.present.clone(),
             step,
-            restless,
+            restless: restless.is_some(),
             judgement,
             library: settings.library.clone(),
         }
@@ -167,28 +170,26 @@ impl<'a> Case<'a> {
 /// a faint cause makes.
 fn asked(record: &Record) -> Judgement {
     Judgement {
-        faint_nats: if record.is_rounded {
-            f64::INFINITY
-        } else {
-            25.0
+        faint_nats: match record.is_rounded || record.is_coarse() {
+            true => f64::INFINITY,
+            false => 25.0,
         },
         ..Judgement::default()
     }
 }
 
-/// What the engine finds, and whether it leaves what no noise makes.
+/// What the engine finds, and what it leaves that no noise makes.
 fn judged(
     file: &LoadCycle,
     data: &Observation,
     (record, judgement): (&Record, &Judgement),
-) -> (Found, bool) {
+) -> (Found, Option<&'static str>) {
     let mut found = diagnose(record, judgement);
     let seen = &mut found.answer.unexplained.description;
     if seen == JUMPS {
         *seen = record.jumps();
     }
-    let restless =
-        record.is_restless(&found.left) || record.is_beyond(&found.left, stated(file, data));
+    let restless = record.restless(&found.left, stated(file, data));
     (found, restless)
 }
 

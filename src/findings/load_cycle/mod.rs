@@ -23,6 +23,7 @@ mod patterns;
 pub mod present;
 mod read_load;
 pub mod refine;
+mod repeats;
 pub mod scales;
 mod span;
 mod statement;

@@ -2,14 +2,19 @@
 //! that would tell what it cannot.
 
 use super::case::Case;
+use super::lattice::beside_cutting;
 use super::refine::Refined;
 use super::{lattice, next};
 use crate::effects::composite::Slot;
 use crate::effects::{Composite, EFFECTS, Family};
 use crate::findings::answer::{Cause, Group};
+use crate::findings::gain::Gain;
 use crate::fit::solution::unit_of;
 use crate::measurement::load_cycle::LoadCycle;
 
+/// Share of a coarse step by which an effect must move readings otherwise than digits that are cut off do, to be seen, rms: rounding has 0.29, another
+/// one on each reading. A choice.
+const OTHER: f64 = 0.2;
 /// Rivals whose experiment is computed.
 const RIVALS: usize = 2;
 
@@ -40,7 +45,8 @@ impl Case<'_> {
             would_tell: self.would_tell(chosen, &group.effects),
             ..group.clone()
         };
-        let causes = answer.causes.iter().filter(|c| self.is_seen(&c.gain));
+        let causes = answer.causes.iter();
+        let causes = causes.filter(|c| self.is_seen(c.effect, &c.gain));
         let causes: Vec<Cause> = causes.map(with_values).collect();
         // where something is left, a size that may be nothing is what the law made of that
         let is_left = self.restless || answer.is_open();
@@ -48,15 +54,21 @@ impl Case<'_> {
         let kept = causes
             .into_iter()
             .filter(|c| !(is_left && may_be_nothing(c)));
-        let groups = answer.groups.iter().filter(|g| self.is_seen(&g.gain));
+        let groups = answer.groups.iter();
+        let groups = groups.filter(|g| self.is_seen(g.effects[0], &g.gain));
         Named {
             causes: kept.collect(),
             groups: groups.map(told).collect(),
         }
     }
 
-    fn is_seen(&self, gain: &crate::findings::gain::Gain) -> bool {
-        self.step.is_none() || self.is_real(gain)
+    /// Whether an effect is seen through a coarse lattice of readings: it moves them by more than digits that are cut off, or is of another
+    /// shape.
+    fn is_seen(&self, effect: &str, gain: &Gain) -> bool {
+        let Some(step) = self.step else { return true };
+        let mut blamed = self.found.blamed.iter().filter(|b| b.effect == effect);
+        let is_other = blamed.any(|b| beside_cutting(&b.part, &self.data.reading) > OTHER * step);
+        self.is_real(gain) || gain.is_real() && is_other
     }
 
     /// The schedule under which the laws of a group would differ most, each fitted to these data.

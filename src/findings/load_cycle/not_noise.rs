@@ -2,6 +2,7 @@
 
 use super::families::View;
 use super::noise::{Coloured, above_neighbours, differences, is_one_sided, is_swinging, windows};
+use super::repeats::repeats;
 use crate::ground::stats::{MEDIAN_OF_SQUARES, median};
 use crate::signal::outliers;
 use crate::signal::steps::{sharpest, steps, window};
@@ -9,6 +10,11 @@ use crate::signal::steps::{sharpest, steps, window};
 /// A coloured noise so many times the scatter of neighbouring readings is a word for what nobody has explained:
 /// clean 1/f noise reaches about 2 (load cycles of `tests/judge`, seeds 1 to 3).
 const SWOLLEN: f64 = 3.5;
+/// So many times that scatter may be a walk: what every reading keeps of the one before is then 97 % at the most.
+const WALKS: f64 = 7.0;
+/// Distances of readings over which a walk is looked at, and normal deviations within which what is left of it is usual.
+const LAGS: usize = 24;
+const USUAL: f64 = 2.3;
 /// Isolated changes of level that are no noise: coloured noise swallows a structure with many kinks, its
 /// differences do not.
 const JUMPS: usize = 5;
@@ -17,21 +23,60 @@ const LEVELS: usize = 4;
 /// Robust deviations from which a change is none of noise, whatever its colour: noise of any colour changes by normal
 /// amounts over any number of rows.
 const FAR: f64 = 6.0;
+/// What jumps show.
+const LEAPS: &str = "jumps from level to level";
 /// Nats by which a spectrum that rises must be better than one that falls, and the least amplitude of what
 /// rises, deviations of one reading.
 const RISING: (f64, f64) = (16.0, 2.0);
 /// First coefficient that is looked at.
 const FIRST: usize = 6;
 
-/// Whether a residual holds what no noise makes, whatever its colour.
-pub fn is_no_noise(residual: &[f64], noise: &Coloured, view: &View) -> bool {
+/// What a residual holds that no noise makes, whatever its colour, in words; none of noise.
+pub fn no_noise(residual: &[f64], noise: &Coloured, view: &View) -> Option<&'static str> {
     let windows = windows(residual);
-    jumps(residual, view) >= JUMPS
-        || levels(residual, noise, view) >= LEVELS
-        || is_one_sided(residual, &windows)
-        || is_swinging(residual, &windows)
-        || is_rising(residual, noise, view)
-        || above_neighbours(residual, &noise.spread) > SWOLLEN
+    let each = residual.iter().zip(&noise.spread);
+    let own: Vec<f64> = each.map(|(r, s)| r / s).collect();
+    let seen = [
+        (jumps(residual, view) >= JUMPS || levels(&own, view) >= LEVELS).then_some(LEAPS),
+        is_one_sided(residual, &windows).then_some("errors that come in bursts and go one way"),
+        is_swinging(residual, &windows).then_some("swings that come and go"),
+        is_rising(residual, noise, view)
+            .then_some("an oscillation that is larger than what is slower than it"),
+        is_swollen(residual, &own, noise).then_some(
+            "a slow wander many times as large as what neighbouring readings scatter by",
+        ),
+        (!view.stepped && repeats(&own, &view.u, &view.half_cycle))
+            .then_some("a fine pattern that comes back at the same loads"),
+    ];
+    seen.into_iter().flatten().next()
+}
+
+/// Whether it is far above the scatter of its neighbours and no plain walk that always comes back, which no structure is.
+fn is_swollen(residual: &[f64], own: &[f64], noise: &Coloured) -> bool {
+    let above = above_neighbours(residual, &noise.spread);
+    above > SWOLLEN && (above > WALKS || !is_walk(own))
+}
+
+/// Whether what every reading keeps of the one before leaves white noise (an autoregression of the first order): by the sum of squared
+/// correlations over many distances (Ljung and Box 1978), its distribution by Wilson and Hilferty 1931.
+fn is_walk(own: &[f64]) -> bool {
+    let correlation = |v: &[f64], far: usize| -> f64 {
+        let both = v.iter().zip(&v[far.min(v.len())..]);
+        let square: f64 = v.iter().map(|x| x * x).sum();
+        both.map(|(a, b)| a * b).sum::<f64>() / square.max(f64::MIN_POSITIVE)
+    };
+    let kept = correlation(own, 1);
+    let new: Vec<f64> = own.windows(2).map(|w| w[1] - kept * w[0]).collect();
+    let (rows, lags) = (new.len() as f64, (new.len() / 6).min(LAGS));
+    if lags < 4 {
+        return false;
+    }
+    let sum: f64 = (1..=lags)
+        .map(|far| correlation(&new, far).powi(2) / (rows - far as f64))
+        .sum();
+    let (square, count) = (rows * (rows + 2.0) * sum, lags as f64 - 1.0);
+    let step = 2.0 / (9.0 * count);
+    ((square / count).cbrt() - (1.0 - step)) / step.sqrt() < USUAL
 }
 
 /// Isolated changes of level in a residual that are far above the noise of its differences. A wild reading
@@ -48,10 +93,8 @@ fn jumps(residual: &[f64], view: &View) -> usize {
 }
 
 /// Isolated changes of level between the means of several rows.
-fn levels(residual: &[f64], noise: &Coloured, view: &View) -> usize {
-    let each = residual.iter().zip(&noise.spread);
-    let own: Vec<f64> = each.map(|(r, s)| r / s).collect();
-    let (mut steps, wide) = (steps(&own), window(own.len()));
+fn levels(own: &[f64], view: &View) -> usize {
+    let (mut steps, wide) = (steps(own), window(own.len()));
     let spread = outliers::robust_std(&steps);
     let straight = |i: usize| {
         let (from, to) = (i.saturating_sub(wide), (i + wide).min(own.len() - 1));
@@ -124,4 +167,33 @@ fn falling(bands: &[(f64, f64)]) -> Vec<f64> {
     }
     let each = pools.iter().flat_map(|p| std::iter::repeat_n(p.0, p.2));
     each.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ground::random::Random;
+
+    /// Noise that keeps nine tenths and more of itself is noise; a smooth curve under white noise, as large beside its neighbours, is none.
+    #[test]
+    fn a_walk_that_comes_back_is_noise_and_a_curve_is_none() {
+        let count = |of: &dyn Fn(&mut Random) -> Vec<f64>| {
+            let each = (0..100).map(|seed| of(&mut Random::new(seed)));
+            each.filter(|left| is_walk(left)).count()
+        };
+        let walk = |random: &mut Random| {
+            let mut at = 0.0;
+            let mut next = || {
+                at = 0.94 * at + random.normal();
+                at
+            };
+            (0..300).map(|_| next()).collect()
+        };
+        let curve = |random: &mut Random| {
+            let at = |i: usize| 4.0 * (i as f64 / 30.0).sin() + random.normal();
+            (0..300).map(at).collect()
+        };
+        assert!(count(&walk) > 93);
+        assert!(count(&curve) < 3);
+    }
 }

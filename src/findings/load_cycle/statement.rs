@@ -3,7 +3,7 @@
 use super::evidence::evidence;
 use super::families::{View, suspects};
 use super::noise::{Coloured, TINTS, above_neighbours, rough};
-use super::not_noise::is_no_noise;
+use super::not_noise::no_noise;
 use super::patterns::{patterns, told};
 use super::read_load;
 use super::span::{coarse_span, span};
@@ -64,7 +64,7 @@ impl<'a> Record<'a> {
         let cosine = Arc::new(crate::signal::cosine::Cosine::new(data.rows()));
         let scale = data.scene.deflection_scale;
         let mut record = Self {
-            rounding: read_load::rounding(&view, scale),
+            rounding: read_load::rounding(&view, scale, first.max(digits)),
             is_rounded: false,
             suspects: suspects(library, (data, &view), site)
                 .into_iter()
@@ -81,15 +81,20 @@ impl<'a> Record<'a> {
         record
     }
 
-    /// Whether a residual holds what no noise makes.
-    pub fn is_restless(&self, left: &[f64]) -> bool {
-        is_no_noise(left, &self.noise, &self.view)
+    /// What a residual holds that no noise makes, in words; none of what is noise, and no larger than a data sheet says within [`BEYOND`].
+    pub fn restless(&self, left: &[f64], sheet: Option<f64>) -> Option<&'static str> {
+        let far = |sheet: f64| rms(left) > BEYOND.0 * sheet;
+        let is_beyond =
+            sheet.is_some_and(far) && above_neighbours(left, &self.noise.spread) > BEYOND.1;
+        let beyond = is_beyond
+            .then_some("more than the data sheet of the sensor lets expect, and no scatter");
+        no_noise(left, &self.noise, &self.view).or(beyond)
     }
 
-    /// Whether a residual is neither what a data sheet says, within [`BEYOND`], nor scatter.
-    pub fn is_beyond(&self, left: &[f64], sheet: Option<f64>) -> bool {
-        let far = |sheet: f64| rms(left) > BEYOND.0 * sheet;
-        sheet.is_some_and(far) && above_neighbours(left, &self.noise.spread) > BEYOND.1
+    /// Whether what the digits of a load that goes smoothly leave open is a good part of the noise.
+    pub fn is_coarse(&self) -> bool {
+        let open = read_load::open(&self.view, self.data.scene.deflection_scale);
+        open.is_some_and(|open| open > read_load::GOOD_PART * rms(&self.noise.spread))
     }
 
     /// Its jumps in words.

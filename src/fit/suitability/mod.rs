@@ -9,6 +9,7 @@ pub mod agreement;
 pub mod bent;
 pub mod channel;
 pub mod cubes;
+mod follows;
 pub mod force_sensor;
 pub mod hammer;
 pub mod joint_motion;

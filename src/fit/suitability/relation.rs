@@ -11,6 +11,7 @@
 
 use super::agreement::{of_slopes, slope};
 use super::bent;
+use super::follows::follows;
 use crate::fit::observation::reduce;
 use crate::measurement::cycles::Cycles;
 use crate::signal::play::play;
@@ -29,7 +30,7 @@ pub struct Relation {
     pub ramps: usize,
     /// Means of neighbouring rows of which the share is one.
     pub cells: usize,
-    /// Whether the response follows the drive on every one of at least three ramps, by much the same slope.
+    /// Whether the response follows the drive on every ramp, of two or more, by much the same slope.
     pub follows: bool,
 }
 
@@ -41,12 +42,8 @@ const BINS: usize = 24;
 const CHANCE: f64 = 1e-3;
 /// Least share of the variance.
 const SHARE: f64 = 0.4;
-/// Ramps from which on a response that follows each of them is no chance, the correlation on each, and the
-/// ratio of their slopes: three ramps of a random walk meet all three in less than one case of a hundred
-/// (tested below).
-const FOLLOWED: usize = 3;
-const STRAIGHT: f64 = 0.9;
-const ALIKE: f64 = 2.0;
+/// Ramps with which chance can be told from their slopes; of fewer from the weights that are put on, one by one.
+const FEW: usize = 3;
 /// Change from row to row that is a weight put on or taken off, of the whole range of the drive; and how many of them tell more
 /// than halves of two ramps do.
 const WEIGHT: f64 = 0.04;
@@ -76,7 +73,7 @@ impl Relation {
         let block = drive.len().div_ceil(MOST_ROWS).min(fine).max(1);
         let (drive, response) = (reduce(drive, block), reduce(response, block));
         let ramps = ramps(&drive);
-        let loadings = match ramps.len() < FOLLOWED {
+        let loadings = match ramps.len() < FEW {
             true => loadings(&drive),
             false => Vec::new(),
         };
@@ -144,22 +141,6 @@ pub fn halved((a, b): (usize, usize), drive: &[f64]) -> Vec<(usize, usize)> {
         .into_iter()
         .filter(|(a, b)| b > a)
         .collect()
-}
-
-/// Whether the response follows the drive on every ramp, by slopes of one sign and much the same size.
-fn follows(ramps: &[(usize, usize)], drive: &[f64], response: &[f64]) -> bool {
-    let straight = |ramp: &(usize, usize)| {
-        let (there, xx) = slope(*ramp, drive, response);
-        let (back, yy) = slope(*ramp, response, drive);
-        xx > 0.0 && yy > 0.0 && there * back > STRAIGHT * STRAIGHT
-    };
-    let slopes = ramps.iter().map(|ramp| slope(*ramp, drive, response).0);
-    let slopes: Vec<f64> = slopes.collect();
-    let (low, high) = super::range(&slopes);
-    ramps.len() >= FOLLOWED
-        && low * high > 0.0
-        && high.abs().max(low.abs()) < ALIKE * high.abs().min(low.abs())
-        && ramps.iter().all(straight)
 }
 
 /// Share of the response beyond a slow drift that the drive, its cube and its play operators describe.

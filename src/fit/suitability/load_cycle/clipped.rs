@@ -3,6 +3,7 @@
 use super::{Course, Rule};
 use crate::fit::suitability::{Said, Weight, extent, range};
 use crate::ground::stats::mean;
+use crate::signal::outliers;
 use std::ops::Range;
 
 /// A channel at the end of its range repeats one number while the other channel goes on.
@@ -19,6 +20,10 @@ const GOES_ON: f64 = 0.03;
 /// Steps of the converter by which the other channel's change would have moved this one.
 const STEPS: f64 = 4.0;
 
+/// Deviations of a reading of the other channel by which it must go on: the readings of a plateau are some three apart by chance, six in a burst.
+const BEYOND_NOISE: f64 = 8.0;
+/// Rows before and behind a plateau that tell the noise there.
+const NEAR: usize = 20;
 /// Share of the rows that stand on plateaus between the ends of a load that somebody holds: weights, a
 /// commanded staircase.
 const STAIRS: f64 = 0.2;
@@ -88,7 +93,10 @@ fn clipped_but(
     let rows = |end: f64, by: f64| {
         let side = if end == high { 1.0 } else { -1.0 };
         plateaus(channel, end, |own| {
-            extent(&other[own.clone()]) > by && !held(&other[own], side)
+            let goes_on = extent(&other[own.clone()]);
+            goes_on > by
+                && goes_on > BEYOND_NOISE * scatter(other, &own)
+                && !held(&other[own], side)
         })
     };
     let any = [high, low].map(|end| rows(end, GOES_ON * span));
@@ -137,6 +145,14 @@ fn is_held(other: &[f64], outward: f64) -> bool {
     hill[0].min(hill[1]) < HILL * extent(other)
 }
 
+/// Deviation of a reading about some rows, by third differences: neither steps nor a course that bends show in their median.
+fn scatter(readings: &[f64], own: &Range<usize>) -> f64 {
+    let near = own.start.saturating_sub(NEAR)..(own.end + NEAR).min(readings.len());
+    let third = readings[near].windows(4);
+    let third = third.map(|w| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]) / 20.0_f64.sqrt());
+    outliers::robust_std(&third.collect::<Vec<_>>())
+}
+
 /// Step of the converter: the smallest difference between neighbouring rows that differ.
 fn step(channel: &[f64], extent: f64) -> f64 {
     let pairs = channel.windows(2).map(|w| (w[1] - w[0]).abs());
@@ -177,10 +193,34 @@ mod tests {
         }
     }
 
+    /// The top of a sine that is read in steps stands for some readings, while the deflection scatters.
+    #[test]
+    fn a_coarse_load_beside_bursts_of_noise_is_not_clipped() {
+        let mut random = crate::ground::random::Random::new(5);
+        let load: Vec<f64> = (0..1100)
+            .map(|i| ((i as f64 * 0.03).sin() * 100.0).round() / 100.0)
+            .collect();
+        let burst = |i: usize| if i / 100 % 3 == 0 { 0.05 } else { 0.012 };
+        let each = load.iter().enumerate();
+        let deflection: Vec<f64> = each.map(|(i, l)| l + burst(i) * random.normal()).collect();
+        assert!(!look(&load, &deflection));
+    }
+
     #[test]
     fn a_load_cell_at_its_end_is_clipped() {
         let (load, deflection) = cycles(|s| s);
         let cut: Vec<f64> = load.iter().map(|l| l.clamp(-0.7, 0.8)).collect();
         assert!(look(&cut, &deflection));
+    }
+
+    #[test]
+    fn a_sensor_at_its_end_is_clipped_under_weights_and_few_rows() {
+        let level = |i: usize| (50.0 - (i / 12) as f64).abs().mul_add(-0.02, 1.0);
+        let stairs: Vec<f64> = (0..1212).map(level).collect();
+        let sine: Vec<f64> = (0..120).map(|i| (f64::from(i) * 0.314).sin()).collect();
+        for load in [stairs, sine] {
+            let cut: Vec<f64> = load.iter().map(|l| l.min(0.7)).collect();
+            assert!(clipped(&cut, &load).is_some());
+        }
     }
 }
