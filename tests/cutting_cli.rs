@@ -21,29 +21,38 @@ fn json(output: &Output) -> Value {
 
 const TRUTH: [f64; 6] = [1319.41, 788.83, 48.75, 19.65, 26.77, 2.05];
 
+/// Feed (mm/min), depth, width (mm) and side of a cut.
+type Cut = (f64, f64, f64, &'static str);
+
 /// A campaign of four cuts; where its file is.
 fn campaign(folder: &Path) -> PathBuf {
+    let cuts = [
+        (1200.0, 1.5, 16.0, "slot"),
+        (2400.0, 1.5, 16.0, "slot"),
+        (2400.0, 3.0, 5.0, "down"),
+        (2400.0, 3.0, 8.0, "up"),
+    ];
+    campaign_of(folder, 3, &cuts)
+}
+
+/// A campaign of some cuts by so many teeth.
+fn campaign_of(folder: &Path, teeth: usize, cuts: &[Cut]) -> PathBuf {
     let cutter = Cutter {
         radius: 8e-3,
-        teeth: 3,
+        teeth,
         helix: 0.5235987755982988,
         runout: 8e-6,
         runout_angle: 0.6,
         chip: 0.0,
     };
-    let pass = |feed: f64, depth: f64, width: f64, side: &'static str| Pass {
+    let pass = |&(feed, depth, width, side): &Cut| Pass {
         rpm: 8000.0,
         feed,
         depth,
         width,
         side,
     };
-    let passes = [
-        pass(1200.0, 1.5, 16.0, "slot"),
-        pass(2400.0, 1.5, 16.0, "slot"),
-        pass(2400.0, 3.0, 5.0, "down"),
-        pass(2400.0, 3.0, 8.0, "up"),
-    ];
+    let passes: Vec<Pass> = cuts.iter().map(pass).collect();
     let recording = Recording {
         rate_hz: 20_000.0,
         turns: 6.0,
@@ -257,4 +266,44 @@ fn channels_that_are_exchanged_give_no_coefficients() {
     assert!(parameters.iter().all(|p| p["value"].is_null()), "{found}");
     assert!(found["material"].is_null() && !folder.path().join("fits").exists());
     assert!(found["remarks"].to_string().contains("with every turn"));
+}
+
+/// The chip of a tooth is the feed over the speed: where the teeth pass at another one than the file states, coefficients would be wrong by as much.
+#[test]
+fn a_spindle_at_another_speed_gives_no_coefficients() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = campaign(folder.path());
+    let text = std::fs::read_to_string(&path).unwrap();
+    let stated = text.replace("spindle_rpm = 8000", "spindle_rpm = 8240");
+    assert_ne!(text, stated);
+    std::fs::write(&path, stated).unwrap();
+    let output = ident(folder.path(), &["force", path.to_str().unwrap(), "--json"]);
+    assert_eq!(output.status.code(), Some(1));
+    let found = json(&output);
+    let parameters = found["parameters"].as_array().unwrap();
+    assert!(parameters.iter().all(|p| p["value"].is_null()), "{found}");
+    let remarks = found["remarks"].to_string();
+    assert!(
+        remarks.contains("rpm, and the file states 8240"),
+        "{remarks}"
+    );
+}
+
+/// Four teeth in a deep slot push evenly along the axis, and a shallow slot hardly at all: neither says that the channel is no force.
+#[test]
+fn an_even_force_beside_a_weak_one_is_not_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let cuts = [
+        (3200.0, 6.0, 16.0, "slot"),
+        (4800.0, 6.0, 16.0, "slot"),
+        (3200.0, 0.3, 16.0, "slot"),
+    ];
+    let path = campaign_of(folder.path(), 4, &cuts);
+    let output = ident(folder.path(), &["force", path.to_str().unwrap(), "--json"]);
+    assert_ne!(
+        output.status.code(),
+        Some(2),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
 }

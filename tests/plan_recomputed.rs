@@ -294,6 +294,36 @@ fn ring() -> String {
     cls + "RAPID\nGOTO/120,0,20\n"
 }
 
+/// The tool tilts within the blends, at a corner and on a straight way; the turn about it keeps A6 where it is, in the program too.
+#[test]
+fn a_krl_program_of_a_tilting_tool_turns_where_the_plan_does() {
+    let bench = Bench::new();
+    let tilted = "# kind = \"path\"\nx_mm,y_mm,z_mm,i,j,k\n0,0,0,0,0,1\n50,0,0,0,0.1,0.995\n\
+                  100,0,0,0,-0.1,0.995\n150,20,0,0.1,0,0.995\n";
+    bench.put("part.csv", tilted.as_bytes());
+    let lines = "blend_radius_mm = 5.0\nspin = \"smooth\"\nfeed_mm_min = 1000.0";
+    let first = planned(&bench, &job("part.csv", lines), &["--program", "krl"]);
+    sound(&first);
+    let program = first.body["program"].as_str().unwrap().to_string();
+    let name = std::path::Path::new(&program).file_name().unwrap();
+    let name = name.to_str().unwrap().to_string();
+    bench.put(&name, &bench.bytes(&program));
+    bench.put(
+        &name.replace(".src", ".dat"),
+        &bench.bytes(&program.replace(".src", ".dat")),
+    );
+    let again = planned(&bench, &job(&name, lines), &[]);
+    sound(&again);
+    assert_eq!(first.rows.len(), again.rows.len());
+    for (a, b) in first.rows.iter().zip(&again.rows) {
+        assert!(length(minus(a.tip(), b.tip())) < 1e-6);
+        for i in 0..6 {
+            let off = a.0[7 + i] - b.0[7 + i];
+            assert!(off.abs() < 1.0, "A{} at {}: {off}", i + 1, a.0[0]);
+        }
+    }
+}
+
 #[test]
 fn a_krl_program_of_a_smooth_turn_plans_to_the_same_motion_again() {
     let bench = Bench::new();

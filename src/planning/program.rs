@@ -10,6 +10,7 @@ use crate::path::Curve;
 use crate::path::build::Side;
 use crate::path::corner::{Corner, Passage};
 use crate::path::element::Element;
+use crate::path::orientation::Span;
 use crate::path::programs::{Program, ProgramMove};
 use crate::path::timeline::Feeds;
 
@@ -120,7 +121,7 @@ impl Writer<'_> {
         let path = &self.plan.path;
         let corner = path.corners.get(k);
         let blend = corner.map_or(0.0, blend);
-        let s = corner.map_or(path.length, |c| 0.5 * (c.begin + c.end));
+        let s = corner.map_or(path.length, |corner| self.turns_from(corner));
         let length = element.curve.length();
         let (to, turned) = (element.curve.point(length), element.ends[1]);
         let shape = self.pieces(k, element);
@@ -134,12 +135,22 @@ impl Writer<'_> {
                     let u = nurbs.table.parameter(&nurbs.curve, along);
                     let turned = nurbs.curve.orientation(u);
                     let at = element.curve.point(along);
-                    self.push(at, turned, from + along, Shape::Line, element, 0.5 * step);
+                    let along = (from + along).min(s);
+                    self.push(at, turned, along, Shape::Line, element, 0.5 * step);
                 }
                 self.push(to, turned, s, Shape::Line, element, blend);
             }
             _ => self.push(to, turned, s, shape, element, blend),
         }
+    }
+
+    /// Arc length of the path where the tool begins to turn from the orientation of one element to that of the next, m: what turns from there on is told
+    /// of the next.
+    fn turns_from(&self, corner: &Corner) -> f64 {
+        let at = 0.5 * (corner.begin + corner.end);
+        let changes = |span: &&Span| span.next.is_some() && span.begin <= at && at <= span.end;
+        let span = self.plan.path.spans.iter().find(changes);
+        span.map_or(corner.begin, |span| span.begin.min(corner.begin))
     }
 
     /// Tells an element along which the tool turns about the spindle in pieces, all but the last; the

@@ -6,7 +6,7 @@ use super::descent::{Descent, Optimum};
 use super::layout::Layout;
 use super::start::{improve_teeth, start};
 use super::whitening::Whitening;
-use super::{Averaged, CutData, averaged, cuts, misfit, remarks, repeated};
+use super::{Averaged, CutData, averaged, cuts, misfit, remarks, repeated, speed};
 use crate::cutting::LINEAR_EDGE;
 use crate::experiments::milling_force::{PHASE, RUNOUT, UNKNOWNS};
 use crate::fit::parameter::{Identified, Status};
@@ -125,8 +125,14 @@ pub fn identify(files: &[MillingForce]) -> Account {
 const MUCH: (f64, f64) = (10.0, 0.25);
 
 impl Account {
-    /// Whether the law leaves so much that its numbers are those of another cut.
+    /// Whether the law leaves so much that its numbers are those of another cut, or the teeth pass at another speed: the chip of a tooth
+    /// follows from that.
     pub fn is_another_cut(&self) -> bool {
+        self.leaves_another_cut() || speed::off_speed(&self.cuts).is_some()
+    }
+
+    /// Whether the law does not fit.
+    pub fn leaves_another_cut(&self) -> bool {
         self.repeating > ANOTHER
     }
 

@@ -7,7 +7,7 @@ use crate::experiments::milling_force::{BANDWIDTH, BORDER, PHASE, RUNOUT, SPEED,
 /// Spread of the logarithm of a stated bandwidth.
 pub const BANDWIDTH_STD: f64 = 0.2;
 /// Spread of a stated spindle speed.
-const SPEED_STD: f64 = 1e-3;
+pub(super) const SPEED_STD: f64 = 1e-3;
 /// Spread of either part of the runout, m: no clamped tool runs worse. It closes what two teeth leave open.
 pub(super) const RUNOUT_STD: f64 = 5e-5;
 /// Spread of a stated width of cut, m.

@@ -12,6 +12,7 @@ mod layout;
 mod misfit;
 mod remarks;
 mod repeated;
+mod speed;
 mod start;
 mod whitening;
 

@@ -1,5 +1,6 @@
 //! What these cuts cannot tell, and what was left out.
 
+use super::speed::off_speed;
 use super::{Account, CutData};
 use crate::cutting::wave::Side;
 use crate::fit::parameter::Status;
@@ -15,6 +16,7 @@ const EXCESS: f64 = 1.3;
 pub fn remarks(files: &[MillingForce], account: &Account) -> Vec<String> {
     let cuts: Vec<&CutData> = account.cuts.iter().map(|c| &c.data).collect();
     let mut said = Vec::new();
+    said.extend(another_speed(account));
     said.extend(another_cut(account));
     said.extend(misfit(account));
     said.extend(open(account));
@@ -28,8 +30,20 @@ pub fn remarks(files: &[MillingForce], account: &Account) -> Vec<String> {
     said
 }
 
+fn another_speed(account: &Account) -> Option<String> {
+    // where the law does not fit at all, the speed strays with everything else
+    let off = off_speed(&account.cuts).filter(|_| !account.leaves_another_cut());
+    let (cut, share) = off?;
+    let stated = 60.0 / TAU * account.cuts[cut].data.scene.cut.spindle_rad_s;
+    Some(format!(
+        "The teeth of cut {} pass at {:.0} rpm, and the file states {stated:.0}: the chip of a tooth, which the coefficients stand on, is another one then. Measure the spindle speed and state it.",
+        cut + 1,
+        stated * (1.0 + share)
+    ))
+}
+
 fn another_cut(account: &Account) -> Option<String> {
-    account.is_another_cut().then(|| {
+    account.leaves_another_cut().then(|| {
         format!(
             "What the law leaves comes again with every turn and is {:.0} % of the force: no coefficients of the cut that the file states. Check the order and signs of the channels, teeth, helix, side and speed; `ident diagnose` tries what it knows.",
             100.0 * account.repeating

@@ -24,20 +24,21 @@ const SAMPLES: usize = 20_000;
 /// A force whose mean is above so many times its scatter is steady: three teeth and more in a full slot add up to one, and
 /// nothing is there to repeat. A ramp, which is no cutting force, has 1.7; no other value was tried.
 const STEADY: f64 = 3.0;
-/// Times the stated noise that a channel along the axis must scatter about its mean in some cut to be judged: a helix evens out
+/// Times the stated noise that a channel along the axis must scatter about its mean in a cut to be judged by it: a helix evens out
 /// its ripple in a full slot. Were the noise twice the stated one, what repeats would still be correlated by more than [`ALIKE`].
 const SEEN: f64 = 2.5;
 
 fn look(on: &Cutting) -> Said {
     let mut found = Vec::new();
     for (k, channel) in on.channels.iter().enumerate() {
-        let cuts: Vec<f64> = on
+        let seen = on
             .cuts()
+            .filter(|(_, record)| k < 2 || on.changes(record, k));
+        let cuts: Vec<f64> = seen
             .filter_map(|(cut, record)| repeats(record, k, TAU / cut.spindle_rad_s))
             .collect();
         let best = cuts.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let seen = k < 2 || on.changes(k);
-        if !cuts.is_empty() && best < ALIKE && seen {
+        if !cuts.is_empty() && best < ALIKE {
             let what = format!(
                 "{} does not repeat with the stated spindle speed in any cut",
                 channel.name
@@ -49,17 +50,13 @@ fn look(on: &Cutting) -> Said {
 }
 
 impl Cutting<'_> {
-    /// Whether a channel changes by more than the stated noise in some cut, if one is stated.
-    fn changes(&self, k: usize) -> bool {
-        let scatter = |record: &Record| {
-            let own: Vec<f64> = record.force.iter().map(|f| f[k]).collect();
-            let middle = mean(&own);
-            rms(&own.iter().map(|x| x - middle).collect::<Vec<_>>())
-        };
-        let most = self.cuts().map(|(_, record)| scatter(record));
-        let most = most.fold(0.0, f64::max);
+    /// Whether a channel changes by more than the stated noise in a cut, if one is stated.
+    fn changes(&self, record: &Record, k: usize) -> bool {
+        let own: Vec<f64> = record.force.iter().map(|f| f[k]).collect();
+        let middle = mean(&own);
+        let scatter = rms(&own.iter().map(|x| x - middle).collect::<Vec<_>>());
         let noise = self.file.facts.sensor_noise_n;
-        noise.is_some_and(|noise| most > SEEN * noise)
+        noise.is_some_and(|noise| scatter > SEEN * noise)
     }
 }
 
