@@ -67,8 +67,12 @@ impl Dynamics {
 
     /// Angular frequencies of the undamped modes, rising, and shapes scaled to unit modal mass.
     pub fn modes(&self) -> (Vec<f64>, DMatrix<f64>) {
-        let factor = self.mass.clone().cholesky().unwrap().l();
-        let inverse = factor.try_inverse().unwrap();
+        // coordinates of one size: a shift is a turn about an axis far away, with masses of millions of kg·m²
+        let size = self.mass.diagonal().map(|m| 1.0 / m.sqrt());
+        let size = DMatrix::from_diagonal(&size);
+        let mass = &size * &self.mass * &size;
+        let factor = mass.cholesky().unwrap().l();
+        let inverse = factor.try_inverse().unwrap() * size;
         let balanced = &inverse * &self.stiffness * inverse.transpose();
         let eigen = ((&balanced + balanced.transpose()) * 0.5).symmetric_eigen();
         let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();

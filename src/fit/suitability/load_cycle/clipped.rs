@@ -200,7 +200,13 @@ mod tests {
         let load: Vec<f64> = (0..1100)
             .map(|i| ((i as f64 * 0.03).sin() * 100.0).round() / 100.0)
             .collect();
-        let burst = |i: usize| if i / 100 % 3 == 0 { 0.05 } else { 0.012 };
+        let burst = |i: usize| {
+            if (i / 100).is_multiple_of(3) {
+                0.05
+            } else {
+                0.012
+            }
+        };
         let each = load.iter().enumerate();
         let deflection: Vec<f64> = each.map(|(i, l)| l + burst(i) * random.normal()).collect();
         assert!(!look(&load, &deflection));
@@ -217,7 +223,7 @@ mod tests {
     fn a_sensor_at_its_end_is_clipped_under_weights_and_few_rows() {
         let level = |i: usize| (50.0 - (i / 12) as f64).abs().mul_add(-0.02, 1.0);
         let stairs: Vec<f64> = (0..1212).map(level).collect();
-        let sine: Vec<f64> = (0..120).map(|i| (f64::from(i) * 0.314).sin()).collect();
+        let sine: Vec<f64> = (0..200).map(|i| (f64::from(i) * 0.2).sin()).collect();
         for load in [stairs, sine] {
             let cut: Vec<f64> = load.iter().map(|l| l.min(0.7)).collect();
             assert!(clipped(&cut, &load).is_some());
