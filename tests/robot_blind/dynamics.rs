@@ -67,10 +67,11 @@ impl Dynamics {
 
     /// Angular frequencies of the undamped modes, rising, and shapes scaled to unit modal mass.
     pub fn modes(&self) -> (Vec<f64>, DMatrix<f64>) {
-        // coordinates of one size: a shift is a turn about an axis far away, with masses of millions of kg·m²
+        // a foundation without mass that turns and slides moves as the bearing above it does: a millionth of every mass keeps them apart
         let size = self.mass.diagonal().map(|m| 1.0 / m.sqrt());
         let size = DMatrix::from_diagonal(&size);
-        let mass = &size * &self.mass * &size;
+        let apart = DMatrix::identity(size.nrows(), size.ncols()) * 1e-6;
+        let mass = &size * &self.mass * &size + apart;
         let factor = mass.cholesky().unwrap().l();
         let inverse = factor.try_inverse().unwrap() * size;
         let balanced = &inverse * &self.stiffness * inverse.transpose();

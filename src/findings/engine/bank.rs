@@ -236,7 +236,7 @@ impl<'a> Bank<'a> {
         })
     }
 
-    /// See [`Nuisances::room`].
+    /// See `Nuisances::room`.
     pub fn room(&self) -> f64 {
         self.nuisances.room()
     }
