@@ -54,7 +54,7 @@ static MASSES: [[f64; COUNT]; 3] = [masses(0), masses(1), masses(2)];
 static ALL_FREQUENCIES: [f64; COUNT] = frequencies();
 
 const fn along(name: &'static str, starts: &'static [f64]) -> Amount {
-    let meaning = "mass times the direction in which it swings";
+    let meaning = "mass times the direction in which it swings, base axes, every joint at zero";
     Amount::new(name, "kg", meaning, [-MOST, MOST], starts)
 }
 

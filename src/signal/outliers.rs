@@ -12,6 +12,13 @@ pub fn robust_std(values: &[f64]) -> f64 {
     1.4826 * median(&distances)
 }
 
+/// Third differences of neighbours, each of the deviation of one reading: no smooth course shows in them, and neither steps nor bends in their
+/// median.
+pub fn third_differences(values: &[f64]) -> Vec<f64> {
+    let third = |w: &[f64]| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]) / 20.0_f64.sqrt();
+    values.windows(4).map(third).collect()
+}
+
 /// Median; 0 for no values.
 pub fn median(values: &[f64]) -> f64 {
     if values.is_empty() {

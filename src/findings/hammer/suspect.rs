@@ -1,5 +1,6 @@
 //! A cause at a place of one robot, its amounts counted in spreads.
 
+use super::diagnosis::TIE;
 use super::leaning;
 use super::seat::{Between, SHARES_BEHIND, STEPS, Seat};
 use crate::causes::turns::{LOWER, SIX, squared};
@@ -11,8 +12,6 @@ use crate::robot::Robot;
 
 /// Where an amount that cannot be negative starts to exist, in spreads.
 const LEAST: f64 = 1e-3;
-/// Nats by which what has no name must explain more than what has one: within them the data tell neither from the other.
-const OUTSIDE: f64 = 4.0;
 
 /// A cause at a place.
 #[derive(Clone)]
@@ -92,8 +91,9 @@ impl Suspect {
             Some(_) => SHARES_BEHIND.len() * (1 + STEPS.len() * self.cause.next_to(0).len()),
             None => 1,
         };
-        let outside = OUTSIDE * f64::from(u8::from(!self.is_named()));
-        ((places * forms * nearby) as f64).ln() + outside
+        // what has no name must explain more than what the data cannot tell from it
+        let outside = if self.is_named() { 1.0 } else { TIE };
+        ((places * forms * nearby) as f64 / outside).ln()
     }
 
     /// The same cause at the other places that it may have at its site.

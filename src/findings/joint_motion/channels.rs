@@ -150,9 +150,8 @@ impl Channels {
             .zip(&self.quick)
             .map(|(t, q)| t + q)
             .collect();
-        let bend = |w: &[f64]| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]).abs();
-        let bends: Vec<f64> = raw.windows(4).map(bend).collect();
-        let one = quantile(&bends, 0.5) / (MEDIAN * 20.0_f64.sqrt());
+        let third = outliers::third_differences(&raw).into_iter();
+        let one = quantile(&third.map(f64::abs).collect::<Vec<_>>(), 0.5) / MEDIAN;
         let window = (2 * self.width + 1) as f64;
         let passes = |line: usize| {
             let half = 0.5 * std::f64::consts::PI * line as f64 / n as f64;

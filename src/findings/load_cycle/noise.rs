@@ -273,10 +273,7 @@ pub(super) fn differences(residual: &[f64]) -> Vec<f64> {
 
 /// Deviation of a reading by its third differences, whatever smooth structure there is.
 pub fn rough(reading: &[f64]) -> f64 {
-    let third: Vec<f64> = reading
-        .windows(4)
-        .map(|w| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]) / 20.0_f64.sqrt())
-        .collect();
+    let third = outliers::third_differences(reading);
     match outliers::robust_std(&third) {
         s if s > 0.0 => s,
         _ => rms(&third),

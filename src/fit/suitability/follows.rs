@@ -4,8 +4,7 @@ use super::agreement::slope;
 
 /// Of two ramps, and of more: the correlation on each and the ratio of their slopes from which on a response that follows all of them is
 /// no chance. Two ramps of a random walk meet the first in less than one case of two hundred, of one that is integrated once more in less than
-/// three (tested below); three meet the second in less than one of a hundred (tested in `relation`). An oscillation of half a
-/// period to two meets the first in seven of a hundred.
+/// three (tested below); three meet the second in less than one of a hundred (tested in `relation`).
 const TWO: (f64, f64) = (0.97, 1.15);
 const MORE: (f64, f64) = (0.9, 2.0);
 

@@ -31,18 +31,21 @@ fn lines() -> Data {
     }
 }
 
-/// Causes at places whose slopes are not those of what is predicted, near their first starts (where two axes give way alike, any two
-/// axes will do, and a slope along what turns them need not be one), numbers of bodies at `bodies`, of springs and dampers at 0.3.
-fn off(bodies: f64) -> Vec<String> {
-    let robot = load(builtin::BUILTINS[0].0, None).unwrap().robot;
-    let joints = [0.3, -1.2, 1.7, 0.5, 0.8, 0.2];
+/// The robot at a pose, with what is not known of it.
+fn machine<'a>(robot: &'a Robot, data: &Data) -> Machine<'a> {
     let known = Known {
         stiffness: 0.05,
         damping: 0.25,
         laboratory: uncertain::Known::stated(hammer_known::Known::default()),
     };
-    let data = lines();
-    let machine = Machine::new(&robot, &joints, known, &data).unwrap();
+    Machine::new(robot, &[0.3, -1.2, 1.7, 0.5, 0.8, 0.2], known, data).unwrap()
+}
+
+/// Causes at places whose slopes are not those of what is predicted, near their first starts (where two axes give way alike, any two
+/// axes will do, and a slope along what turns them need not be one), numbers of bodies at `bodies`, of springs and dampers at 0.3.
+fn off(bodies: f64) -> Vec<String> {
+    let (robot, data) = (load(builtin::BUILTINS[0].0, None).unwrap().robot, lines());
+    let machine = machine(&robot, &data);
     let all = suspects(&robot, &["x", "y", "z"].map(String::from));
     assert!(all.len() > 10, "{}", all.len());
     let mut off = Vec::new();
@@ -91,15 +94,8 @@ fn slopes_of_amounts_are_those_of_what_is_predicted() {
 /// it.
 #[test]
 fn a_hung_body_is_an_apparent_mass_at_the_tool() {
-    let robot = load(builtin::BUILTINS[0].0, None).unwrap().robot;
-    let joints = [0.3, -1.2, 1.7, 0.5, 0.8, 0.2];
-    let known = Known {
-        stiffness: 0.05,
-        damping: 0.25,
-        laboratory: uncertain::Known::stated(hammer_known::Known::default()),
-    };
-    let data = lines();
-    let machine = Machine::new(&robot, &joints, known, &data).unwrap();
+    let (robot, data) = (load(builtin::BUILTINS[0].0, None).unwrap().robot, lines());
+    let machine = machine(&robot, &data);
     let all = suspects(&robot, &["x", "y", "z"].map(String::from));
     let hung = all.iter().find(|s| !s.is_named()).unwrap();
     let shown = |point: Point| {

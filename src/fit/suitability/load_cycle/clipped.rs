@@ -145,12 +145,10 @@ fn is_held(other: &[f64], outward: f64) -> bool {
     hill[0].min(hill[1]) < HILL * extent(other)
 }
 
-/// Deviation of a reading about some rows, by third differences: neither steps nor a course that bends show in their median.
+/// Deviation of a reading about some rows.
 fn scatter(readings: &[f64], own: &Range<usize>) -> f64 {
     let near = own.start.saturating_sub(NEAR)..(own.end + NEAR).min(readings.len());
-    let third = readings[near].windows(4);
-    let third = third.map(|w| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]) / 20.0_f64.sqrt());
-    outliers::robust_std(&third.collect::<Vec<_>>())
+    outliers::robust_std(&outliers::third_differences(&readings[near]))
 }
 
 /// Step of the converter: the smallest difference between neighbouring rows that differ.
