@@ -46,24 +46,18 @@ impl Correction {
 
     /// Takes what is left, given at ascending arc lengths, away: smoothed.
     pub fn take(&mut self, left: &[(f64, V3)]) {
-        let left = self.smoothed(left);
-        *self = self.without(&left, &vec![1.0; left.len()]);
+        let each = self.values.iter().zip(self.smoothed(left));
+        *self = self.with(each.map(|(value, left)| sub(*value, left)).collect());
     }
 
-    /// The same with values at its stations taken away, each times its share.
-    pub(super) fn without(&self, left: &[V3], share: &[f64]) -> Self {
-        let each = self.values.iter().zip(left).zip(share);
-        let values = each.map(|((value, left), share)| sub(*value, scale(*share, *left)));
-        Self {
-            values: values.collect(),
-            ..*self
-        }
+    /// Its control points, m.
+    pub(super) fn values(&self) -> &[V3] {
+        &self.values
     }
 
-    /// Goes a share of the way to another correction at one station.
-    pub(super) fn mix(&mut self, station: usize, other: &Self, share: f64) {
-        let value = &mut self.values[station];
-        *value = add(*value, scale(share, sub(other.values[station], *value)));
+    /// The same stations with other control points, m.
+    pub(super) fn with(&self, values: Vec<V3>) -> Self {
+        Self { values, ..*self }
     }
 
     /// Samples at ascending arc lengths at its stations: linear between them, nothing outside.

@@ -1,13 +1,13 @@
 //! The mirror: what the simulation leaves is taken away, again and again (source 004). The cut answers a
-//! correction, at some places more strongly than it should: what grew there is taken back, and half as much
-//! is tried, while the other places go on; where that gains, twice as much is tried again.
+//! correction, at some places more strongly than it should, and a swing with another phase: what earlier trials
+//! answered tells the next step place by place (`trials`).
 
 use super::answering::{Answers, STEP_S, samples};
 use super::correction::Correction;
 use super::method::{Search, Task};
 use super::near::{Left, before_and_in, near};
-use super::places::{Places, Trial};
 use super::remaining::{Size, Station, Times, remaining};
+use super::trials::{Trial, Trials};
 use crate::ground::problem::Outcome;
 use crate::ground::spatial::{V3, add, scale, sub};
 use crate::process::setup::{Setup, Support};
@@ -21,7 +21,7 @@ const STILL: f64 = 1e-2;
 const SETTLED: f64 = 5e-2;
 /// A round that lowers neither the largest deviation nor the root mean square by this share gains nothing ...
 const GAIN: f64 = 0.03;
-/// ... and after so many of them the best is kept: what is taken back and tried by half takes a few.
+/// ... and after so many of them the best is kept: a mix of few trials may leave more before it leaves less.
 const PATIENCE: usize = 4;
 /// How much more coarsely the cut is resolved while learning: with 1, 2 and 4 nine rounds left 0.190, 0.198 and 0.232 mm of the
 /// example's part, and steps that differ by rounding alone 0.182 to 0.214 mm after seven.
@@ -33,7 +33,7 @@ const CAREFUL: f64 = 0.9;
 /// are coupled in time, through the inverse of how the tip answers a command. The best of the corrections is kept.
 pub(super) fn mirror(task: &Task, none: Correction) -> Outcome<Search> {
     let mut best = Best::of(none.clone());
-    let mut places: Option<Places> = None;
+    let mut trials = Trials::default();
     let mut tried = none;
     let mut last_change_m = f64::INFINITY;
     let mut idle = 0;
@@ -47,14 +47,13 @@ pub(super) fn mirror(task: &Task, none: Correction) -> Outcome<Search> {
         };
         let gained = best.with(&tried, &trial);
         idle = if gained { 0 } else { idle + 1 };
-        let still = last_change_m <= STILL * best.first_m;
+        let still = gained && last_change_m <= STILL * best.first_m;
         if still || idle >= PATIENCE || round == ROUNDS {
             break;
         }
-        let next = Places::next(places.take(), &tried, &trial);
-        tried = next.candidate();
-        last_change_m = next.step_m();
-        places = Some(next);
+        let next = trials.after(&tried, &trial);
+        last_change_m = next.farthest(&tried);
+        tried = next;
     }
     Ok(Search {
         converged: last_change_m <= SETTLED * best.first_m,

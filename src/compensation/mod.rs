@@ -16,12 +16,12 @@ pub mod method;
 mod mirror;
 mod near;
 pub mod online;
-mod places;
 mod points;
 pub mod proof;
 pub mod remaining;
 pub mod shifted;
 pub mod text;
+mod trials;
 
 pub use correction::Correction;
 pub use method::{Method, Search, Task, search};
