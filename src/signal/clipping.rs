@@ -24,7 +24,7 @@ pub fn clipped_above(record: &[f64]) -> bool {
     if height <= 8.0 * noise.max(step) {
         return stands(record, highest, step) && height > 0.0 && many_levels(height, step);
     }
-    stands(record, highest, step) || plateau(record, highest, step)
+    stands(record, highest, step) || plateau(record, [highest, height], step)
 }
 
 /// Whether a single pulse is cut off at its top, be it of a few samples only.
@@ -69,13 +69,16 @@ fn stands(record: &[f64], highest: f64, step: f64) -> bool {
 }
 
 /// A run of samples at the highest level from which the record falls by much more than a parabola
-/// that rounds to such a run: there, half a run further out, 3 steps at most.
-fn plateau(record: &[f64], highest: f64, step: f64) -> bool {
+/// that rounds to such a run (there, half a run further out, 3 steps at most), and whose flanks pass above it.
+fn plateau(record: &[f64], [highest, height]: [f64; 2], step: f64) -> bool {
     let top = |i: usize| highest - record[i] < 0.5 * step;
     let mut start = 0;
     while start < record.len() {
         let length = (start..record.len()).take_while(|i| top(*i)).count();
-        if length >= PLATEAU && falls_steeply(record, start, length, highest, step) {
+        if length >= PLATEAU
+            && falls_steeply(record, start, length, highest, step)
+            && is_below_its_flanks(record, start, length, height)
+        {
             return true;
         }
         start += length.max(1);
@@ -93,6 +96,34 @@ fn falls_steeply(record: &[f64], start: usize, length: usize, highest: f64, step
     };
     fall > 6.0 * step
 }
+
+/// Whether the parabola through three samples of either flank passes well above a run of equal ones: by a third of how far the record has
+/// fallen one sample beyond where three of them are cut off, and more where more are. Of a peak that noise makes level it does not.
+fn is_below_its_flanks(record: &[f64], start: usize, length: usize, height: f64) -> bool {
+    let stride = (length / 6).max(1);
+    let half = 0.5 * (length as f64 - 1.0);
+    let flank = |k: usize| {
+        let left = record.get(start.checked_sub(k * stride)?)?;
+        let right = record.get(start + length - 1 + k * stride)?;
+        Some([(half + (k * stride) as f64).powi(2), 0.5 * (left + right)])
+    };
+    let (Some(a), Some(b), Some(c)) = (flank(1), flank(2), flank(3)) else {
+        return true;
+    };
+    // farther down a peak is no parabola
+    if record[start] - c[1] > 0.5 * height {
+        return true;
+    }
+    let middle = [0, 1].map(|k| (a[k] + b[k] + c[k]) / 3.0);
+    let sum = |of: &dyn Fn([f64; 2]) -> f64| of(a) + of(b) + of(c);
+    let slope =
+        sum(&|p| (p[0] - middle[0]) * (p[1] - middle[1])) / sum(&|p| (p[0] - middle[0]).powi(2));
+    let above = middle[1] - slope * middle[0] - record[start];
+    above > CUT * (record[start] - a[1])
+}
+
+/// Half of that third: a choice.
+const CUT: f64 = 1.0 / 6.0;
 
 /// Equal samples on top of a pulse of few samples. Two of them a smooth peak has only where it lies midway
 /// between them: then the record falls alike on both sides, and on the next step by no more than twice as
@@ -204,6 +235,39 @@ mod tests {
         };
         assert_eq!(found(150.0), 20);
         assert!(found(200.0) >= 15, "{}", found(200.0));
+    }
+
+    #[test]
+    fn a_peak_that_noise_makes_level_is_not_cut_off() {
+        // two responses by a stranger, in steps of 4.2 and 4.3 mm/s²
+        let level = [
+            [
+                0.16835, 0.25673, 0.30303, 0.34091, 0.37458, 0.37458, 0.37458, 0.34512, 0.30303,
+                0.25252,
+            ],
+            [
+                0.42567, 0.49447, 0.56756, 0.65356, 0.72235, 0.72235, 0.72235, 0.67075, 0.57186,
+                0.42997,
+            ],
+        ];
+        for peak in level {
+            let mut record = vec![0.0; 100];
+            record.extend(peak);
+            record.extend(vec![0.0043; 100]);
+            assert!(!clipped_above(&record), "{peak:?}");
+        }
+    }
+
+    #[test]
+    fn a_short_pulse_that_is_cut_low_is_clipped() {
+        for (samples, at) in [(6, 60.0), (7, 70.0), (8, 88.0), (12, 50.0)] {
+            // a slope beside it, since no two flanks are alike
+            let sloped = half_sine(samples).into_iter().enumerate();
+            let cut: Vec<f64> = sloped.map(|(i, v)| (v + 0.01 * i as f64).min(at)).collect();
+            for record in [quantised(&cut, 0.05), cut] {
+                assert!(clipped_above(&record), "{samples} {at}");
+            }
+        }
     }
 
     #[test]
