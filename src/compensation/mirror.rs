@@ -47,7 +47,8 @@ pub(super) fn mirror(task: &Task, none: Correction) -> Outcome<Search> {
         };
         let gained = best.with(&tried, &trial);
         idle = if gained { 0 } else { idle + 1 };
-        let still = gained && last_change_m <= STILL * best.first_m;
+        // a small step from a trial that left more is a mix that has not found its way yet
+        let still = (gained || idle > 1) && last_change_m <= STILL * best.first_m;
         if still || idle >= PATIENCE || round == ROUNDS {
             break;
         }

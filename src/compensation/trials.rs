@@ -66,7 +66,10 @@ impl Trials {
     fn mixed(&self) -> Correction {
         let weights = self.weights();
         let value = |(i, time): (usize, &f64)| {
-            let each = self.tried.iter().zip(between(&weights, time / STEP_S));
+            let each = self
+                .tried
+                .iter()
+                .zip(between(&weights, (time / STEP_S - 0.5).max(0.0)));
             each.fold([0.0; 3], |sum, (tried, weight)| {
                 add(sum, scale(weight, tried.next[i]))
             })
