@@ -45,7 +45,7 @@ pub struct Disc {
 
 /// Largest angle of the surface normal and of the lag within a disc, rad: forces are those of its middle, to 8e-5. With twice as
 /// much, coefficients are off by 3e-4, which shows in long records.
-const FINE: f64 = 0.03;
+pub const FINE: f64 = 0.03;
 
 impl Tool {
     /// A square end without runout.
@@ -71,13 +71,18 @@ impl Tool {
         z_m * self.helix_rad.tan() / self.radius_m
     }
 
-    /// The discs from the tip up to `depth_m`, fine enough that the forces do not depend on their
+    /// The discs from the tip up to `depth_m`, fine enough that mean forces do not depend on their
     /// number: round ends are cut evenly in κ, so that the tip of a ball keeps its edge.
     pub fn discs(&self, depth_m: f64) -> Vec<Disc> {
+        self.discs_of(depth_m, FINE)
+    }
+
+    /// The same along each of which the edge lags by so much (rad) at most.
+    pub fn discs_of(&self, depth_m: f64, fine: f64) -> Vec<Disc> {
         let round = self.corner_radius_m.min(depth_m);
-        let mut discs = self.round_discs(round);
+        let mut discs = self.round_discs(round, fine);
         let straight = depth_m - round;
-        let count = self.count_over(straight);
+        let count = self.count_over(straight, fine);
         let height = straight / count as f64;
         let middle = |i: usize| round + (i as f64 + 0.5) * height;
         if straight > 0.0 {
@@ -86,17 +91,17 @@ impl Tool {
         discs
     }
 
-    fn count_over(&self, height_m: f64) -> usize {
-        ((self.lag_rad(height_m).abs() / FINE).ceil() as usize).clamp(1, 1000)
+    fn count_over(&self, height_m: f64, fine: f64) -> usize {
+        ((self.lag_rad(height_m).abs() / fine).ceil() as usize).clamp(1, 1000)
     }
 
-    fn round_discs(&self, height_m: f64) -> Vec<Disc> {
+    fn round_discs(&self, height_m: f64, fine: f64) -> Vec<Disc> {
         let rc = self.corner_radius_m;
         if rc <= 0.0 || height_m <= 0.0 {
             return Vec::new();
         }
         let last = (1.0 - height_m / rc).clamp(-1.0, 1.0).acos();
-        let steps = ((last / FINE).ceil() as usize).max(self.count_over(height_m));
+        let steps = ((last / fine).ceil() as usize).max(self.count_over(height_m, fine));
         let kappa = |i: f64| last * i / steps as f64;
         let of = |i: usize| {
             let (low, high) = (kappa(i as f64), kappa(i as f64 + 1.0));

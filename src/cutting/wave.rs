@@ -5,7 +5,7 @@
 
 use super::chip::{Steady, Stock, Tip, turned};
 use super::law::Direction;
-use super::tool::{Disc, Tool};
+use super::tool::{Disc, FINE, Tool};
 use crate::ground::dual::Scalar;
 use crate::ground::spatial::V3;
 use std::f64::consts::TAU;
@@ -80,7 +80,12 @@ impl<'a, S: Scalar> Wave<'a, S> {
     /// A cut by a tool whose runout (parts along tooth 1 and a quarter turn on, m) and width (m) are
     /// given apart from what the tool and the cut say.
     pub fn new(tool: &'a Tool, cut: &Cut, runout: [S; 2], width: S) -> Self {
-        let discs = tool.discs(cut.depth_m);
+        Self::sliced((tool, FINE), cut, runout, width)
+    }
+
+    /// The same by discs along each of which the edge lags by so much (rad) at most.
+    pub fn sliced((tool, fine): (&'a Tool, f64), cut: &Cut, runout: [S; 2], width: S) -> Self {
+        let discs = tool.discs_of(cut.depth_m, fine);
         let all = |disc: &Disc| (0..tool.teeth).map(|j| tool.tip(disc, j, runout)).collect();
         let ahead = |disc: &Disc, j: usize| {
             let (sin, cos) = tool.tooth_angle(0.0, j, disc).sin_cos();

@@ -8,7 +8,7 @@ use super::resonance::Resonant;
 use crate::cutting::tool::Tool;
 use crate::cutting::wave::{Basis, Cut, Side, Wave, force};
 use crate::ground::dual::{Dual, Scalar};
-use crate::ground::spatial::V3;
+use crate::ground::spatial::{V3, add, scale};
 use crate::measurement::milling_force::{CutFacts, CutSide, Facts};
 use place::Place;
 use std::f64::consts::TAU;
@@ -61,6 +61,8 @@ pub struct CutScene {
     pub chipped: Vec<f64>,
     /// Height up to which teeth are chipped, m.
     pub chipped_to_m: f64,
+    /// Lag of the edge along one disc, rad: how finely the edges are sliced.
+    pub slice_rad: f64,
 }
 
 /// Forces at the samples, N, and their slopes over the [`UNKNOWNS`].
@@ -120,7 +122,7 @@ impl CutScene {
     }
 
     /// Whether the file holds the force itself.
-    fn is_direct(&self) -> bool {
+    pub fn is_direct(&self) -> bool {
         !self.low_pass && self.resonant.is_none()
     }
 
@@ -159,30 +161,39 @@ impl CutScene {
         self.time.iter().map(|t| p[PHASE] + rate * t).collect()
     }
 
-    fn wave<S: Scalar>(
+    /// The cut at `p`, whose runout, width and border are scalars of their own by number.
+    pub fn wave<S: Scalar>(
         &self,
         p: &[f64; UNKNOWNS],
         unknown: impl Fn(f64, usize) -> S,
     ) -> Wave<'_, S> {
         let runout = [0, 1].map(|k| unknown(p[RUNOUT + k], k));
-        Wave::new(&self.tool, &self.cut, runout, unknown(p[WIDTH], 2))
-            .before_the_border(unknown(p[BORDER], 4))
-            .shorter(&self.shorter, f64::INFINITY)
-            .shorter(&self.chipped, self.chipped_to_m)
+        // the table feeds as stated, however fast the spindle turns
+        let cut = Cut {
+            spindle_rad_s: self.cut.spindle_rad_s * (1.0 + p[SPEED]),
+            ..self.cut
+        };
+        Wave::sliced(
+            (&self.tool, self.slice_rad),
+            &cut,
+            runout,
+            unknown(p[WIDTH], 2),
+        )
+        .before_the_border(unknown(p[BORDER], 4))
+        .shorter(&self.shorter, f64::INFINITY)
+        .shorter(&self.chipped, self.chipped_to_m)
     }
 
     fn ideal(&self, p: &[f64; UNKNOWNS]) -> Predicted {
         let wave = self.wave(p, D::variable);
-        let rate = self.cut.spindle_rad_s;
         let mut predicted = Predicted::zeros(self.time.len());
         for (i, angle) in self.angles(p).into_iter().enumerate() {
             let basis = wave.basis(D::variable(angle, 3), 0.0);
             let f = force(&basis, &p[..6]);
-            predicted.set(i, &basis, &f);
+            predicted.set(i, &basis, p, &f);
             predicted.slopes[PHASE][i] = f.map(|part| part.eps[3]);
-            predicted.slopes[SPEED][i] = f.map(|part| part.eps[3] * rate * self.time[i]);
         }
-        predicted
+        predicted.turning(self)
     }
 
     /// Samples of a revolution.
@@ -216,10 +227,9 @@ impl CutScene {
         let mut around = Predicted::zeros(grid);
         for i in 0..grid {
             let basis = wave.basis(D::constant(i as f64 * step), step);
-            around.set(i, &basis, &force(&basis, &p[..6]));
+            around.set(i, &basis, p, &force(&basis, &p[..6]));
         }
         let passed = Predicted::passed(&around, &self.passage(p, grid));
-        let rate = self.cut.spindle_rad_s;
         let mut predicted = Predicted::zeros(self.time.len());
         for (i, angle) in self.angles(p).into_iter().enumerate() {
             let place = Place::of(angle, grid);
@@ -227,10 +237,8 @@ impl CutScene {
             for (own, from) in predicted.slopes.iter_mut().zip(&passed.slopes) {
                 own[i] = place.read(from);
             }
-            predicted.slopes[SPEED][i] =
-                predicted.slopes[PHASE][i].map(|s| s * rate * self.time[i]);
         }
-        predicted
+        predicted.turning(self)
     }
 }
 
@@ -242,7 +250,9 @@ impl Predicted {
         }
     }
 
-    fn set(&mut self, i: usize, basis: &Basis<D>, f: &[D; 3]) {
+    /// A sample, apart from what its angle does.
+    fn set(&mut self, i: usize, basis: &Basis<D>, p: &[f64; UNKNOWNS], f: &[D; 3]) {
+        let speed = 1.0 + p[SPEED];
         for k in 0..3 {
             self.force[i][k] = f[k].re;
             for (j, sums) in basis.iter().enumerate() {
@@ -252,7 +262,20 @@ impl Predicted {
             self.slopes[RUNOUT + 1][i][k] = f[k].eps[1];
             self.slopes[WIDTH][i][k] = f[k].eps[2];
             self.slopes[BORDER][i][k] = f[k].eps[4];
+            // a faster spindle takes thinner chips but for what runout makes of them, to first order of the feed
+            let of_chip: f64 = (0..3).map(|j| p[j] * basis[j][k].re).sum();
+            let of_runout = p[RUNOUT] * f[k].eps[0] + p[RUNOUT + 1] * f[k].eps[1];
+            self.slopes[SPEED][i][k] = (of_runout - of_chip) / speed;
         }
+    }
+
+    /// The slope over the speed with what the angles of the teeth do: the later, the more.
+    fn turning(mut self, scene: &CutScene) -> Self {
+        for (i, time) in scene.time.iter().enumerate() {
+            let turned = scale(scene.cut.spindle_rad_s * time, self.slopes[PHASE][i]);
+            self.slopes[SPEED][i] = add(self.slopes[SPEED][i], turned);
+        }
+        self
     }
 
     /// One revolution behind an instrument.
@@ -262,7 +285,7 @@ impl Predicted {
         passed.force = plain;
         passed.slopes[BANDWIDTH] = slower;
         passed.slopes[PHASE] = turned;
-        for j in [0, 1, 2, 3, 4, 5, RUNOUT, RUNOUT + 1, WIDTH, BORDER] {
+        for j in [0, 1, 2, 3, 4, 5, RUNOUT, RUNOUT + 1, SPEED, WIDTH, BORDER] {
             let own = &around.slopes[j];
             if own.iter().flatten().any(|x| *x != 0.0) {
                 passed.slopes[j] = pass.plain(own);

@@ -18,6 +18,7 @@ fn scene(low_pass: bool) -> (CutScene, [f64; UNKNOWNS]) {
         shorter: Vec::new(),
         chipped: Vec::new(),
         chipped_to_m: 0.0,
+        slice_rad: crate::cutting::tool::FINE,
     };
     let k = [800e6, 300e6, 100e6, 20e3, 25e3, 3e3];
     let mut p = [0.0; UNKNOWNS];
@@ -136,4 +137,21 @@ fn stamps_that_are_rounded_follow_a_clock() {
     assert!((step * 6400.0 - 1.0).abs() < 1e-3);
     scene.time[200..].iter_mut().for_each(|t| *t += step);
     assert_eq!(scene.step_s(), None);
+}
+
+#[test]
+fn a_faster_spindle_takes_thinner_chips() {
+    let (mut scene, mut p) = scene(false);
+    p[3..RUNOUT + 2].fill(0.0);
+    let mut mean = |speed: f64| {
+        p[SPEED] = speed;
+        let step = TAU / 720.0 / (600.0 * (1.0 + speed));
+        scene.time = (0..720).map(|i| step * f64::from(i)).collect();
+        scene.predict(&p).force.iter().map(|f| f[1]).sum::<f64>() / 720.0
+    };
+    let (stated, faster) = (mean(0.0), mean(0.02));
+    assert!(
+        (faster / stated * 1.02 - 1.0).abs() < 2e-3,
+        "{faster} {stated}"
+    );
 }

@@ -123,7 +123,7 @@ fn power(fit: &CutFit, length: f64, colour: Option<&Colour>) -> (Vec<f64>, f64) 
                 colour.power(k, i as f64 * step_hz, rate.recip())
             })
         };
-        let own: Vec<f64> = fit.residual.iter().map(|left| left[k]).collect();
+        let own: Vec<f64> = fit.left().map(|left| left[k]).collect();
         let own = noise::power(&own, padded);
         let each = power.iter_mut().zip(own).enumerate();
         each.for_each(|(i, (all, own))| *all += own / noise(i));

@@ -137,7 +137,8 @@ fn levelled(fit: &CutFit, spindle_hz: f64, step_s: f64) -> Option<DMatrix<f64>> 
         }
     };
     let columns = DMatrix::from_fn(count, 2 + 2 * orders, column);
-    let left = DMatrix::from_fn(count, 3, |row, k| fit.residual[row][k]);
+    let left: Vec<_> = fit.left().collect();
+    let left = DMatrix::from_fn(count, 3, |row, k| left[row][k]);
     let mut inner = gram(&columns);
     (0..inner.nrows()).for_each(|i| inner[(i, i)] *= 1.0 + 1e-9);
     let taken = inner.cholesky()?.solve(&tr_mul(&columns, &left));

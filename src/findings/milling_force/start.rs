@@ -43,7 +43,7 @@ fn level(file: &mut MillingForce, account: &Account) -> bool {
         let time = &fit.data.scene.time;
         let first = record.time[fit.data.settling.min(record.time.len() - 1)];
         for k in 0..3 {
-            let left: Vec<f64> = fit.residual.iter().map(|r| r[k]).collect();
+            let left: Vec<f64> = fit.left().map(|r| r[k]).collect();
             let (mean, slope, middle) = line(time, &left);
             let half = 0.5 * (time.last().unwrap_or(&0.0) - time[0]);
             let scatter = crate::ground::stats::rms(&left) / (left.len() as f64).sqrt();

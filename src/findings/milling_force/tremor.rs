@@ -3,8 +3,7 @@
 //! the spindle's apart.
 
 use super::Case;
-use crate::cutting::wave::Wave;
-use crate::experiments::milling_force::{BANDWIDTH, RUNOUT, SPEED, WIDTH};
+use crate::experiments::milling_force::{BANDWIDTH, SPEED};
 use crate::signal::low_pass::butterworth2;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
@@ -31,10 +30,7 @@ impl Tremor {
     pub fn new(case: &Case, cut: usize) -> Self {
         let present = &case.cuts()[cut].present;
         let (scene, p) = present.moved(case.setting(cut, &case.offset));
-        let runout = [p[RUNOUT], p[RUNOUT + 1]];
-        let wave = Wave::new(&scene.tool, &scene.cut, runout, p[WIDTH])
-            .shorter(&scene.shorter, f64::INFINITY)
-            .shorter(&scene.chipped, scene.chipped_to_m);
+        let wave = scene.wave(&p, |value, _| value);
         let at = |i: usize| wave.stirred(i as f64 / GRID as f64 * TAU, [p[0], p[1], p[2]]);
         let around: Vec<_> = (0..GRID).map(at).collect();
         let plan = FftPlanner::new().plan_fft_forward(GRID);

@@ -2,13 +2,11 @@
 
 mod beside;
 
-use super::descent::{Descent, Optimum};
 use super::layout::Layout;
-use super::start::{improve_teeth, start};
-use super::whitening::Whitening;
-use super::{Averaged, CutData, averaged, cuts, misfit, remarks, repeated, speed};
+use super::rounds::{descend, forces, rms};
+use super::{Averaged, CutData, averaged, cuts, misfit, remarks, speed};
 use crate::cutting::LINEAR_EDGE;
-use crate::experiments::milling_force::{PHASE, RUNOUT, UNKNOWNS};
+use crate::experiments::milling_force::{PHASE, RUNOUT, SPEED, UNKNOWNS};
 use crate::fit::parameter::{Identified, Status};
 use crate::ground::spatial::V3;
 use crate::measurement::milling_force::MillingForce;
@@ -24,6 +22,14 @@ pub struct CutFit {
     pub p: [f64; UNKNOWNS],
     /// Measured less fitted, N.
     pub residual: Vec<V3>,
+}
+
+impl CutFit {
+    /// What is left where samples count, and nothing where they do not, N.
+    pub fn left(&self) -> impl Iterator<Item = V3> + '_ {
+        let each = self.residual.iter().zip(&self.data.counts);
+        each.map(|(left, counts)| if *counts { *left } else { [0.0; 3] })
+    }
 }
 
 /// Everything that is reported.
@@ -54,10 +60,6 @@ pub struct Account {
     pub remarks: Vec<String>,
 }
 
-/// Rounds of noise and descent.
-const ROUNDS: usize = 4;
-/// Share of the squares that a step must be worth, while the noise is still being learned and in the end.
-const ARRIVED: [f64; 2] = [1e-5, 1e-8];
 /// A coefficient counts as fixed when its standard error is below this share of the size of its kind.
 const FIXED: f64 = 0.25;
 /// A runout counts as seen when it stands out of its standard error by this factor, in a single cut.
@@ -72,9 +74,9 @@ const ANOTHER: f64 = 0.25;
 
 /// Identifies the coefficients from files of one tool.
 pub fn identify(files: &[MillingForce]) -> Account {
-    let cuts = cuts(files);
+    let mut cuts = cuts(files);
     let layout = Layout::of(&cuts);
-    let (fitted, covariance) = descend(&cuts, &layout);
+    let (fitted, covariance) = descend(&mut cuts, &layout);
     let p = name_teeth(&cuts, &layout, fitted.p.clone());
     let answer = Answer {
         cuts: &cuts,
@@ -84,7 +86,7 @@ pub fn identify(files: &[MillingForce]) -> Account {
     };
     let averaged = averaged(&cuts);
     let parameters = answer.parameters();
-    let rms = rms(&fitted.residuals);
+    let rms = rms(&cuts, &fitted.residuals);
     let stated_noise = files.iter().find_map(|f| f.facts.sensor_noise_n);
     let mut account = Account {
         rel_std: answer.rel_std(&parameters),
@@ -94,7 +96,7 @@ pub fn identify(files: &[MillingForce]) -> Account {
         rms,
         stated_noise,
         runout_covariance: runout_covariance(&layout, (&fitted.p, &p), &covariance),
-        rows: cuts.iter().map(|c| c.force.len()).sum(),
+        rows: cuts.iter().map(CutData::rows).sum(),
         repeating: 0.0,
         cuts: Vec::new(),
         remarks: Vec::new(),
@@ -125,8 +127,8 @@ pub fn identify(files: &[MillingForce]) -> Account {
 const MUCH: (f64, f64) = (10.0, 0.25);
 
 impl Account {
-    /// Whether the law leaves so much that its numbers are those of another cut, or the teeth pass at another speed: the chip of a tooth
-    /// follows from that.
+    /// Whether the law leaves so much that its numbers are those of another cut, or the teeth pass at another speed: who
+    /// states a wrong speed may state a wrong feed.
     pub fn is_another_cut(&self) -> bool {
         self.leaves_another_cut() || speed::off_speed(&self.cuts).is_some()
     }
@@ -139,10 +141,10 @@ impl Account {
     /// Whether it leaves far more than the stated noise, and a good share of the force.
     pub fn leaves_much(&self) -> bool {
         let size = |v: V3| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let force: Vec<Vec<V3>> = self.cuts.iter().map(|c| c.data.force.clone()).collect();
+        let cuts: Vec<CutData> = self.cuts.iter().map(|c| c.data.clone()).collect();
         let of_one = size(self.rms) / 3.0_f64.sqrt();
         let is_noise = self.stated_noise.is_some_and(|n| of_one < MUCH.0 * n);
-        !is_noise && size(self.rms) > MUCH.1 * size(rms(&force))
+        !is_noise && size(self.rms) > MUCH.1 * size(rms(&cuts, &forces(cuts.iter())))
     }
 
     fn withhold(&mut self) {
@@ -158,65 +160,26 @@ impl Account {
     }
 }
 
-/// Where the fit ends, and its covariance in SI.
-fn descend(cuts: &[CutData], layout: &Layout) -> (Optimum, DMatrix<f64>) {
-    let mut p = start(cuts, layout);
-    let size = rms(&cuts.iter().map(|c| c.force.clone()).collect::<Vec<_>>());
-    let rough = 0.05 * size.iter().fold(0.0_f64, |m, v| m.max(*v)).max(1e-9);
-    let mut whitening = Whitening::white(rough);
-    let mut round = 0;
-    loop {
-        let descent = Descent {
-            cuts,
-            layout,
-            whitening: &whitening,
-        };
-        round += 1;
-        let found = descent.from(&p, ARRIVED[usize::from(round == ROUNDS)]);
-        if round == ROUNDS {
-            let covariance = repeated::widened(covariance(&found, layout), &descent, &found.p);
-            return (found, covariance);
-        }
-        p = found.p;
-        if round == 1 && improve_teeth(cuts, layout, &mut p) {
-            continue;
-        }
-        whitening = Whitening::of(cuts, &found.residuals);
-    }
+/// Angle of tooth 1 when a cut begins in the file, rad.
+fn at_begin(cut: &CutData, p: &[f64; UNKNOWNS]) -> f64 {
+    p[PHASE] - cut.scene.cut.spindle_rad_s * (1.0 + p[SPEED]) * cut.begins_s
 }
 
-fn rms(residuals: &[Vec<V3>]) -> V3 {
-    let rows: usize = residuals.iter().map(Vec::len).sum();
-    let squares = |k: usize| residuals.iter().flatten().map(|v| v[k] * v[k]).sum::<f64>();
-    std::array::from_fn(|k| (squares(k) / rows.max(1) as f64).sqrt())
-}
-
-/// Covariance in SI. A direction that the data leave open gets a spread beyond any bound.
-fn covariance(fitted: &Optimum, layout: &Layout) -> DMatrix<f64> {
-    let eigen = fitted.normal.clone().symmetric_eigen();
-    let n = layout.len();
-    let mut covariance = DMatrix::zeros(n, n);
-    for (value, vector) in eigen
-        .eigenvalues
-        .iter()
-        .zip(eigen.eigenvectors.column_iter())
-    {
-        let spread = 1.0 / value.max(1e-12);
-        covariance += vector * vector.transpose() * spread;
-    }
-    let scale = |j: usize| layout.unknowns[j].scale;
-    DMatrix::from_fn(n, n, |i, j| covariance[(i, j)] * scale(i) * scale(j))
+/// An angle within half a turn of 0, rad.
+fn wrapped(angle: f64) -> f64 {
+    (angle + 0.5 * TAU).rem_euclid(TAU) - 0.5 * TAU
 }
 
 /// Calls that tooth the first which stands nearest to φ = 0 when the first cut begins.
 fn name_teeth(cuts: &[CutData], layout: &Layout, mut p: Vec<f64>) -> Vec<f64> {
-    let Some(place) = layout.of_cut.first().and_then(|c| c[PHASE]) else {
+    if cuts.is_empty() {
         return p;
-    };
+    }
     let pitch = cuts[0].scene.tool.pitch_rad();
-    let turn = -(p[place] / pitch).round() * pitch;
+    let begin = at_begin(&cuts[0], &layout.of_one(0, &p));
+    let turn = -(begin / pitch).round() * pitch;
     for phase in layout.of_cut.iter().filter_map(|c| c[PHASE]) {
-        p[phase] = (p[phase] + turn + 0.5 * TAU).rem_euclid(TAU) - 0.5 * TAU;
+        p[phase] = wrapped(p[phase] + turn);
     }
     if let [Some(a), Some(b)] = [layout.of_cut[0][RUNOUT], layout.of_cut[0][RUNOUT + 1]] {
         let (sin, cos) = turn.sin_cos();

@@ -112,7 +112,7 @@ impl Descent<'_> {
         let predicted = data.scene.predict(&self.layout.of_one(i, p));
         let left = |(m, f): (&V3, &V3)| std::array::from_fn(|k| m[k] - f[k]);
         let residual: Vec<V3> = data.force.iter().zip(&predicted.force).map(left).collect();
-        let white = DVector::from_vec(self.whitening.apply(&residual));
+        let white = DVector::from_vec(self.whitening.apply(&residual, &data.counts));
         let used: Vec<(usize, usize)> = self.layout.of_cut[i]
             .iter()
             .enumerate()
@@ -120,7 +120,7 @@ impl Descent<'_> {
             .collect();
         let mut jacobian = DMatrix::zeros(white.len(), used.len());
         for (column, (kind, place)) in used.iter().enumerate() {
-            let mut slope = self.whitening.apply(&predicted.slopes[*kind]);
+            let mut slope = self.whitening.apply(&predicted.slopes[*kind], &data.counts);
             let scale = self.layout.unknowns[*place].scale;
             slope.iter_mut().for_each(|s| *s *= scale);
             jacobian.column_mut(column).copy_from_slice(&slope);

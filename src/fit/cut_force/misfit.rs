@@ -50,15 +50,15 @@ fn repeating(cut: &CutFit) -> f64 {
     let mut pass = |at: i64, sum: [f64; 3], count: f64| {
         places[at.rem_euclid(PLACES as i64) as usize].add(&sum.map(|s| s / count));
     };
-    for (angle, left) in cut.data.scene.angles(&cut.p).iter().zip(&cut.residual) {
+    for (angle, left) in cut.data.scene.angles(&cut.p).iter().zip(cut.left()) {
         let at = (angle / TAU * PLACES as f64).floor() as i64;
         latest = Some(match latest {
-            Some((before, sum, count)) if before == at => (at, add(sum, *left), count + 1.0),
+            Some((before, sum, count)) if before == at => (at, add(sum, left), count + 1.0),
             other => {
                 other
                     .into_iter()
                     .for_each(|(at, sum, count)| pass(at, sum, count));
-                (at, *left, 1.0)
+                (at, left, 1.0)
             }
         });
     }

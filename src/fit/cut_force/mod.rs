@@ -12,14 +12,18 @@ mod layout;
 mod misfit;
 mod remarks;
 mod repeated;
+mod rounds;
 mod speed;
 mod start;
+mod steady;
 mod whitening;
 
 pub use answer::{Account, CutFit, identify};
 pub use averaged::{Averaged, averaged};
 pub use layout::{BANDWIDTH_STD, BORDER_SHARE, Layout};
+pub use steady::{Known, range, steady_samples};
 
+use crate::cutting::tool::FINE;
 use crate::experiments::milling_force::{CutScene, cut, tool};
 use crate::ground::spatial::V3;
 use crate::measurement::milling_force::{MillingForce, Record};
@@ -32,6 +36,10 @@ pub struct CutData {
     pub scene: CutScene,
     /// Measured force on the tool, N.
     pub force: Vec<V3>,
+    /// Time from the first sample of the cut in the file to the first one here, s.
+    pub begins_s: f64,
+    /// Whether a sample counts, one per row; those beside a jump do not.
+    pub counts: Vec<bool>,
     /// Rows left out at the start, until the low pass has settled.
     pub settling: usize,
     /// Rows at the end that were not used: the record is longer than it need be.
@@ -40,6 +48,19 @@ pub struct CutData {
     pub bandwidth_hz: Option<f64>,
     /// Number of the file and of its cut, from 0.
     pub place: [usize; 2],
+}
+
+impl CutData {
+    /// How many samples count.
+    pub fn rows(&self) -> usize {
+        self.counts.iter().filter(|c| **c).count()
+    }
+
+    /// Those of a wave that count.
+    pub fn counted<'a>(&'a self, wave: &'a [V3]) -> impl Iterator<Item = &'a V3> {
+        let each = wave.iter().zip(&self.counts);
+        each.filter(|(_, counts)| **counts).map(|(v, _)| v)
+    }
 }
 
 /// Most rows of a cut that are used: with more, what the law leaves counts, not the noise.
@@ -79,8 +100,11 @@ fn one(file: &MillingForce, place: [usize; 2], record: &Record) -> CutData {
             shorter: Vec::new(),
             chipped: Vec::new(),
             chipped_to_m: 0.0,
+            slice_rad: FINE,
         },
         force: record.force[settled..last].to_vec(),
+        counts: vec![true; last - settled],
+        begins_s: first - record.begins_s,
         settling: settled,
         beyond: record.time.len() - last,
         bandwidth_hz: bandwidth,

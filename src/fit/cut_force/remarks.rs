@@ -36,7 +36,7 @@ fn another_speed(account: &Account) -> Option<String> {
     let (cut, share) = off?;
     let stated = 60.0 / TAU * account.cuts[cut].data.scene.cut.spindle_rad_s;
     Some(format!(
-        "The teeth of cut {} pass at {:.0} rpm, and the file states {stated:.0}: the chip of a tooth, which the coefficients stand on, is another one then. Measure the spindle speed and state it.",
+        "The teeth of cut {} pass at {:.0} rpm, and the file states {stated:.0}: the chip of a tooth, which the coefficients stand on, is known from the feed of the table alone then, if that is as stated. Measure the spindle speed and state it.",
         cut + 1,
         stated * (1.0 + share)
     ))
@@ -122,7 +122,8 @@ fn left_out(files: &[MillingForce], cuts: &[&CutData]) -> Option<String> {
     let settling: usize = cuts.iter().map(|c| c.settling).sum();
     let beyond: usize = cuts.iter().map(|c| c.beyond).sum();
     let air: usize = files.iter().map(|f| f.in_air).sum();
-    (empty + settling + beyond + air > 0).then(|| {
-        format!("Left out: {empty} rows for an empty cell, {air} {IN_AIR}, {settling} at the starts of cuts until the low pass has settled, {beyond} at the ends of cuts longer than need be.")
+    let beside: usize = cuts.iter().map(|c| c.force.len() - c.rows()).sum();
+    (empty + settling + beyond + air + beside > 0).then(|| {
+        format!("Left out: {empty} rows for an empty cell, {air} {IN_AIR}, {settling} at the starts of cuts until the low pass has settled, {beyond} at the ends of cuts longer than need be, {beside} beside a jump of the force or where straight teeth begin to scrape.")
     })
 }

@@ -4,8 +4,8 @@ use super::CutFit;
 use super::layout::SPEED_STD;
 use crate::experiments::milling_force::SPEED;
 
-/// Standard deviations by which the teeth may pass at another speed than stated, six tenths of a percent: the chip of a tooth is
-/// then wrong by as much. A choice.
+/// Standard deviations by which the teeth may pass at another speed than stated, six tenths of a percent: it is no
+/// longer sure then that table and spindle ran as stated. A choice.
 const OFF: f64 = 6.0;
 
 /// The cut, from 0, whose teeth pass farthest beside the stated speed, and by which share of it; none where all are near.

@@ -24,20 +24,65 @@ impl Whitening {
         } else {
             0
         };
+        let mut lengths: Vec<usize> = cuts
+            .iter()
+            .flat_map(|c| runs(&c.counts))
+            .map(|r| r.len())
+            .collect();
+        lengths.sort_unstable();
+        // of a run the first rows have no past
+        let most = most.min(
+            lengths
+                .get(lengths.len() / 2)
+                .map_or(0, |middle| middle / 4),
+        );
+        let pieces = |k: usize| -> Vec<Vec<f64>> {
+            let of_cut = |(cut, left): (&CutData, &Vec<V3>)| {
+                let channel: Vec<f64> = left.iter().map(|v| v[k]).collect();
+                let runs = runs(&cut.counts);
+                runs.map(|run| channel[run].to_vec()).collect::<Vec<_>>()
+            };
+            cuts.iter().zip(residuals).flat_map(of_cut).collect()
+        };
         Self(std::array::from_fn(|k| {
-            let pieces = residuals.iter().map(|r| r.iter().map(|v| v[k]).collect());
-            let pieces: Vec<Vec<f64>> = pieces.collect();
-            Autoregression::fit(&pieces, most)
+            Autoregression::fit(&pieces(k), most)
         }))
     }
 
-    /// One channel after the other, whitened and put behind each other.
-    pub fn apply(&self, wave: &[V3]) -> Vec<f64> {
+    /// One channel after the other, whitened and put behind each other; nothing where a sample does not count.
+    pub fn apply(&self, wave: &[V3], counts: &[bool]) -> Vec<f64> {
         let of = |(k, noise): (usize, &Autoregression)| {
-            let mut channel: Vec<f64> = wave.iter().map(|v| v[k]).collect();
-            noise.whiten(&mut channel);
-            channel
+            let mut whitened = vec![0.0; wave.len()];
+            for run in runs(counts) {
+                let own = &mut whitened[run.clone()];
+                own.iter_mut().zip(&wave[run]).for_each(|(w, v)| *w = v[k]);
+                noise.whiten(own);
+            }
+            whitened
         };
         self.0.iter().enumerate().flat_map(of).collect()
+    }
+}
+
+/// Samples that count, one run of neighbours after the other.
+fn runs(counts: &[bool]) -> impl Iterator<Item = std::ops::Range<usize>> + '_ {
+    let mut from = 0;
+    std::iter::from_fn(move || {
+        from += counts[from..].iter().position(|c| *c)?;
+        let count = counts[from..].iter().take_while(|c| **c).count();
+        from += count;
+        Some(from - count..from)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::runs;
+
+    #[test]
+    fn runs_are_between_what_does_not_count() {
+        let all: Vec<_> = runs(&[false, true, true, false, false, true]).collect();
+        assert_eq!(all, [1..3, 5..6]);
+        assert_eq!(runs(&[false]).count(), 0);
     }
 }

@@ -142,6 +142,7 @@ mod tests {
         Record {
             force: time.iter().map(force).collect(),
             row: (0..time.len()).collect(),
+            begins_s: time[0],
             time,
         }
     }
@@ -166,6 +167,7 @@ mod tests {
             time: kept.iter().map(|i| drifts.time[*i]).collect(),
             force: kept.iter().map(|i| drifts.force[*i]).collect(),
             row: kept,
+            begins_s: drifts.begins_s,
         };
         let first = gapped.time[in_stock(&gapped, &CUT, 5e-3).start];
         assert!((0.45..0.5).contains(&first), "{first}");

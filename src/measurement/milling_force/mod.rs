@@ -21,6 +21,8 @@ pub struct Record {
     pub force: Vec<V3>,
     /// Data row of the file that each came from.
     pub row: Vec<usize>,
+    /// Time of the first row of the cut in the file, s: of one that is not in here where the tool was still in air.
+    pub begins_s: f64,
 }
 
 /// A file of this kind.
@@ -123,6 +125,9 @@ fn records(table: &Table, facts: &Facts) -> Outcome<(Vec<Record>, usize)> {
             return Err(standing(table, row));
         }
         last = time[row];
+        if record.time.is_empty() {
+            record.begins_s = last;
+        }
         record.time.push(time[row]);
         record.force.push(f);
         record.row.push(row);
@@ -141,6 +146,7 @@ fn leave_air(records: &mut [Record], facts: &Facts) -> usize {
             time: record.time[kept.clone()].to_vec(),
             force: record.force[kept.clone()].to_vec(),
             row: record.row[kept].to_vec(),
+            begins_s: record.begins_s,
         };
     }
     left

@@ -1,11 +1,10 @@
 //! Straight teeth enter and leave at once, and nothing spreads it: where a force jumps, no slope says where to go.
 
 use super::CutSamples;
-use crate::cutting::wave::Side;
-use crate::experiments::milling_force::{PHASE, Predicted, RUNOUT, WIDTH};
-use crate::ground::spatial::V3;
+use crate::experiments::milling_force::{PHASE, Predicted};
+use crate::findings::milling_force::setting::Present;
+use crate::fit::cut_force::{Known, range, steady_samples};
 use nalgebra::{Matrix6, Vector6};
-use std::f64::consts::{PI, TAU};
 
 /// How far from where a fit of slopes left it the angle of the tooth is sought, rad, in how many steps to either side; then
 /// closer, in steps of as many parts of the first.
@@ -17,14 +16,8 @@ const FINE: i32 = 80;
 const SWITCH: f64 = 0.5;
 /// No angle is known better, rad.
 const LEAST: f64 = 2e-3;
-/// How well the angle of a jump is known, rad, and the width of the cut, m.
-const BESIDE: [f64; 2] = [4e-3, 5e-5];
-/// Share of the range of a force that a shift changes if it is a jump; of straight teeth beyond what its slope says, since an
-/// edge alone makes small ones.
-const JUMP: f64 = 0.1;
-const SMALL: f64 = 0.05;
-/// So near to where the chip is nothing a tooth may scrape or not, rad. No other number was tried.
-const SCRAPING: f64 = 0.1;
+/// How well the angle of a jump is known, rad.
+const KNOWN: f64 = 4e-3;
 
 /// The angle of tooth 1 at which the jumps are where the record has them, whatever the coefficients, and its standard deviation.
 pub(super) fn placed(cut: &CutSamples) -> (f64, f64) {
@@ -66,15 +59,6 @@ fn still(cut: &CutSamples, phase: f64, side: f64) -> f64 {
     f64::from(first - 1) * step
 }
 
-/// Range of a force, by axis.
-fn range(force: &[V3]) -> V3 {
-    [0, 1, 2].map(|k| {
-        let own = force.iter().map(|f| f[k]);
-        let (low, high) = own.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
-        high - low
-    })
-}
-
 /// Sum of squares that any six coefficients leave.
 fn misfit(cut: &CutSamples, phase: f64) -> f64 {
     let mut p = cut.present.p;
@@ -95,64 +79,23 @@ fn misfit(cut: &CutSamples, phase: f64) -> f64 {
     solved.map_or(sum, |amounts| sum - amounts.dot(&right))
 }
 
-/// Samples that do not stand beside a jump of the simulated force: those say only that the jump is thereabouts. Nor where straight
-/// teeth begin or end to scrape: a few µm of their radii move that by degrees. `runout_m`: as stated.
+/// Samples that do not stand beside a jump of the simulated force. `runout_m`: as stated.
 pub(super) fn steady(cut: &CutSamples, runout_m: f64) -> Vec<bool> {
-    let present = &cut.present;
-    let here = present.scene.predict(&present.p);
-    let jumps = present.scene.jumps();
-    let (sloped, share) = if jumps { (1.0, SMALL) } else { (0.0, JUMP) };
-    let least = range(&here.force).map(|r| share * r);
-    let [turn, width] = BESIDE;
-    let mut known = vec![(PHASE, turn), (WIDTH, width)];
-    if jumps {
-        known.extend([(RUNOUT, runout_m), (RUNOUT + 1, runout_m)]);
-    }
-    let both = known
-        .into_iter()
-        .flat_map(|(place, by)| [(place, by), (place, -by)]);
-    let beside: Vec<(usize, f64, Vec<V3>)> = both
-        .map(|(place, by)| {
-            let mut p = present.p;
-            p[place] += by;
-            (place, sloped * by, present.scene.force(&p))
-        })
-        .collect();
-    let angles = present.scene.angles(&present.p);
-    let holds = |i: usize| {
-        let still = |(place, by, there): &(usize, f64, Vec<V3>)| {
-            let slope = &here.slopes[*place][i];
-            let beyond = |k: usize| there[i][k] - here.force[i][k] - by * slope[k];
-            (0..3).all(|k| beyond(k).abs() <= least[k])
-        };
-        !(jumps && scrapes(cut, angles[i])) && beside.iter().all(still)
+    let Present { scene, p, .. } = &cut.present;
+    let known = Known {
+        turn_rad: KNOWN,
+        runout_m: if scene.jumps() { runout_m } else { 0.0 },
+        sloped: scene.jumps(),
     };
-    (0..here.force.len()).map(holds).collect()
-}
-
-/// Whether a straight tooth stands where its chip begins or ends at nothing, when tooth 1 is at this angle.
-fn scrapes(cut: &CutSamples, angle: f64) -> bool {
-    let scene = &cut.present.scene;
-    let borders: &[f64] = match scene.cut.side {
-        Side::Up => &[0.0],
-        Side::Down => &[PI],
-        Side::Slot => &[0.0, PI],
-    };
-    let pitch = TAU / scene.tool.teeth as f64;
-    let near = |border: &f64| {
-        let away = (angle - border).rem_euclid(pitch);
-        away.min(pitch - away) < SCRAPING
-    };
-    borders.iter().any(near)
+    steady_samples(scene, p, known)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::cutting::tool::Tool;
-    use crate::cutting::wave::Cut;
-    use crate::experiments::milling_force::{CutScene, UNKNOWNS};
-    use crate::findings::milling_force::setting::Present;
+    use crate::cutting::wave::{Cut, Side};
+    use crate::experiments::milling_force::{CutScene, UNKNOWNS, WIDTH};
 
     const PHASE_RAD: f64 = 0.43;
 
@@ -173,6 +116,7 @@ mod tests {
             shorter: Vec::new(),
             chipped: Vec::new(),
             chipped_to_m: 0.0,
+            slice_rad: crate::cutting::tool::FINE,
         };
         let mut p = [0.0; UNKNOWNS];
         p[..6].copy_from_slice(&[900e6, 300e6, 100e6, 15e3, 20e3, 2e3]);

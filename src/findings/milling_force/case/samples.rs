@@ -3,6 +3,7 @@
 use super::CutSamples;
 use super::jumps::{placed, steady};
 use crate::cutting::LINEAR_EDGE;
+use crate::cutting::tool::FINE;
 use crate::experiments::milling_force::{BANDWIDTH, BORDER, PHASE, RUNOUT, SPEED, WIDTH};
 use crate::findings::milling_force::direction::Direction;
 use crate::findings::milling_force::noise::Colour;
@@ -65,6 +66,7 @@ pub(super) fn samples(
         let whole = (1.0 + speeds[i]) * (1.0 + fit.p[SPEED]);
         scene.cut.spindle_rad_s = file.facts.cuts[i].spindle_rad_s * whole;
         scene.chipped_to_m = TIP * deepest;
+        scene.slice_rad = FINE;
         scene.time = used.iter().map(|at| data.scene.time[*at]).collect();
         let mut p = fit.p;
         p[..6].copy_from_slice(nominal);

@@ -1,6 +1,6 @@
 //! What stands beside the coefficients: runout, bandwidth, angles, speeds, widths.
 
-use super::{Answer, FIXED, FIXED_ANGLE, SEEN};
+use super::{Answer, FIXED, FIXED_ANGLE, SEEN, at_begin, wrapped};
 use crate::experiments::milling_force::{BANDWIDTH, PHASE, RUNOUT, SPEED, WIDTH};
 use crate::fit::parameter::{Identified, Status, Z95};
 use crate::ground::units::DEGREE;
@@ -87,13 +87,7 @@ impl Answer<'_> {
                 Some(Identified::new(name, &site, value, unit, stderr, meaning))
             };
             let rpm = 60.0 / TAU * self.cuts[i].scene.cut.spindle_rad_s;
-            all.extend(one(
-                PHASE,
-                "tooth_angle",
-                1.0 / DEGREE,
-                "deg",
-                "angle φ of tooth 1 at the first sample",
-            ));
+            all.extend(self.tooth_angle(i, &site));
             all.extend(one(
                 SPEED,
                 "speed_error",
@@ -104,5 +98,29 @@ impl Answer<'_> {
             all.extend(one(WIDTH, "width", 1e3, "mm", "width of cut"));
         }
         all
+    }
+
+    /// Where tooth 1 stands at the first sample that the file has of a cut.
+    fn tooth_angle(&self, cut: usize, site: &str) -> Option<Identified> {
+        let (places, data) = (&self.layout.of_cut[cut], &self.cuts[cut]);
+        let (phase, speed) = (places[PHASE]?, places[SPEED]?);
+        let since = data.scene.cut.spindle_rad_s * data.begins_s;
+        let c = self.covariance;
+        let variance =
+            c[(phase, phase)] - 2.0 * since * c[(phase, speed)] + since * since * c[(speed, speed)];
+        let angle = wrapped(at_begin(data, &self.layout.of_one(cut, self.p)));
+        let stderr = variance.max(0.0).sqrt();
+        let found = Identified::new(
+            "tooth_angle",
+            site,
+            angle / DEGREE,
+            "deg",
+            stderr / DEGREE,
+            "angle φ of tooth 1 at the first sample",
+        );
+        Some(match stderr < FIXED_ANGLE {
+            true => found,
+            false => found.without_value(Status::NotIdentifiable),
+        })
     }
 }
