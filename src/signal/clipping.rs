@@ -264,7 +264,7 @@ mod tests {
             // a slope beside it, since no two flanks are alike
             let sloped = half_sine(samples).into_iter().enumerate();
             let cut: Vec<f64> = sloped.map(|(i, v)| (v + 0.01 * i as f64).min(at)).collect();
-            for record in [quantised(&cut, 0.05), cut] {
+            for record in [quantised(&cut, 0.01), cut] {
                 assert!(clipped_above(&record), "{samples} {at}");
             }
         }
