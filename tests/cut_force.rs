@@ -40,6 +40,17 @@ fn passes(random: &mut Random, diameter: f64) -> Vec<Pass> {
     ]
 }
 
+/// What is told of a record of these cuts.
+fn told(
+    (cutter, passes): (&Cutter, &[Pass]),
+    truth: &[f64; 6],
+    recording: &Recording,
+    random: &mut Random,
+) -> Account {
+    let rows = record(cutter, passes, truth, recording, random);
+    identify(&[read(&csv(cutter, passes, recording, &rows))])
+}
+
 struct Case {
     truth: [f64; 6],
     cutter: Cutter,
@@ -59,8 +70,7 @@ fn case(seed: u64, recording: &Recording) -> Case {
     };
     let truth = MATERIALS[random.below(4)];
     let passes = passes(&mut random, 16.0);
-    let rows = record(&cutter, &passes, &truth, recording, &mut random);
-    let account = identify(&[read(&csv(&cutter, &passes, recording, &rows))]);
+    let account = told((&cutter, &passes), &truth, recording, &mut random);
     Case {
         truth,
         cutter,
@@ -177,8 +187,7 @@ fn the_angle_of_a_tooth_is_that_at_the_first_sample_of_the_file() {
     let passes = passes(&mut random, 16.0);
     let recording = recording(Some(300.0), 2.0, 0.0);
     let mut same = random.clone();
-    let rows = record(&cutter, &passes, &MATERIALS[0], &recording, &mut random);
-    let account = identify(&[read(&csv(&cutter, &passes, &recording, &rows))]);
+    let account = told((&cutter, &passes), &MATERIALS[0], &recording, &mut random);
     assert!(account.cuts[0].data.settling > 0);
     let rate = passes[0].rpm / 60.0;
     let warm = (2.0 / rate * recording.rate_hz).floor() / recording.rate_hz;
@@ -221,8 +230,7 @@ fn noise_alone_shows_no_runout() {
     };
     for seed in [319, 335, 336, 350, 368, 379, 383, 399] {
         let mut random = Random::new(seed);
-        let rows = record(&cutter, &passes, &MATERIALS[1], &recording, &mut random);
-        let account = identify(&[read(&csv(&cutter, &passes, &recording, &rows))]);
+        let account = told((&cutter, &passes), &MATERIALS[1], &recording, &mut random);
         let runout = &account.parameters[6];
         assert_eq!(runout.status, Status::AtBound, "{seed}: {runout:?}");
     }
@@ -241,8 +249,7 @@ fn one_tooth_shows_no_runout() {
     };
     let passes = passes(&mut random, 10.0);
     let recording = recording(Some(2000.0), 1.0, 0.0);
-    let rows = record(&cutter, &passes, &MATERIALS[1], &recording, &mut random);
-    let account = identify(&[read(&csv(&cutter, &passes, &recording, &rows))]);
+    let account = told((&cutter, &passes), &MATERIALS[1], &recording, &mut random);
     assert_eq!(account.parameters[6].status, Status::NotIdentifiable);
     assert!(account.parameters[6].value.is_none() && account.parameters[7].value.is_none());
     assert!((account.parameters[0].value.unwrap() / 951.365 - 1.0).abs() < 0.02);

@@ -1,6 +1,6 @@
 //! What is left near the cut: a correction is carried on a little before and behind it, and fades.
 
-use super::remaining::Station;
+use super::remaining::{Station, ascending};
 use crate::ground::spatial::{V3, scale};
 
 /// How far before and behind the cut the correction is carried on fully, and fades, m: springs ...
@@ -23,17 +23,12 @@ pub(super) struct Left {
 
 /// What is left at ascending arc lengths, fading away from the cut.
 fn windowed(stations: &[Station], weight: &dyn Fn(&Station) -> f64) -> Vec<Left> {
-    let mut ascending: Vec<Left> = Vec::new();
-    for station in stations {
-        if ascending.last().is_none_or(|last| station.s_m > last.s_m) {
-            ascending.push(Left {
-                time_s: station.time_s,
-                s_m: station.s_m,
-                left: scale(weight(station), station.left),
-            });
-        }
-    }
-    ascending
+    let left = |station: &Station| Left {
+        time_s: station.time_s,
+        s_m: station.s_m,
+        left: scale(weight(station), station.left),
+    };
+    ascending(stations).map(left).collect()
 }
 
 /// Springs: everything within millimetres of the cut.

@@ -38,6 +38,16 @@ pub fn remaining(milled: &Milled, path: &Path) -> Vec<Station> {
     moving.map(station).collect()
 }
 
+/// The stations at which the arc length grows.
+pub(super) fn ascending(stations: &[Station]) -> impl Iterator<Item = &Station> {
+    let mut last = f64::NEG_INFINITY;
+    stations.iter().filter(move |station| {
+        let grows = station.s_m > last;
+        last = last.max(station.s_m);
+        grows
+    })
+}
+
 /// When a motion is at ascending arc lengths.
 pub(super) struct Times<'a> {
     way: &'a Way,

@@ -6,7 +6,7 @@
 //! weights of least squares make this a quasi-Newton method that knows as many directions as there were trials (Anderson 1965).
 
 use super::correction::Correction;
-use super::remaining::Station;
+use super::remaining::{Station, ascending};
 use crate::ground::spatial::{V3, add, scale, sub};
 use crate::ground::vector::dot;
 use nalgebra::{DMatrix, DVector};
@@ -29,9 +29,8 @@ pub(super) struct Trial {
     pub(super) update: Vec<(f64, V3)>,
 }
 
-/// A correction that was tried, by its stations.
+/// What a correction that was tried says, by its stations.
 struct Tried {
-    correction: Correction,
     /// What it left in the cut, m.
     left: Vec<V3>,
     /// What the correction would be by this trial alone, m.
@@ -52,18 +51,20 @@ impl Trials {
         self.times = times(tried, &trial.stations);
         let update = tried.smoothed(&trial.update);
         let next = tried.values().iter().zip(update);
+        let left = |station: &Station| match station.cutting {
+            true => (station.s_m, station.left),
+            false => (station.s_m, [0.0; 3]),
+        };
+        let left: Vec<(f64, V3)> = ascending(&trial.stations).map(left).collect();
         self.tried.push(Tried {
-            left: tried.resampled(&ascending(&trial.stations, |s| match s.cutting {
-                true => s.left,
-                false => [0.0; 3],
-            })),
+            left: tried.resampled(&left),
             next: next.map(|(value, update)| sub(*value, update)).collect(),
-            correction: tried.clone(),
         });
-        self.mixed()
+        tried.with(self.mixed())
     }
 
-    fn mixed(&self) -> Correction {
+    /// The mix at every station, m.
+    fn mixed(&self) -> Vec<V3> {
         let weights = self.weights();
         let value = |(i, time): (usize, &f64)| {
             let each = self
@@ -74,8 +75,7 @@ impl Trials {
                 add(sum, scale(weight, tried.next[i]))
             })
         };
-        let values = self.times.iter().enumerate().map(value).collect();
-        self.tried[0].correction.with(values)
+        self.times.iter().enumerate().map(value).collect()
     }
 
     /// The weights of all trials, one list per [`STEP_S`].
@@ -140,7 +140,8 @@ fn between(lists: &[DVector<f64>], at: f64) -> Vec<f64> {
 /// When the tool is at every station of a correction, s from the begin.
 fn times(tried: &Correction, stations: &[Station]) -> Vec<f64> {
     let first = stations.first().map_or(0.0, |s| s.time_s);
-    let times = ascending(stations, |station| [station.time_s - first, 0.0, 0.0]);
+    let time = |station: &Station| (station.s_m, [station.time_s - first, 0.0, 0.0]);
+    let times: Vec<(f64, V3)> = ascending(stations).map(time).collect();
     let mut latest = 0.0_f64;
     let each = tried.resampled(&times).into_iter();
     each.map(|[time, ..]| {
@@ -148,17 +149,6 @@ fn times(tried: &Correction, stations: &[Station]) -> Vec<f64> {
         latest
     })
     .collect()
-}
-
-/// A value at ascending arc lengths, m.
-fn ascending(stations: &[Station], value: impl Fn(&Station) -> V3) -> Vec<(f64, V3)> {
-    let mut out: Vec<(f64, V3)> = Vec::new();
-    for station in stations {
-        if out.last().is_none_or(|last| station.s_m > last.0) {
-            out.push((station.s_m, value(station)));
-        }
-    }
-    out
 }
 
 #[cfg(test)]

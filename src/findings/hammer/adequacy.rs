@@ -12,7 +12,7 @@ const LOCAL: f64 = 4.0;
 /// The same over the whole band.
 const WHOLE: f64 = 2.0;
 
-/// Probability that chance leaves so much over the whole band, below which something is left as well: among 100 tests by a stranger it was
+/// Probability that chance leaves so much over the whole band, below which something is left as well: among 40 tests by a stranger it was
 /// above 0.8 wherever nothing was missed, and 1e-10 and 1e-19 of two of which an instrument or a knock was.
 const CHANCE: f64 = 1e-6;
 /// Weighted mean square that is more than what noise is known to, in long tests. A choice.

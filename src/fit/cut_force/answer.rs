@@ -3,7 +3,7 @@
 mod beside;
 
 use super::layout::Layout;
-use super::rounds::{descend, forces, rms};
+use super::rounds::{descend, rms};
 use super::{Averaged, CutData, averaged, cuts, misfit, remarks, speed};
 use crate::cutting::LINEAR_EDGE;
 use crate::experiments::milling_force::{PHASE, RUNOUT, SPEED, UNKNOWNS};
@@ -86,7 +86,7 @@ pub fn identify(files: &[MillingForce]) -> Account {
     };
     let averaged = averaged(&cuts);
     let parameters = answer.parameters();
-    let rms = rms(&cuts, &fitted.residuals);
+    let rms = rms(cuts.iter().zip(&fitted.residuals));
     let stated_noise = files.iter().find_map(|f| f.facts.sensor_noise_n);
     let mut account = Account {
         rel_std: answer.rel_std(&parameters),
@@ -141,10 +141,10 @@ impl Account {
     /// Whether it leaves far more than the stated noise, and a good share of the force.
     pub fn leaves_much(&self) -> bool {
         let size = |v: V3| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let cuts: Vec<CutData> = self.cuts.iter().map(|c| c.data.clone()).collect();
+        let forces = self.cuts.iter().map(|cut| (&cut.data, &cut.data.force));
         let of_one = size(self.rms) / 3.0_f64.sqrt();
         let is_noise = self.stated_noise.is_some_and(|n| of_one < MUCH.0 * n);
-        !is_noise && size(self.rms) > MUCH.1 * size(rms(&cuts, &forces(cuts.iter())))
+        !is_noise && size(self.rms) > MUCH.1 * size(rms(forces))
     }
 
     fn withhold(&mut self) {

@@ -18,10 +18,11 @@ const SLICED: f64 = 7.5e-3;
 const ROUNDS: usize = 4;
 /// Share of the squares that a step must be worth, while the noise is still being learned and in the end.
 const ARRIVED: [f64; 2] = [1e-5, 1e-8];
+
 /// Where the fit ends, and its covariance in SI; the samples that count are noted.
 pub(super) fn descend(cuts: &mut [CutData], layout: &Layout) -> (Optimum, DMatrix<f64>) {
     let mut p = start(cuts, layout);
-    let size = rms(cuts, &forces(cuts.iter()));
+    let size = rms(cuts.iter().map(|cut| (cut, &cut.force)));
     let rough = 0.05 * size.iter().fold(0.0_f64, |m, v| m.max(*v)).max(1e-9);
     let mut whitening = Whitening::white(rough);
     let mut round = 0;
@@ -49,8 +50,8 @@ pub(super) fn descend(cuts: &mut [CutData], layout: &Layout) -> (Optimum, DMatri
     }
 }
 
-/// How well the angles of jumps are known while the rest is fitted, rad: a fit that is held by them stood up to a milliradian beside the
-/// truth. Of the runout, m: a tilt of the tool that no file states moves the tips by as much.
+/// How well the angles of jumps are known while the rest is fitted, rad: a fit that was held by them stood up to a milliradian beside the
+/// truth, and a degree is the step from which it starts. Of the runout, m: a tilt of the tool that no file states moves the tips by as much. Choices: no others were tried.
 const HELD: Known = Known {
     turn_rad: 1e-2,
     runout_m: 2e-6,
@@ -89,15 +90,11 @@ fn covariance(fitted: &Optimum, layout: &Layout) -> DMatrix<f64> {
     DMatrix::from_fn(n, n, |i, j| covariance[(i, j)] * scale(i) * scale(j))
 }
 
-pub(super) fn forces<'a>(cuts: impl Iterator<Item = &'a CutData>) -> Vec<Vec<V3>> {
-    cuts.map(|cut| cut.force.clone()).collect()
-}
-
-/// Root mean square of all samples that count, by axis.
-pub(super) fn rms(cuts: &[CutData], waves: &[Vec<V3>]) -> V3 {
-    let rows: usize = cuts.iter().map(CutData::rows).sum();
-    let each = cuts.iter().zip(waves);
-    let counted = each.flat_map(|(cut, wave)| cut.counted(wave));
-    let squares = counted.fold([0.0; 3], |sum, v| add(sum, v.map(|x| x * x)));
-    squares.map(|sum| (sum / rows.max(1) as f64).sqrt())
+/// Root mean square over the samples that count, by axis, of a wave per cut.
+pub(super) fn rms<'a>(waves: impl Iterator<Item = (&'a CutData, &'a Vec<V3>)>) -> V3 {
+    let counted = waves.flat_map(|(cut, wave)| cut.counted(wave));
+    let (rows, squares) = counted.fold((0, [0.0; 3]), |(rows, sum), v| {
+        (rows + 1, add(sum, v.map(|x| x * x)))
+    });
+    squares.map(|sum| (sum / f64::from(rows.max(1))).sqrt())
 }
