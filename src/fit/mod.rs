@@ -68,5 +68,6 @@ pub mod suitability;
 mod supported;
 mod time_course;
 pub mod told_force;
+mod unrounded;
 pub mod validation;
 pub mod weighing;

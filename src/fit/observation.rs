@@ -1,12 +1,13 @@
 //! Observed deflections under a load history, ready for fitting: reduced, whitened, repaired.
 
+use super::unrounded::unrounded;
 use crate::effects::Scene;
 use crate::ground::stats::{ends, largest};
 use crate::measurement::cycles::Cycles;
 use crate::measurement::load_cycle::LoadCycle;
 use crate::signal::cosine::Cosine;
 use crate::signal::denoised::Denoised;
-use crate::signal::outliers;
+use crate::signal::{lattice, outliers};
 
 /// What is fitted: a scene, the readings, the cycles, and the planned transform.
 pub struct Observation {
@@ -24,6 +25,8 @@ pub struct Observation {
     pub wild: Vec<usize>,
     /// What was taken of the file.
     pub part: Part,
+    /// The load as it was read, where steps of the reading were taken off it.
+    pub read: Option<Vec<f64>>,
 }
 
 /// The part of a long record that is fitted, and how it is averaged.
@@ -118,8 +121,15 @@ impl Observation {
             part.block,
         );
         data.part = part;
+        data.unround(lattice::step(&file.load[..part.rows]));
         data.quieten();
         data
+    }
+
+    /// Takes the steps off a load that is read in coarse ones, if it is.
+    fn unround(&mut self, step: Option<f64>) {
+        let load = step.and_then(|step| unrounded(&self.scene, &self.reading, step));
+        self.read = load.map(|load| std::mem::replace(&mut self.scene.load, load));
     }
 
     /// Takes the load cell's noise off the load, where it is not negligible beside the reading's: laws answer to the load
@@ -166,6 +176,7 @@ impl Observation {
             },
             block,
             wild,
+            read: None,
         }
     }
 

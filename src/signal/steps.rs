@@ -1,5 +1,9 @@
 //! Changes of level: where what comes after an instant does not go on as what came before.
 
+/// Share of the rows that must stand still, and of the way that must be made in jumps, for dead weights.
+const STANDS: f64 = 0.5;
+/// A row to row change of a course that is a jump, of its largest value.
+const JUMP: f64 = 0.04;
 /// Rows on either side of an instant that are compared, as a share of all ...
 const SHARE: usize = 60;
 /// ... and at least.
@@ -50,6 +54,16 @@ pub fn sharpest(steps: &[f64], count: usize) -> Vec<usize> {
         }
     }
     kept
+}
+
+/// Whether most rows stand still, and a course that is one at its largest moves in jumps.
+pub fn goes_in_steps(u: &[f64]) -> bool {
+    let steps: Vec<f64> = u.windows(2).map(|w| (w[1] - w[0]).abs()).collect();
+    let way: f64 = steps.iter().sum();
+    let still = steps.iter().filter(|s| **s < 0.1 * JUMP).count();
+    let jumps: f64 = steps.iter().filter(|s| **s > JUMP).sum();
+    let busy = still as f64 > STANDS * steps.len() as f64;
+    busy && jumps > STANDS * way
 }
 
 #[cfg(test)]

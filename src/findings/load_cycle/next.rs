@@ -79,6 +79,7 @@ fn separation(
         block: 1,
         wild: Vec::new(),
         part: Part::default(),
+        read: None,
     };
     let ignored = vec![false; n];
     let problem = Problem {

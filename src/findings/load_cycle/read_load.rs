@@ -26,7 +26,7 @@ struct Stand {
 /// Every stand of a load, of one row too.
 fn stands(view: &View) -> Vec<Stand> {
     let mut all: Vec<Stand> = Vec::new();
-    for (i, u) in view.u.iter().enumerate() {
+    for (i, u) in view.read.iter().enumerate() {
         match all.last_mut().filter(|last| (last.load - u).abs() < EQUAL) {
             Some(last) => last.rows.end = i + 1,
             None => all.push(Stand {
@@ -62,7 +62,7 @@ fn of_turns(view: &View, scale: f64, noise: f64) -> Vec<Nuisance> {
 
 /// What the digits of a load that goes smoothly leave open, standard deviation in the unit of `scale`; none of one that goes in steps.
 pub(super) fn open(view: &View, scale: f64) -> Option<f64> {
-    let step = step(&view.u).filter(|_| !view.stepped);
+    let step = step(&view.read).filter(|_| !view.stepped);
     // Widrow and Kollár 2008
     step.map(|step| step * scale / 12.0_f64.sqrt())
 }

@@ -3,11 +3,14 @@
 use super::jumps::{Jumps, jumps, left};
 use crate::fit::observation::Observation;
 use crate::signal::play::play;
+use crate::signal::steps::goes_in_steps;
 
 /// Load and time of a record without units.
 pub struct View {
     /// Load over the largest.
     pub u: Vec<f64>,
+    /// The same as it was read, where it is taken for smoother than that.
+    pub read: Vec<f64>,
     /// Time over the duration, 0 to 1.
     pub t: Vec<f64>,
     /// Duration of a cycle over that of the record.
@@ -33,10 +36,6 @@ pub struct View {
 
 /// Share of the larger side that the smaller must reach for a load to count as two-sided.
 const OTHER_SIDE: f64 = 0.2;
-/// Share of the rows that must stand still, and of the way that must be made in jumps, for dead weights.
-const STANDS: f64 = 0.5;
-/// A row to row change of the load that is a jump.
-const JUMP: f64 = 0.04;
 /// Load at the first row beyond which the record starts under load.
 const LOADED: f64 = 0.05;
 /// See [`View::slow`].
@@ -49,6 +48,7 @@ impl View {
     pub fn of(data: &Observation) -> Self {
         let scale = data.scene.load_scale;
         let u: Vec<f64> = data.scene.load.iter().map(|m| m / scale).collect();
+        let read = data.read.as_ref().unwrap_or(&data.scene.load);
         let first = data.scene.time.first().copied().unwrap_or(0.0);
         let t = data.scene.time.iter();
         let t: Vec<f64> = t.map(|t| (t - first) / data.scene.duration).collect();
@@ -56,6 +56,7 @@ impl View {
             .iter()
             .fold((0.0_f64, 0.0_f64), |(l, h), v| (l.min(*v), h.max(*v)));
         Self {
+            read: read.iter().map(|m| m / scale).collect(),
             jumps: jumps(&u, &t, &data.reading),
             row: 1.0 / t.len().saturating_sub(1).max(1) as f64,
             t,
@@ -63,7 +64,7 @@ impl View {
             half_cycle: half_cycles(&data.cycles.turning, u.len()),
             stroke: strokes(&u),
             two_sided: high.min(-low) > OTHER_SIDE * high.max(-low),
-            stepped: is_stepped(&u),
+            stepped: goes_in_steps(&u),
             slow: (SLOW * data.block as f64).min(1.0),
             loaded_start: u.first().is_some_and(|v| v.abs() > LOADED),
             u,
@@ -180,16 +181,6 @@ fn strokes(u: &[f64]) -> Vec<usize> {
             Some(*count)
         })
         .collect()
-}
-
-/// Most rows stand still, and the load moves in jumps.
-fn is_stepped(u: &[f64]) -> bool {
-    let steps: Vec<f64> = u.windows(2).map(|w| (w[1] - w[0]).abs()).collect();
-    let way: f64 = steps.iter().sum();
-    let still = steps.iter().filter(|s| **s < 0.1 * JUMP).count();
-    let jumps: f64 = steps.iter().filter(|s| **s > JUMP).sum();
-    let busy = still as f64 > STANDS * steps.len() as f64;
-    busy && jumps > STANDS * way
 }
 
 #[cfg(test)]
