@@ -52,6 +52,7 @@ pub mod observation;
 mod off_centre;
 mod other_law;
 pub mod parameter;
+mod quieted;
 mod rounding;
 pub mod screen;
 pub mod screw;

@@ -1,12 +1,13 @@
 //! Observed deflections under a load history, ready for fitting: reduced, whitened, repaired.
 
+use super::quieted::quieten;
 use super::unrounded::unrounded;
 use crate::effects::Scene;
 use crate::ground::stats::{ends, largest};
 use crate::measurement::cycles::Cycles;
 use crate::measurement::load_cycle::LoadCycle;
 use crate::signal::cosine::Cosine;
-use crate::signal::denoised::Denoised;
+use crate::signal::hum::Hum;
 use crate::signal::{lattice, outliers};
 
 /// What is fitted: a scene, the readings, the cycles, and the planned transform.
@@ -25,6 +26,8 @@ pub struct Observation {
     pub wild: Vec<usize>,
     /// What was taken of the file.
     pub part: Part,
+    /// Tones that went through the readings and were taken off them.
+    pub hums: Vec<Hum>,
     /// The load as it was read, where steps of the reading were taken off it.
     pub read: Option<Vec<f64>>,
 }
@@ -91,8 +94,8 @@ impl Part {
     }
 }
 
-/// Ratio of the load's noise to the reading's below which it is negligible.
-const QUIET: f64 = 0.3;
+/// Most tones that are taken off: the mains and two harmonics.
+const TONES: usize = 3;
 
 /// Rows beyond which neighbours are averaged before fitting.
 pub const MOST_ROWS: usize = 3000;
@@ -123,6 +126,7 @@ impl Observation {
         data.part = part;
         data.unround(lattice::step(&file.load[..part.rows]));
         data.quieten();
+        data.still();
         data
     }
 
@@ -132,23 +136,25 @@ impl Observation {
         self.read = load.map(|load| std::mem::replace(&mut self.scene.load, load));
     }
 
-    /// Takes the load cell's noise off the load, where it is not negligible beside the reading's: laws answer to the load
-    /// that was there, and a filter of the noise in it would explain the noise that it leaves in the misfit (errors in
-    /// variables, Fuller 1987). Where what the smooth load still holds of it is not negligible either, the readings take
-    /// that noise over: then the misfit scatters as the channels do, and no smooth function of the load explains it.
+    /// Takes the load cell's noise off the load, where it is not negligible beside the reading's.
     fn quieten(&mut self) {
-        let scene = &mut self.scene;
-        let k = scene.load_scale / scene.deflection_scale;
-        let quick = Quick::of(&scene.load, &self.reading, k);
-        if quick.ratio < QUIET * QUIET {
-            return;
+        quieten(&mut self.scene, &mut self.reading);
+    }
+
+    /// Takes the hum of the mains off readings whose rows are uneven.
+    fn still(&mut self) {
+        while self.hums.len() < TONES && self.block == 1 {
+            let scene = &self.scene;
+            let k = scene.deflection_scale / scene.load_scale;
+            let rows = self.reading.iter().zip(&scene.load);
+            let beside: Vec<f64> = rows.map(|(y, m)| y - k * m).collect();
+            let Some(hum) = Hum::of(&scene.time, &beside) else {
+                return;
+            };
+            let each = self.reading.iter_mut().zip(&hum.course);
+            each.for_each(|(y, tone)| *y -= tone);
+            self.hums.push(hum);
         }
-        let quiet = Denoised::of(&scene.time, &scene.load);
-        let exact = quiet.left * quiet.left * quick.ratio < QUIET * QUIET;
-        let taken = if exact { quick.followed } else { 1.0 };
-        let each = self.reading.iter_mut().zip(&scene.load).zip(&quiet.values);
-        each.for_each(|((y, read), smooth)| *y -= taken * (read - smooth) / k);
-        scene.load = quiet.values;
     }
 
     /// Prepares channels that are at hand already.
@@ -177,6 +183,7 @@ impl Observation {
             block,
             wild,
             read: None,
+            hums: Vec::new(),
         }
     }
 
@@ -198,38 +205,6 @@ impl Observation {
     /// Number of readings.
     pub fn rows(&self) -> usize {
         self.reading.len()
-    }
-}
-
-/// Noises of load and reading in fourth differences, deflections: load l = s + m, reading y = s/k + e, so that
-/// cov(l, y) = var(s)/k tells the noises m and e from what moves both.
-struct Quick {
-    /// Variance of m/k over that of e.
-    ratio: f64,
-    /// Share of the load's quick changes that the reading follows.
-    followed: f64,
-}
-
-impl Quick {
-    fn of(load: &[f64], reading: &[f64], k: f64) -> Self {
-        let fourth = |w: &[f64]| w[0] - 4.0 * w[1] + 6.0 * w[2] - 4.0 * w[3] + w[4];
-        let l: Vec<f64> = load.windows(5).map(|w| fourth(w) / k).collect();
-        let y: Vec<f64> = reading.windows(5).map(fourth).collect();
-        let limit = |v: &[f64]| 4.0 * outliers::robust_std(v);
-        let (ll, ly) = (limit(&l), limit(&y));
-        let calm = l.iter().zip(&y);
-        let calm = calm.filter(|(a, b)| a.abs() <= ll && b.abs() <= ly);
-        let (mut vl, mut vy, mut both) = (0.0, 0.0, 0.0);
-        for (a, b) in calm {
-            vl += a * a;
-            vy += b * b;
-            both += a * b;
-        }
-        let least = f64::MIN_POSITIVE;
-        Self {
-            ratio: (vl - both).max(0.0) / (vy - both).max(least),
-            followed: (both / vl.max(least)).clamp(0.0, 1.0),
-        }
     }
 }
 

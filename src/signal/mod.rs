@@ -10,6 +10,7 @@ pub mod denoised;
 pub mod double_hit;
 pub mod fault;
 pub mod frf;
+pub mod hum;
 pub mod jackknife;
 pub mod judge;
 pub mod lattice;

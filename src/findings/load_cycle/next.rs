@@ -80,6 +80,7 @@ fn separation(
         wild: Vec::new(),
         part: Part::default(),
         read: None,
+        hums: Vec::new(),
     };
     let ignored = vec![false; n];
     let problem = Problem {

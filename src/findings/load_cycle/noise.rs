@@ -29,6 +29,8 @@ pub struct Coloured {
     colour: Vec<f64>,
     /// What is said of it.
     words: Vec<String>,
+    /// Tones that were taken off before.
+    hums: usize,
     tint: Tint,
     rows: f64,
 }
@@ -96,13 +98,14 @@ const WILD: f64 = 6.5;
 const LINE: f64 = 14.0;
 
 impl Coloured {
-    /// White noise of one deviation.
-    pub fn white(cosine: Arc<Cosine>, spread: f64) -> Self {
+    /// White noise of one deviation, in readings that so many tones were taken off.
+    pub fn white(cosine: Arc<Cosine>, spread: f64, hums: usize) -> Self {
         let rows = cosine.len();
         Self {
             spread: vec![spread.max(f64::MIN_POSITIVE); rows],
             colour: vec![1.0; rows],
             words: Vec::new(),
+            hums,
             tint: Tint::White,
             rows: STATED,
             cosine,
@@ -261,6 +264,7 @@ impl Noise for Coloured {
     fn describe(&self) -> String {
         let mut words = vec![self.tint.words()];
         words.extend(self.words.iter().cloned());
+        words.extend((self.hums > 0).then(|| "beside a hum that is taken off".into()));
         words.join(", ")
     }
 }

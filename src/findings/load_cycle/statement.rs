@@ -72,7 +72,7 @@ impl<'a> Record<'a> {
                 .collect(),
             span: span(&view),
             coarse: coarse_span(&view),
-            noise: Coloured::white(cosine, first.max(digits)),
+            noise: Coloured::white(cosine, first.max(digits), data.hums.len()),
             data,
             unit,
             view,
