@@ -72,6 +72,8 @@ fn the_interval_of_what_is_left_holds_the_truth_and_yes_is_never_wrong() {
         1e3 * low,
         1e3 * high
     );
+    let next = said.next.as_ref().unwrap().high_after_m;
+    assert!(next >= 0.99 * Size::of(&rest(&model)).max_m, "{next}");
     println!(
         "  most limited by {} of {}",
         said.limits[0].doubt.name, said.limits[0].doubt.site

@@ -574,6 +574,12 @@ const REFUSALS: &[(&str, &str, usize, &str)] = &[
         "not known",
     ),
     (
+        "a.nc",
+        "G21 G90\nG1 X0 Y0 Z0 F100\nG1 X5 (to the end; Y3\n",
+        3,
+        "not closed",
+    ),
+    (
         "a.src",
         "DEF a()\nWIGGLE 5\nEND\n",
         2,

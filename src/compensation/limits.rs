@@ -43,7 +43,7 @@ pub struct Certainty {
     pub next: Option<Next>,
 }
 
-/// Most stations of an interval, and of the ranking of numbers.
+/// Most stations of an interval, and of either kind of the ranking of numbers.
 const STATIONS: usize = 1500;
 const RANKED: usize = 200;
 
@@ -97,12 +97,18 @@ fn thinned(cutting: Vec<&Station>) -> Vec<&Station> {
     cutting.chunks(every).map(|c| c[worst(c)]).collect()
 }
 
-/// The stations that may lie farthest off, and what the doubts change there.
+/// The stations that may lie farthest off and, whatever is known, those that do, and what the doubts change there.
 fn farthest(left: &[V3], changes: &[Vec<V3>]) -> (Vec<V3>, Vec<Vec<V3>>) {
     let reach = |i: usize| norm(left[i]) + 2.0 * root(changes.iter().map(|c| norm(c[i])));
-    let mut order: Vec<usize> = (0..left.len()).collect();
-    order.sort_by(|a, b| reach(*b).total_cmp(&reach(*a)));
-    order.truncate(RANKED);
+    let first = |by: &dyn Fn(usize) -> f64| {
+        let mut order: Vec<usize> = (0..left.len()).collect();
+        order.sort_by(|a, b| by(*b).total_cmp(&by(*a)));
+        order.truncate(RANKED);
+        order
+    };
+    let mut order = [first(&reach), first(&|i| norm(left[i]))].concat();
+    order.sort_unstable();
+    order.dedup();
     let few = |list: &[V3]| order.iter().map(|i| list[*i]).collect::<Vec<V3>>();
     (few(left), changes.iter().map(|c| few(c)).collect())
 }

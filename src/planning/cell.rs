@@ -119,7 +119,7 @@ fn start(job: &Job, limits: &[[f64; 2]]) -> Outcome<[f64; JOINTS]> {
         Some(k) => {
             let [low, high] = limits[k].map(|q| q / DEGREE);
             let what = format!(
-                "has {} degrees for joint {}, which moves from {low:.1} to {high:.1}",
+                "has {:.3} degrees for joint {}, which moves from {low:.1} to {high:.1}",
                 start[k] / DEGREE,
                 k + 1
             );

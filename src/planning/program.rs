@@ -10,7 +10,6 @@ use crate::path::Curve;
 use crate::path::build::Side;
 use crate::path::corner::{Corner, Passage};
 use crate::path::element::Element;
-use crate::path::orientation::Span;
 use crate::path::programs::{Program, ProgramMove};
 use crate::path::timeline::Feeds;
 
@@ -148,8 +147,11 @@ impl Writer<'_> {
     /// of the next.
     fn turns_from(&self, corner: &Corner) -> f64 {
         let at = 0.5 * (corner.begin + corner.end);
-        let changes = |span: &&Span| span.next.is_some() && span.begin <= at && at <= span.end;
-        let span = self.plan.path.spans.iter().find(changes);
+        // they lie one behind the other
+        let spans = &self.plan.path.spans;
+        let near = &spans[spans.partition_point(|span| span.end < at)..];
+        let mut near = near.iter().take_while(|span| span.begin <= at);
+        let span = near.find(|span| span.next.is_some());
         span.map_or(corner.begin, |span| span.begin.min(corner.begin))
     }
 

@@ -44,7 +44,7 @@ struct Arguments {
     #[arg(long, conflicts_with_all = ["at", "station"])]
     along: bool,
     /// The robot where the tool is after this arc length of the job's path [default: the start pose]
-    #[arg(long, value_name = "MM")]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     station: Option<f64>,
     /// Hits on the tool's tip, or FRFs there (hammer test or universal file): its modes are added
     #[arg(long, value_name = "FILE")]

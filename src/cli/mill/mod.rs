@@ -55,7 +55,7 @@ struct Arguments {
     #[arg(long, value_name = "FILE")]
     joints: Option<PathBuf>,
     /// Step of time in the cut, µs (default: 3 degrees of the spindle)
-    #[arg(long, value_name = "US")]
+    #[arg(long, value_name = "US", allow_hyphen_values = true)]
     step_us: Option<f64>,
     /// Do not ask what the uncertainty of springs and coefficients does to the deviation
     #[arg(long)]

@@ -134,8 +134,8 @@ impl Material {
         for (i, (key, interval, factor, [least, most])) in form.keys.iter().enumerate() {
             let may_be = |k: f64| (*least..=*most).contains(&k);
             let value = keys.judged(key, may_be, "no material's", form.hard)?;
-            let example = format!("{key} = ...; 0.0 where it does not act");
-            let value = value.ok_or_else(|| keys.missing(key, &example))?;
+            let remedy = || format!("add `{key} = ...`; 0.0 where it does not act");
+            let value = value.ok_or_else(|| keys.problem(key, "is missing", remedy()))?;
             coefficients[i] = factor * value;
             ci95[i] = about(keys, interval, value)?.map(|ends| ends.map(|x| x * factor));
         }

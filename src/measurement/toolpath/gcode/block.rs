@@ -20,9 +20,9 @@ impl Block {
     /// Of a line, without its comments.
     ///
     /// # Errors
-    /// A letter that is not understood, a word without a number, the same letter twice.
+    /// A letter that is not understood, a word without a number, the same letter twice, a comment without its end.
     pub(super) fn of(line: &str) -> Outcome<Self> {
-        let code = without_comments(line);
+        let code = without_comments(line)?;
         let code = code.trim();
         if code.starts_with('/') {
             let remedy = "remove the `/` of the line, or the line";
@@ -144,17 +144,27 @@ fn strange(letter: char) -> Problem {
     )
 }
 
-fn without_comments(line: &str) -> String {
-    let line = line.split(';').next().unwrap_or_default();
+/// A line without its comments.
+///
+/// # Errors
+/// A comment that is not closed: what stands in it may have been meant to move the tool.
+fn without_comments(line: &str) -> Outcome<String> {
     let mut depth = 0_usize;
     let mut kept = String::with_capacity(line.len());
     for c in line.chars() {
         match c {
+            ';' if depth == 0 => break,
             '(' => depth += 1,
             ')' => depth = depth.saturating_sub(1),
             _ if depth == 0 => kept.push(c),
             _ => {}
         }
     }
-    kept
+    match depth {
+        0 => Ok(kept),
+        _ => Err(Problem::new(
+            "holds a comment that is not closed",
+            "end it with `)` in the same line",
+        )),
+    }
 }
