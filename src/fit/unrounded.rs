@@ -22,12 +22,18 @@ const SHORTEST: f64 = 1e-2;
 
 /// What rounding of the load leaves open is negligible below this share of the readings' noise.
 const OPEN: f64 = 0.25;
+/// Changes from step to step, a move, from which on a load is rounded, and differences below which two steps are one, of the largest. Choices.
+const CHANGES: f64 = 0.2;
+const EQUAL: f64 = 1e-3;
 /// Share of the steps of a load that its deflection follows, from which on it goes in steps.
 const MOSTLY: f64 = 0.7;
 
 /// The load of a scene that is read in such a step, without the part of the steps that its deflection does not follow; `None` where the step is
 /// negligible beside the noise of the `reading`, or the load goes in steps, whatever they are rounded to.
 pub fn unrounded(scene: &Scene, reading: &[f64], step: f64) -> Option<Vec<f64>> {
+    if !is_rounded(&scene.load) {
+        return None;
+    }
     let k = scene.load_scale / scene.deflection_scale;
     let noise = robust_std(&third_differences(reading));
     // Widrow and Kollár 2008
@@ -45,6 +51,17 @@ pub fn unrounded(scene: &Scene, reading: &[f64], step: f64) -> Option<Vec<f64>> 
         each.map(|(read, smooth)| smooth + kept * (read - smooth))
             .collect()
     })
+}
+
+/// Whether a load that lies on a lattice was rounded to it: what moves smoothly between the lines takes now one step, now none or two. One that takes
+/// the same in every row was set so.
+fn is_rounded(read: &[f64]) -> bool {
+    let ways: Vec<f64> = read.windows(2).map(|w| (w[1] - w[0]).abs()).collect();
+    let largest = ways.iter().fold(0.0_f64, |most, way| most.max(*way));
+    let moves = ways.iter().filter(|way| **way > EQUAL * largest).count();
+    let other = |w: &&[f64]| (w[1] - w[0]).abs() > EQUAL * largest;
+    let changes = ways.windows(2).filter(other).count();
+    changes as f64 > CHANGES * moves as f64
 }
 
 /// Share of the steps of a load, that is of what was read less a smooth course, which its deflection follows, from row to row and as long as a
@@ -213,6 +230,13 @@ mod tests {
     fn weights_go_in_steps() {
         let truth: Vec<f64> = sine(400).iter().map(rounded).collect();
         let (scene, reading) = scene(&truth);
+        assert_eq!(unrounded(&scene, &reading, STEP), None);
+    }
+
+    #[test]
+    fn a_triangle_that_takes_one_step_in_every_row_is_not_rounded() {
+        let up = |i: usize| STEP * (20 - (i % 40).abs_diff(20)) as f64;
+        let (scene, reading) = scene(&(0..240).map(up).collect::<Vec<_>>());
         assert_eq!(unrounded(&scene, &reading, STEP), None);
     }
 

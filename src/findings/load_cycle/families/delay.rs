@@ -1,5 +1,6 @@
 //! A reading that is late: a dead time, a clock that runs away, a short low pass.
 
+use super::shape::Sign;
 use super::{Family, Shapes, View};
 
 /// Late, or early, by a time that may grow.
@@ -39,7 +40,7 @@ fn skew(view: &View) -> Shapes {
     }
     let all: Vec<Vec<f64>> = delays.iter().map(|d| view.delayed(|_| *d)).collect();
     if all.len() > 1 {
-        shapes.density(view, &all, &vec![1.0; all.len()], (0.7, true));
+        shapes.density(view, &all, &vec![1.0; all.len()], (0.7, Sign::Positive));
     }
     shapes
 }

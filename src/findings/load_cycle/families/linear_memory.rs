@@ -1,6 +1,6 @@
 //! Linear memory: creep with one relaxation time or a spectrum of them.
 
-use super::shape::geometric;
+use super::shape::{Sign, geometric};
 use super::{Family, Shapes, View};
 
 /// Deflection that follows late, with any spectrum of times.
@@ -26,7 +26,7 @@ fn creep(view: &View) -> Shapes {
     };
     let mut spectra = vec![vec![1.0; n], power(0.3), power(0.7)];
     for spectrum in &mut spectra {
-        shapes.density(view, &lags, spectrum, (0.7, true));
+        shapes.density(view, &lags, spectrum, (0.7, Sign::Loses));
         if view.loaded_start {
             past(view, &lags, &taus, spectrum, &mut shapes);
         }
@@ -39,5 +39,5 @@ fn past(view: &View, lags: &[Vec<f64>], taus: &[f64], mean: &[f64], shapes: &mut
     let decays = taus.iter().map(|tau| view.over_time(|t| (-t / tau).exp()));
     let all: Vec<Vec<f64>> = lags.iter().cloned().chain(decays).collect();
     let mean: Vec<f64> = mean.iter().chain(mean).copied().collect();
-    shapes.density(view, &all, &mean, (1.0, false));
+    shapes.density(view, &all, &mean, (1.0, Sign::Any));
 }

@@ -1,6 +1,6 @@
 //! Static and single-valued: gaps and soft zones, about zero load unless a weight shifts them, springs that stiffen or soften.
 
-use super::shape::{even, geometric};
+use super::shape::{Sign, even, geometric};
 use super::{Family, Shapes, View};
 
 /// A gap: a step at a free place, rounded by the contact, or held by friction; a weight may hold it open when the zero is
@@ -67,7 +67,12 @@ fn backlash(view: &View) -> Shapes {
         .iter()
         .map(|m| view.over_load(|u| clip(u, *m)))
         .collect();
-    shapes.density(view, &clips, &[1.0, 1.0, 1.0, 0.7, 0.4, 0.2], (0.7, true));
+    shapes.density(
+        view,
+        &clips,
+        &[1.0, 1.0, 1.0, 0.7, 0.4, 0.2],
+        (0.7, Sign::Positive),
+    );
     shapes
 }
 
@@ -130,7 +135,12 @@ fn soft_zone(view: &View) -> Shapes {
             .iter()
             .map(|m| view.over_load(|u| clip(u, *m)))
             .collect();
-        shapes.density(view, &clips, &[0.4, 1.0, 1.5, 1.0, 0.4], (0.6, true));
+        shapes.density(
+            view,
+            &clips,
+            &[0.4, 1.0, 1.5, 1.0, 0.4],
+            (0.6, Sign::Positive),
+        );
     }
     shapes
 }
@@ -152,12 +162,12 @@ fn cubic_stiffness(view: &View) -> Shapes {
         .iter()
         .map(|m| view.over_load(|u| clip(u, *m)))
         .collect();
-    shapes.density(view, &clips, &[1.0; 6], (0.5, false));
+    shapes.density(view, &clips, &[1.0; 6], (0.5, Sign::Any));
     shapes.density(
         view,
         &[1.5, 2.0, 3.0, 5.0].map(power),
         &[1.0; 4],
-        (0.5, false),
+        (0.5, Sign::Any),
     );
     shapes
 }

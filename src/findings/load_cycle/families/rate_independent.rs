@@ -1,7 +1,7 @@
 //! Memory that knows no rate: contacts that slip, one or many. With the spring beside it a play operator
 //! and a contact that holds (a stop) span the same curves.
 
-use super::shape::geometric;
+use super::shape::{Sign, geometric};
 use super::{Family, Shapes, View};
 use crate::ground::stats::difference;
 
@@ -102,13 +102,13 @@ fn hysteresis(view: &View) -> Shapes {
         }
     }
     for density in densities.iter().step_by(2) {
-        shapes.density(view, &plays, density, (0.7, true));
+        shapes.density(view, &plays, density, (0.7, Sign::Loses));
     }
     let cubes: Vec<Vec<f64>> = widths
         .iter()
         .map(|w| view.played(*w).iter().map(|p| p.powi(3)).collect())
         .collect();
     let both: Vec<Vec<f64>> = plays.iter().chain(&cubes).step_by(2).cloned().collect();
-    shapes.density(view, &both, &vec![1.0; both.len()], (0.7, true));
+    shapes.density(view, &both, &vec![1.0; both.len()], (0.7, Sign::Loses));
     shapes
 }

@@ -10,6 +10,18 @@ pub struct Shapes {
     pub members: Vec<Member>,
 }
 
+/// The sign that a density has.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Sign {
+    /// None.
+    Any,
+    /// The sum of its amounts is positive.
+    Positive,
+    /// What it moves takes work from the load, as all that creeps or rubs does: its loops do not go the wrong way round. Its sum is positive where
+    /// the load does not come back, whose work is not all lost.
+    Loses,
+}
+
 impl Shapes {
     /// None yet.
     pub fn none() -> Self {
@@ -46,13 +58,13 @@ impl Shapes {
 
     /// A density over columns: amounts about the means `mean` with a relative spread `freedom` each, all
     /// of one unknown size. With z₀ for the size and zᵢ for the freedoms the prior of the amounts is
-    /// μμᵀ + κ² diag(μ²); a fit of negative sum is refused where `one_sign`.
+    /// μμᵀ + κ² diag(μ²); a fit of the wrong sign is refused.
     pub fn density(
         &mut self,
         view: &View,
         columns: &[Vec<f64>],
         mean: &[f64],
-        (freedom, one_sign): (f64, bool),
+        (freedom, sign): (f64, Sign),
     ) {
         let each = columns.iter().zip(mean);
         let kept: Vec<(Vec<f64>, f64)> = each
@@ -72,10 +84,17 @@ impl Shapes {
             all.push(column.iter().map(|v| v * freedom * m / size).collect());
             weights.push(freedom * m / total);
         }
+        let positive = match sign {
+            Sign::Any => None,
+            Sign::Loses if view.comes_back() => {
+                Some(all.iter().map(|column| view.work(column)).collect())
+            }
+            Sign::Positive | Sign::Loses => Some(weights),
+        };
         let member = Member::free(Vec::new());
         self.members.push(Member {
             columns: all,
-            positive: one_sign.then_some(weights),
+            positive,
             ..member
         });
     }

@@ -1,6 +1,6 @@
 //! Stiffness that changes in the course of the record.
 
-use super::shape::even;
+use super::shape::{Sign, even};
 use super::{Family, Shapes, View};
 
 /// Compliance times a function of time.
@@ -49,13 +49,13 @@ fn loosening(view: &View) -> Shapes {
         .iter()
         .map(|from| grown(&|i| ((t(i) - from) / 0.17).clamp(0.0, 1.0)))
         .collect();
-    shapes.density(view, &hats, &[1.0; 6], (0.8, false));
+    shapes.density(view, &hats, &[1.0; 6], (0.8, Sign::Any));
     let last = view.half_cycle.last().copied().unwrap_or(0).min(STEPS);
     let steps: Vec<Vec<f64>> = (1..=last)
         .map(|k| grown(&|i| f64::from(u8::from(view.half_cycle[i] >= k))))
         .collect();
     if steps.len() > 1 {
-        shapes.density(view, &steps, &vec![1.0; steps.len()], (0.8, false));
+        shapes.density(view, &steps, &vec![1.0; steps.len()], (0.8, Sign::Any));
     }
     shapes
 }

@@ -97,6 +97,20 @@ impl View {
         (kept && square(&left).is_finite()).then_some(left)
     }
 
+    /// Whether the load begins and ends near zero.
+    pub fn comes_back(&self) -> bool {
+        let ends = [self.u.first(), self.u.last()];
+        ends.into_iter().flatten().all(|u| u.abs() < LOADED)
+    }
+
+    /// Work that the load does on a column, load by deflection.
+    pub fn work(&self, column: &[f64]) -> f64 {
+        let steps = self.u.windows(2).zip(column.windows(2));
+        steps
+            .map(|(u, c)| 0.5 * (u[0] + u[1]) * (c[1] - c[0]))
+            .sum()
+    }
+
     /// A function of the load.
     pub fn over_load(&self, f: impl Fn(f64) -> f64) -> Vec<f64> {
         self.u.iter().map(|u| f(*u)).collect()
