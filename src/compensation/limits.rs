@@ -5,6 +5,7 @@ use super::draws::Draws;
 use super::remaining::Station;
 use crate::ground::problem::Outcome;
 use crate::ground::spatial::{V3, add, norm, sub};
+use crate::ground::stats::descending;
 use crate::path::Path;
 use crate::process::setup::Setup;
 use crate::process::uncertainty::{Doubt, Moved};
@@ -101,8 +102,7 @@ fn thinned(cutting: Vec<&Station>) -> Vec<&Station> {
 fn farthest(left: &[V3], changes: &[Vec<V3>]) -> (Vec<V3>, Vec<Vec<V3>>) {
     let reach = |i: usize| norm(left[i]) + 2.0 * root(changes.iter().map(|c| norm(c[i])));
     let first = |by: &dyn Fn(usize) -> f64| {
-        let mut order: Vec<usize> = (0..left.len()).collect();
-        order.sort_by(|a, b| by(*b).total_cmp(&by(*a)));
+        let mut order = descending(&(0..left.len()).map(by).collect::<Vec<f64>>());
         order.truncate(RANKED);
         order
     };

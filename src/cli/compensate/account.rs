@@ -78,7 +78,7 @@ fn verdict(result: &Corrected) -> String {
     };
     let tolerance = significant(1e3 * tolerance, 3);
     match result.met {
-        Met::Yes if result.checked.iter().any(|c| !c.ok) => format!(
+        Met::Yes if !result.is_proven() => format!(
             "The part would be within its {tolerance} mm, but the path breaks a limit: do not run it."
         ),
         Met::Yes => format!("The part will be within its {tolerance} mm."),
